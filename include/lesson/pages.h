@@ -11,7 +11,8 @@
 #include "run/message.h"
 #include "run/options.h"
 
-/* Length of LecturePage.walk: lines 1 to 8 of Algorithm 3; 0 is unused. */
+/* Length of LecturePage.lit_at_line: lines 1 to 8 of Algorithm 3; 0 is unused.
+ */
 enum { LINES_WALKED = 9 };
 
 /* A page.  Texts are texts of live_values.h: live numbers stand in braces. */
@@ -38,8 +39,9 @@ typedef struct LecturePage {
     const char *function; /* functions shown by K, separated by ',' */
     const char *const *code; /* code lines of `function`, then NULL */
     const char *lit;         /* part of each code line that is lit */
-    const char *const *walk; /* [LINES_WALKED] part of each code line that is
-                                lit at a line of Algorithm 3; NULL: lit */
+    const char *const
+        *lit_at_line;        /* [LINES_WALKED] part of each code line that is
+                         lit at a line of Algorithm 3; NULL: lit */
     const char *claim;       /* statement that a test checks */
     unsigned flips;          /* bit s: switch s of the scene is turned over */
     int picture;             /* step that the printed page shows */

@@ -24,7 +24,7 @@
  * triangle or a node near a wall, at given positions. */
 typedef struct Element {
     int nodes;                 /* 1 ... 3 */
-    int vectors;               /* 1: a alone, 2: a and b */
+    int vectors;               /* vectors that W depends on: 1: a, 2: a and b */
     int node[3];               /* [nodes] */
     const double (*weight)[3]; /* [vectors] weights of nodes in a and b */
     int block;      /* block of the matrix with its entries; -1: none yet */
@@ -33,7 +33,7 @@ typedef struct Element {
                        continues here */
     double factor;  /* factor on gradient and Hessian: 1, or EvalPoint.weight
                        if the kind's functions do not multiply by it */
-    double v[4];    /* m, a and b, for kinds whose functions use them */
+    double v[4];    /* m, the vectors a and b, if the kind uses them */
     double s;       /* argument of W: a gap, a ratio of areas or a slip */
     double n[2], r; /* further numbers, explained at each TermKind */
 } Element;

@@ -40,7 +40,8 @@ struct System {
     int segments; /* segments a side if the system is the mesh of square_mesh.h;
                      else 0 */
     unsigned version; /* rises with every change of numbers or terms */
-    unsigned pattern; /* rises when the Hessian gets other entries, too */
+    unsigned
+        pattern; /* rises when the places of the Hessian's entries change */
     int terms;
     Term term[SYSTEM_MAX_TERMS]; /* terms in the order of TermKind.place */
     Loss lost[SYSTEM_MAX_TERMS]; /* energy lost by column, up to a NULL name; a

@@ -259,7 +259,7 @@ typedef struct LectureContent {
     const LecturePage *page; /* NULL outside of the lecture */
     bool hides_answer;       /* the page waits for the user's guess */
     const char *verdict;     /* verdict on the guess at this page, or NULL */
-    int guesses, right;      /* numbers of guesses and of right guesses */
+    int guesses, right_guesses; /* numbers of guesses and of right guesses */
 } LectureContent;
 
 /* ---- all of it ----------------------------------------------------------- */

@@ -23,7 +23,7 @@ typedef struct CardTableRow {
 /* A box of the column with numbers or a graph about the active pane. */
 typedef struct Card {
     const char *name;  /* name in tables and scripts: "listing" */
-    const char *title; /* text; the first line with known values is drawn */
+    const char *title; /* text: the first of its lines whose values are known */
     double min_height; /* ems */
     /* Returns the minimum height in ems of a card whose content is `wide` ems
      * wide; an em has `em` pixels.  NULL: min_height. */

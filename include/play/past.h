@@ -4,7 +4,7 @@
  * entry k+1.  Therefore states can be dropped and made again with the same
  * bits; going back and forward, undo, panes and tables only read the past.
  *
- *   branch 0   0--1--2--3--4--5--6     started from options (fresh)
+ *   branch 0   0--1--2--3--4--5--6     started from options
  *   branch 1            3'-4'-5'       changed at 3: a pin; 4 ... 6 stay
  *   branch 2               4"-5"       P at 5': step 5 again, made from 4'
  *
@@ -78,13 +78,13 @@ typedef struct Entry {
 
 /* Entries of all panes from one step on. */
 typedef struct Branch {
-    bool fresh;  /* starts from options, not from the branch below */
+    bool from_options; /* starts from options, not from the branch below */
     long first;  /* step of entry 0 */
     long count;  /* number of entries, at least 1 */
     long room;   /* entries that memory is reserved for */
     int copied;  /* entries that were copied from the branch below: 1, or 2 if
                    the branch begins before the edited step */
-    long shown;  /* step that was shown when the user left the branch */
+    long left_step; /* step that was shown when the user left the branch */
     long stride; /* every stride-th entry stores its state */
     int panes;
     Entry *entry; /* [room][panes]; entry `count` is being made */
@@ -137,7 +137,7 @@ typedef struct Past {
     long aim;            /* step that is to be shown */
     long from;           /* step to which WORK_LOADS brings the runs of panes */
     bool samples_line;   /* E along p is sampled in each iteration of the aim */
-    double target;       /* s, end of the new step */
+    double end_time;     /* s, end of the new step */
     Status worst;        /* worst status of the panes in the new step */
 } Past;
 

@@ -65,7 +65,7 @@ typedef struct PaneView {
 /* How steps follow each other. */
 typedef struct Time {
     Mode mode;
-    TimeUnit unit; /* unit of "next" and "back" */
+    TimeUnit walk_unit; /* unit of "next" and "back" */
     AfterWork after;
     TracePlace place; /* place to show again after an edit; round -1: none */
     int speed;  /* 2^speed steps a frame, or a step every 2^-speed frames */
@@ -105,7 +105,7 @@ typedef struct Tour {
     const LecturePage *last_page; /* page that was last open, or NULL */
     const LecturePage *revealed; /* page whose answer is shown, or NULL */
     char verdict[VALUE_SIZE];    /* verdict on the guess at the page, or "" */
-    int guesses, right;          /* number of guesses, and of right guesses */
+    int guesses, right_guesses;  /* numbers of guesses so far */
     bool opens;                  /* opening commands of a page are obeyed */
 } Tour;
 

@@ -40,8 +40,10 @@ void simulation_find_obstacle(const Simulation *simulation, int run, int number,
 void control_store_obstacle(Control *control, int number,
                             const Simulation *simulation);
 
-/* Adds a user, or removes one; NULL is accepted. */
+/* Adds a user, and returns the control; NULL is accepted. */
 const Control *control_retain(const Control *control);
+
+/* Removes a user, and frees the control with the last one; NULL is accepted. */
 void control_release(const Control *control);
 
 /* Gives a simulation a control from the next step on.  Scene, mesh and start of

@@ -11,7 +11,7 @@
 #include "base/status.h"
 
 typedef enum LineSearch {
-    LINE_SEARCH_BACKTRACK, /* Algorithm 2 */
+    LINE_SEARCH_BACKTRACK, /* Algorithm 2: halves alpha while E rises */
     LINE_SEARCH_NONE,      /* alpha = 1, or as much as the terms allow */
     LINE_SEARCH_COUNT
 } LineSearch;
@@ -19,7 +19,7 @@ typedef enum LineSearch {
 /* E(x + alpha p) - E(x); NaN counts as "not lower". */
 typedef double (*EnergyDifference)(const void *function, double alpha);
 
-/* Halvings after which alpha is below 2^-64: then no step lowers E. */
+/* Halvings of alpha after which no step is assumed to lower E. */
 enum { LINE_SEARCH_MAX_HALVINGS = 64 };
 
 /* Algorithm 2: while E(x + alpha p) > E(x), alpha = alpha/2.

@@ -93,7 +93,7 @@ void newton_counters_add(const NewtonCounters *counters, NewtonCounters *sum);
  * conjugate gradients on H itself, applied spring by spring, correct p. */
 typedef struct SearchDirection {
     Projection projection;   /* projection of the Hessian in A */
-    CholeskyKind kind;       /* kind of factor that cholesky holds */
+    CholeskyKind factor_kind; /* kind of factor that cholesky holds */
     unsigned pattern;        /* System.pattern at the symbolic analysis */
     Sparse A;                /* Hessian, one triangle, in elimination order */
     int *slot;               /* place of each triplet in A */

@@ -47,19 +47,19 @@ static Options make_slides_options(int segments)
 
 /* A motion for the table `work`.  Every method simulates the same time in 8,
  * 16, 32, ... steps, until a run takes too long or is accurate enough. */
-typedef struct Motion {
+typedef struct TimedMotion {
     const char *name;
     double stiffness; /* J/m^2 */
     double stretch;   /* factor on all x at the start */
     double spin;      /* rad/s, angular velocity at the start */
     double time;      /* s, duration */
     int segments[4];  /* sizes of the square, then 0 */
-} Motion;
+} TimedMotion;
 
 /* A stiffness 10^4 times as large makes vibrations 100 times as fast.  The last
  * motion suits implicit methods: stiff springs that hardly vibrate, in a square
  * that turns slowly. */
-static const Motion motions[] = {
+static const TimedMotion motions[] = {
     {"soft", 1e5, 1.1, 0, 0.1, {16, 64, 128, 0}},
     {"stiff", 1e9, 1.1, 0, 0.02, {16, 32, 0}},
     {"spinning", 1e9, 1, 10, 0.1, {16, 0}},
@@ -82,7 +82,7 @@ typedef struct FastestRun {
 
 /* Creates a simulation whose run 0 is the start of the motion and whose run 1
  * is its exact end. */
-static Status create_motion(const Motion *motion, int segments,
+static Status create_motion(const TimedMotion *motion, int segments,
                             Simulation *simulation)
 {
     Options options = make_slides_options(segments);
@@ -108,7 +108,7 @@ static Status create_motion(const Motion *motion, int segments,
  * steps * tolerance * time / 2.  The bound may equal the expected error of the
  * method: a step applies the last p, and the remaining error is a hundredth of
  * p or less. */
-static Status measure_method(bool quick, const Motion *motion,
+static Status measure_method(bool quick, const TimedMotion *motion,
                              Simulation *simulation,
                              const IntegratorMethod *method,
                              FastestRun best[TARGETS])
@@ -145,7 +145,7 @@ static Status measure_method(bool quick, const Motion *motion,
 
 /* Measures all methods on one motion.  Prints the fastest explicit and the
  * fastest implicit method for each target. */
-static Status measure_motion(bool quick, const Motion *motion,
+static Status measure_motion(bool quick, const TimedMotion *motion,
                              Simulation *simulation)
 {
     FastestRun best[2][TARGETS];
@@ -176,7 +176,7 @@ static Status measure_work(bool quick)
     Status status = STATUS_OK;
     for (int m = 0; m < MOTIONS; m++)
         for (int i = 0; motions[m].segments[i] && !status; i++) {
-            const Motion *motion = &motions[m];
+            const TimedMotion *motion = &motions[m];
             Simulation simulation;
             if (quick && i > 0)
                 break;

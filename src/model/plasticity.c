@@ -106,7 +106,8 @@ static double plastic_value(const EvalPoint *at)
     return sum;
 }
 
-/* The gradient at node i is 2 k tau d. */
+/* A spring adds 2 k tau d to the gradient at its node i and subtracts it at its
+ * node j; d = x_i - x_j, tau = V'(e). */
 static void plastic_gradient(const EvalPoint *at, double *g)
 {
     for (int s = 0; s < at->system->springs; s++) {

@@ -75,8 +75,8 @@ bool cards_need_line_energy(const Simulation *simulation, unsigned toggled)
     return needs;
 }
 
-/* Returns the box of a pane without the rows of words above and below, which
- * several or low panes have on a page. */
+/* Returns the box of a pane without its rows of words above and below the
+ * picture.  On a page a pane has these rows if it is low or one of several. */
 static Box find_picture_room(const FrameContent *content, const Layout *layout,
                              int pane)
 {

@@ -12,8 +12,8 @@ const char *lecture_lit_code(const FrameContent *content)
 {
     const LecturePage *page = content->lecture.page;
     const Trace *trace = active_pane(content)->trace;
-    bool walks = page->walk && trace && trace->line != LINE_NONE;
-    return walks ? page->walk[trace->line] : page->lit;
+    bool walks = page->lit_at_line && trace && trace->line != LINE_NONE;
+    return walks ? page->lit_at_line[trace->line] : page->lit;
 }
 
 /* Lists all pages of the lecture, with a heading before each section.

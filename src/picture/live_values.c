@@ -67,7 +67,7 @@ static void add_window_values(const FrameContent *content, LiveValues *values)
     values_add_flag(values, "told", !lecture->hides_answer);
     values_add_flag(values, "guessed", lecture->guesses > 0);
     values_add(values, "guesses", lecture->guesses);
-    values_add(values, "right", lecture->right);
+    values_add(values, "right", lecture->right_guesses);
     values_add_flag(values, content->view->held.on ? "held" : "free", true);
 }
 

@@ -155,9 +155,10 @@ static void format_cell(char cell[CARD_CELL], const char *sign, double value,
                  format_digits(value, digits).text, unit);
 }
 
-/* Fills the row of a method: error, m, quotient of errors each time h is halved
- * (or epsilon below the reference's error), energy left after a second, longest
- * stable h, run time. */
+/* Fills a row: row 0 the heads; else of a method its error at h = 4 ms, m; the
+ * factor by which halving h divides the error (an epsilon where the error is
+ * below that of the reference); the factor of the energy after a second; the
+ * longest stable h; the run time. */
 bool race_fill_row(const FrameContent *content, int row, CardTableRow *cells)
 {
     static const CardTableRow heads = {CARD_COLUMNS,

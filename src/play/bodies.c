@@ -117,6 +117,6 @@ Status obey_handle(Player *player, const Command *command)
     if (!status)
         status = edit_all_panes(player, command);
     if (past->now > now)
-        past->branch[now].shown = step; /* undo shows this step again */
+        past->branch[now].left_step = step; /* undo shows this step again */
     return status;
 }

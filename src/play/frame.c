@@ -163,7 +163,7 @@ static void fill_chips(const Player *player, Frame *frame)
         return;
     }
     add_chip(frame, COMMAND_TOGGLE_PAUSE, stands, stands && !ended);
-    int next = nears ? 4 : newton ? (int)player->time.unit : time ? 0 : 3;
+    int next = nears ? 4 : newton ? (int)player->time.walk_unit : time ? 0 : 3;
     add_chip(frame, COMMAND_NEXT, next, false);
     add_chip(frame, COMMAND_BACK, 0, false);
     if (options->page) {
@@ -176,7 +176,7 @@ static void fill_chips(const Player *player, Frame *frame)
     }
     add_chip(frame, COMMAND_RESTART, 0, ended);
     if (newton)
-        add_chip(frame, COMMAND_FINER, (int)player->time.unit, false);
+        add_chip(frame, COMMAND_FINER, (int)player->time.walk_unit, false);
     if (simulation_has_projection(simulation))
         add_chip(frame, COMMAND_PROJECTION,
                  options->projection == PROJECTION_NONE, false);
@@ -343,7 +343,7 @@ static void fill_frame(const Player *player, Frame *frame)
         player->tour.verdict[0];
     content->lecture.verdict = judged ? player->tour.verdict : NULL;
     content->lecture.guesses = player->tour.guesses;
-    content->lecture.right = player->tour.right;
+    content->lecture.right_guesses = player->tour.right_guesses;
     frame_add_lecture(player->screen.column, player->tour.last_page, content);
     content->cards.closed ^= player->screen.toggled_cards;
     if (player->screen.sheet)

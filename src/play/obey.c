@@ -243,7 +243,7 @@ Status player_obey(Player *player, const Command *command)
         status = status ? status : shown;
     }
     if (past->now > now && meant.kind != COMMAND_REDO &&
-        !past->branch[past->now].fresh && step < newest)
+        !past->branch[past->now].from_options && step < newest)
         append(player->note, sizeof player->note,
                "%ssteps %ld ... %ld: Ctrl+Z leads back",
                player->note[0] ? "; " : "", step + 1, newest);

@@ -39,7 +39,7 @@ static int find_pane_below(const Branch *branch, int pane)
  * Returns NULL if the step has no entry. */
 static Entry *find_branch_entry(const Branch *branch, int pane, long step)
 {
-    for (; step < branch->first && !branch->fresh; branch--)
+    for (; step < branch->first && !branch->from_options; branch--)
         pane = find_pane_below(branch, pane);
     long i = step - branch->first;
     return i < 0 || i >= branch->room
@@ -65,7 +65,7 @@ const Control *past_control(const Past *past, int pane)
 const Control *past_start_control(const Past *past, int pane)
 {
     const Branch *branch = present_branch(past);
-    for (; !branch->fresh; branch--)
+    for (; !branch->from_options; branch--)
         pane = find_pane_below(branch, pane);
     return branch->entry[pane].control;
 }
@@ -252,7 +252,7 @@ static void pane_run_leave_step(Past *past, int pane)
     const Branch *branch = present_branch(past);
     if (!run->has_state)
         return;
-    while (run->step < branch->first && !branch->fresh)
+    while (run->step < branch->first && !branch->from_options)
         branch--;
     Entry *entry = find_entry(past, pane, run->step);
     if (!keeps_state(branch, entry))
@@ -288,10 +288,10 @@ static Branch *push_branch(Past *past, Branch wanted, const Command *edit)
         return NULL;
     branch->count = 1;
     for (int p = 0; p < past_panes(past); p++)
-        if (branch->fresh || p >= branch->panes ||
+        if (branch->from_options || p >= branch->panes ||
             past->pane[p].step > branch->first)
             pane_run_leave_step(past, p);
-    for (int p = 0; p < branch->panes && !branch->fresh; p++)
+    for (int p = 0; p < branch->panes && !branch->from_options; p++)
         for (int i = 0; i < branch->copied; i++) {
             Entry *to = &branch->entry[i * branch->panes + p];
             *to = *find_branch_entry(branch - 1, find_pane_below(branch, p),
@@ -304,7 +304,7 @@ static Branch *push_branch(Past *past, Branch wanted, const Command *edit)
                 to->state->users++;
         }
     if (past->branches > 0)
-        branch[-1].shown = past->step;
+        branch[-1].left_step = past->step;
     past->now = past->branches++;
     past->step = past->aim = branch->first;
     return branch;
@@ -593,7 +593,7 @@ static Status pane_run_end_iteration(Past *past, int pane, Status status)
     double middle = simulation_time(simulation) + 0.5 * find_pane_timestep(run);
     const Entry *to = past_entry(past, pane, run->step + 1);
     bool more = to ? run->substeps < to->substeps
-                   : moved && middle < past->target &&
+                   : moved && middle < past->end_time &&
                          (simulation->scene->needs & NEEDS_TIME);
     return more ? STATUS_RUNNING : pane_run_finish_step(past, pane);
 }
@@ -638,7 +638,7 @@ static Status begin_new_step(Past *past)
         if (pace <= longest || pane_has_ended(past_entry(past, p, run->step)))
             continue;
         longest = pace;
-        past->target = simulation_time(&run->simulation) + pace;
+        past->end_time = simulation_time(&run->simulation) + pace;
     }
     past->worst = STATUS_OK;
     if (reserve_entry(past, present_branch(past)))
@@ -763,7 +763,8 @@ static Status finish_shown_step(Past *past)
 Status past_begin_runs(Past *past, const Options *options, int panes,
                        int gesture, const Command *edit)
 {
-    const Branch wanted = {.fresh = true, .panes = panes, .gesture = gesture};
+    const Branch wanted = {
+        .from_options = true, .panes = panes, .gesture = gesture};
     Status status = STATUS_OK;
     abandon_work(past);
     leave_all_steps(past);
@@ -884,8 +885,8 @@ Status past_edit(Past *past, const Command *edit, int from, int to, bool again,
     Branch *branch = present_branch(past);
     const int panes = branch->panes + (edit->kind == COMMAND_ADD_PANE) -
                       (edit->kind == COMMAND_END_PANE);
-    bool joins = gesture && branch->gesture == gesture && !branch->fresh &&
-                 panes == branch->panes && !again &&
+    bool joins = gesture && branch->gesture == gesture &&
+                 !branch->from_options && panes == branch->panes && !again &&
                  past->step == past_newest(past) &&
                  edit_sets_state(edit) == edit_sets_state(&branch->edit) &&
                  (!edit_sets_state(edit) || branch->count == 1);
@@ -921,13 +922,13 @@ const Command *past_undo(Past *past, int way)
     int low = way < 0 ? to : from, high = way < 0 ? from : to;
     for (int b = low + 1; b <= high; b++)
         invalidate_tables(past, past->branch[b].first,
-                          past->branch[b].fresh ||
+                          past->branch[b].from_options ||
                               edit_changes_state(&past->branch[b].edit));
     abandon_work(past);
     leave_all_steps(past);
-    present_branch(past)->shown = past->step;
+    present_branch(past)->left_step = past->step;
     past->now = to;
-    past->step = present_branch(past)->shown;
+    past->step = present_branch(past)->left_step;
     past_choose_step(past, past->step, false);
     return &past->branch[high].edit;
 }

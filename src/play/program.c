@@ -229,7 +229,7 @@ static void print_old_frames(const Recording *recording)
             first = count++ == 0 ? step : first;
             last = step;
         }
-    if (count == 0) /* the folder may be NULL */
+    if (count == 0) /* also without --frames */
         return;
     bool several = count > 1;
     snprintf(folder, sizeof folder, "%s", recording->folder);

@@ -109,7 +109,7 @@ Status player_restart_runs(Player *player, const Options *options, int panes,
         edit->kind == COMMAND_RESTART && page_can_reopen(player, options);
     Status status = player_begin_runs(player, options, opens ? 1 : panes, edit);
     if (opens)
-        player->time.unit = UNIT_STEP;
+        player->time.walk_unit = UNIT_STEP;
     if (!status && opens &&
         player->given.asks) { /* a script repeats the opening commands itself */
         player->commands.queue.pins = before;
@@ -176,7 +176,7 @@ static void judge_guess(Player *player, bool right, const char *format, ...)
               arguments);
     va_end(arguments);
     player->tour.guesses++;
-    player->tour.right += right;
+    player->tour.right_guesses += right;
 }
 
 /* A guess may be wrong by two percent, since it is calculated on paper. */
@@ -245,7 +245,7 @@ Status obey_page(Player *player, const Command *command)
     player->tour.revealed = NULL;
     player->tour.verdict[0] = '\0';
     player->screen.column = COLUMN_CARDS;
-    player->time.unit = UNIT_STEP;
+    player->time.walk_unit = UNIT_STEP;
     sheet_close(player);
     if (status || !player->given.asks)
         return status;

@@ -305,7 +305,7 @@ static bool walk_lines(Player *player, int way)
         int *place = &player->view_of_pane[p].place;
         if (*place < 0)
             continue;
-        int next = step_trace_walk(trace, player->time.unit, *place, way);
+        int next = step_trace_walk(trace, player->time.walk_unit, *place, way);
         moved = moved || next != *place;
         *place = next;
     }
@@ -368,7 +368,7 @@ Status player_repeat_step(Player *player, const Command *change, int from,
     bool failed = run->failed;
     long step = past->step + failed;
     player->time.place = (TracePlace){.round = -1};
-    if (view->place >= 0 && player->time.unit != UNIT_STEP)
+    if (view->place >= 0 && player->time.walk_unit != UNIT_STEP)
         player->time.place = run->trace.place[view->place];
     player_forget_step(player);
     describe_outcome(player, row, view->ghost_label, sizeof view->ghost_label);
@@ -498,9 +498,9 @@ Status obey_pause(Player *player, const Command *command)
 
 Status obey_next(Player *player, const Command *command)
 {
-    AfterWork after = command->kind == COMMAND_STEP    ? AFTER_NOTHING
-                      : player->time.unit != UNIT_STEP ? AFTER_SHOW_FIRST
-                                                       : AFTER_SHOW_PEAK;
+    AfterWork after = command->kind == COMMAND_STEP         ? AFTER_NOTHING
+                      : player->time.walk_unit != UNIT_STEP ? AFTER_SHOW_FIRST
+                                                            : AFTER_SHOW_PEAK;
     player_pause(player);
     if (after == AFTER_SHOW_FIRST && walk_lines(player, 1))
         return STATUS_OK;
@@ -529,7 +529,7 @@ Status obey_back(Player *player, const Command *command)
     player_pause(player);
     if (step == 0)
         player_note(player, "this is step 0: nothing was before it");
-    if (player->time.unit == UNIT_STEP || !panes_have_updates(player))
+    if (player->time.walk_unit == UNIT_STEP || !panes_have_updates(player))
         return player_seek(player, step - 1, AFTER_NOTHING);
     if (player->view_of_pane[player->active].place < 0 && step > 0) {
         if (!player_active_run(player)->known)
@@ -548,13 +548,13 @@ Status obey_finer(Player *player, const Command *command)
     static const char *const paces[] = {
         "whole steps", "updates of Newton's method", "lines of Algorithm 3"};
     if (player_active_options(player)->next == NEXT_NEARER ||
-        (!panes_have_updates(player) && player->time.unit == UNIT_STEP))
+        (!panes_have_updates(player) && player->time.walk_unit == UNIT_STEP))
         return player_refuse(player, "a step here has no finer ones");
-    player->time.unit = (player->time.unit + 1) % UNITS;
+    player->time.walk_unit = (player->time.walk_unit + 1) % UNITS;
     player_pause(player);
-    if (player->time.unit == UNIT_STEP)
+    if (player->time.walk_unit == UNIT_STEP)
         end_line_walk(player);
-    player_note(player, "N and \u2190 go by %s", paces[player->time.unit]);
+    player_note(player, "N and \u2190 go by %s", paces[player->time.walk_unit]);
     return STATUS_OK;
 }
 

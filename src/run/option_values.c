@@ -130,7 +130,8 @@ void option_write_short(const OptionRow *row, const Options *options,
     if (row->max_times)
         times = (int)options->number[row->counter];
     const double *value = options->number + row->slot + (times - 1) * count;
-    if (times < 1 || *value < row->low) /* the option was not given */
+    if (times < 1 ||
+        *value < row->low) /* no value, or a default out of range */
         snprintf(text, size, "none");
     else if (row->kind == OPTION_NAME)
         option_write(row, *value, text, size);

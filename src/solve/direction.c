@@ -44,11 +44,11 @@ static Status assemble_hessian(Newton *newton, Projection projection,
     bool grown;
     Status status = incremental_potential_grow(&newton->at, &grown);
     *projected = 0;
-    if (!status && (!direction->cholesky || direction->kind != kind || grown ||
+    if (!status && (!direction->cholesky || direction->factor_kind != kind || grown ||
                     direction->pattern != system->pattern)) {
         direction_free_matrix(direction);
         direction->pattern = system->pattern;
-        direction->kind = kind;
+        direction->factor_kind = kind;
         status = incremental_potential_pattern(system, &direction->A,
                                                &direction->slot);
         if (!status)
@@ -111,7 +111,7 @@ static Status assemble_and_factor(Newton *newton)
     record->factorised = true;
     record->shift = newton->direction.shift;
     newton->direction.way_since_factor = 0;
-    if (!status && newton->direction.kind == CHOLESKY_INDEFINITE)
+    if (!status && newton->direction.factor_kind == CHOLESKY_INDEFINITE)
         record->negative_pivots =
             cholesky_negative_pivots(newton->direction.cholesky);
     newton->counters.projected += record->projected;

@@ -13,9 +13,10 @@
  * of the shortest spring since they were computed. */
 static const double NEARBY = 0.02;
 
-/* Tiles relax once a direction leaves more than STALLS of the bound of p.  A
- * sweep of a tile is worth its time if it lowers E by more than PACE times the
- * last direction's decrease, divided by the number of tiles. */
+/* Tiles relax from the first iteration on whose bound of p is more than STALLS
+ * times the bound before.  A sweep of a tile is worth its time if it lowers E by
+ * more than PACE times the last direction's decrease, divided by the number of
+ * tiles. */
 static const double STALLS = 0.3, PACE = 0.15;
 
 /* Number of iterations after which Newton takes over; most steps need ten. */

@@ -140,7 +140,7 @@ static bool mark_unsupported_case(bool known, double *result)
     return !known;
 }
 
-/* C = A B^T */
+/* C = A B^T, the only case of this routine of BLAS that CHOLMOD needs here. */
 void dgemm_(const char *transa, const char *transb, const int *m, const int *n,
             const int *k, const double *alpha, const double *A, const int *lda,
             const double *B, const int *ldb, const double *beta, double *C,

@@ -384,7 +384,7 @@ void document_write(const Player *player, char *text)
         put_page_texts(to, content);
     if (content->lecture.verdict && !content->lecture.hides_answer)
         print(to, "verdict\t%s\t%d\t%d\n", content->lecture.verdict,
-              content->lecture.right, content->lecture.guesses);
+              content->lecture.right_guesses, content->lecture.guesses);
     put_cards(to, content);
     put_numbers(to, player);
     put_handles_and_switches(to, active_pane(content)->simulation);
