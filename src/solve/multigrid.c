@@ -141,7 +141,7 @@ static Status multigrid_read_problem(Newton *newton)
         return status;
     Multigrid *mg = newton->multigrid;
     mg->stalls = mg->was_hidden = mg->is_conjugate = false;
-    mg->largest_change = 0;
+    mg->largest_change = mg->size = 0;
     incremental_potential_absorb_pulls(at, m, u_tilde);
     if (mg->weight != at->E.weight || mg->version != system->version) {
         grid_read_system(&mg->grid, at, m);
