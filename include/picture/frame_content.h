@@ -272,7 +272,8 @@ typedef struct FrameContent {
     const struct Control *hand; /* pull of the mouse, or NULL */
     bool shows_strain;          /* springs are coloured by strain */
     bool bare;                  /* shows pictures without words */
-    bool in_document;           /* shows the stage alone, as on the web page */
+    bool in_page;               /* shows the stage alone, as on the web page */
+    bool in_document;           /* the web page has switches, texts and cards */
     struct Text *text;          /* fonts; NULL: widths of texts are estimated */
     double min_em; /* pixels, least size of an em; 0: the usual minimum */
     Strip strip;

@@ -11,9 +11,9 @@
 
 typedef struct Plot Plot; /* drawing area with its coordinates (plot.h) */
 
-enum { CARD_COLUMNS = 9, CARD_CELL = 96 };
+enum { CARD_COLUMNS = 9, CARD_CELL = 160 };
 
-/* A row of the table that a card shows. */
+/* A row of a card's table or legend. */
 typedef struct CardTableRow {
     int columns;
     Colour colour;                      /* colour of the first cell */
@@ -42,8 +42,12 @@ typedef struct Card {
     /* Fills row 0, 1, ... of the card's table; row 0 has the heads.  Returns
      * false after the last row.  NULL: the card has no table. */
     bool (*table)(const FrameContent *content, int row, CardTableRow *cells);
-    /* Draws the content: curves, words and table; on the web page only curves.
-     * NULL: `words` or `rows` are written. */
+    /* Fills a row of the legend: a name, and perhaps a value.  Returns false
+     * after the last row.  NULL: the graph has no legend. */
+    bool (*legend_row)(const FrameContent *content, int row,
+                       CardTableRow *cells);
+    /* Draws the content: curves, words, table and legend; on the web page
+     * only curves.  NULL: `words` or `rows` are written. */
     void (*draw)(const Plot *card);
     bool has_no_curves; /* the web page has all of the content as text */
 } Card;

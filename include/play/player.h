@@ -222,6 +222,9 @@ Status player_run(Player *player);
  * as they are due. */
 Status player_frame(Player *player);
 
+/* Whether nothing happens before the next input. */
+bool player_is_idle(const Player *player);
+
 /* Returns the time until the next frame is due, ms. */
 int player_find_wait_time(const Player *player);
 

@@ -45,7 +45,10 @@ void window_find_size(int size[2]);
 /* Returns the size of letters that are easy to read in the window, pixels. */
 double window_find_font_size(void);
 
-/* Whether texts, numbers, keys and cards are elements of a web page. */
+/* Whether the window is a canvas in a web page. */
+bool window_is_in_page(void);
+
+/* Whether the page has texts, numbers, switches and cards beside the canvas. */
 bool window_has_document(void);
 
 void window_set_title(const char *title);

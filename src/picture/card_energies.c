@@ -200,6 +200,28 @@ static void draw_curves(const Plot *plot, const Curves *all)
     }
 }
 
+static Number format_present_value(const Curve *one)
+{
+    double value = find_energy_at(one->simulation, one->history, one->series,
+                                  simulation_time(one->simulation));
+    return format_number(
+        fabs(value) < find_energy_rounding(one->simulation) ? 0 : value);
+}
+
+/* Fills a row with the name and the present value of a curve. */
+bool energies_legend_row(const FrameContent *content, int row,
+                         CardTableRow *cells)
+{
+    const Curves all = find_curves(content);
+    const Curve *one = &all.curve[row];
+    if (row >= all.count)
+        return false;
+    *cells = (CardTableRow){2, one->colour, {""}};
+    snprintf(cells->cell[0], CARD_CELL, "%s", one->name ? one->name : "");
+    snprintf(cells->cell[1], CARD_CELL, "%s J", format_present_value(one).text);
+    return true;
+}
+
 /* Writes the names and present values of the curves, or only measures them.
  * Returns the height in pixels.
  *   terse  only the first value and the names are written, or only the values
@@ -215,16 +237,11 @@ static int write_legend(const Plot *card, const Curves *all, bool terse,
     for (int c = 0; c < all->count; c++) {
         const Curve *one = &all->curve[c];
         TextLine line = {.colour = one->colour};
-        double value =
-            find_energy_at(one->simulation, one->history, one->series,
-                           simulation_time(one->simulation));
         char name[SENTENCE_SIZE] = "", sum[60] = "";
-        if (fabs(value) < find_energy_rounding(one->simulation))
-            value = 0;
         if (one->name && !(terse && panes))
             snprintf(name, sizeof name, "%s ", one->name);
         if (!terse || panes || c == 0)
-            snprintf(sum, sizeof sum, "%s J", format_number(value).text);
+            snprintf(sum, sizeof sum, "%s J", format_present_value(one).text);
         paper_shorten(paper, size,
                       card->box.width -
                           paper_width(paper, FACE_REGULAR, size, sum),
@@ -269,11 +286,13 @@ void energies_draw(const Plot *card)
     Plot rest = *card;
     double last;
     int room = card->box.height - paper_pixels(card->paper, MIN_PLOT);
-    bool terse = write_legend(card, &all, false, false) > room;
+    bool has_legend = !card->content->in_document;
+    bool terse = has_legend && write_legend(card, &all, false, false) > room;
     while (terse && all.count > 1 &&
            write_legend(card, &all, true, false) > room)
         leave_out_smallest(&all);
-    box_cut_off(&rest.box, EDGE_TOP, write_legend(card, &all, terse, true));
+    if (has_legend)
+        box_cut_off(&rest.box, EDGE_TOP, write_legend(card, &all, terse, true));
     Axis energy = make_energies_axis(card->simulation, &all, &last);
     Axis time = {0, plot_round_up(last), false, false, "t in s"};
     Plot plot = plot_create(&rest, time, energy);

@@ -1,6 +1,7 @@
 /* card_line.c - the card of E along the search direction, with the trials of
  * the line search. */
 #include <math.h>
+#include <stdio.h>
 
 #include "picture/cards.h"
 #include "picture/colour_map.h"
@@ -81,9 +82,37 @@ static void draw_trial(const Plot *plot, double alpha, double value,
                    format_number(value).text);
 }
 
-/* Draws the plot, and the words above in rows of fixed height.  A page about
- * projection also shows E along the projected p until the first step is made.
- */
+/* Fills a row with what a curve is, or with the last trial. */
+bool line_legend_row(const FrameContent *content, int row, CardTableRow *cells)
+{
+    TextLine line = text_begin(&active_pane(content)->values, text_trials);
+    for (int i = 0; i <= row; i++)
+        if (!text_next_line(&line))
+            return false;
+    *cells = (CardTableRow){1, line.colour, {""}};
+    snprintf(cells->cell[0], CARD_CELL, "%.*s", CARD_CELL - 1, line.words);
+    return true;
+}
+
+/* Writes the legend above the plot, in a room of fixed height. */
+static void draw_legend(const Plot *card, Box *rest)
+{
+    Paper *paper = card->paper;
+    int rows = card->box.width / paper->em < WORDS_WIDTH ? 2 : 1;
+    int high = paper_pixels(paper, rows * ROW_HEIGHT), at[2] = {0, 0};
+    TextLine line = text_begin(&card->pane->values, text_trials);
+    int air = paper_pixels(paper, 0.4); /* room for superscripts */
+    Box words = box_cut_off(rest, EDGE_TOP, high);
+    words.y -= air;
+    words.height += air;
+    Box before = canvas_set_clip(&paper->canvas, words);
+    while (text_next_line(&line))
+        card_write_flow(card, at, WORD_SIZE, 1, &line, true);
+    canvas_set_clip(&paper->canvas, before);
+}
+
+/* Draws the curves and the trials.  A page about projection also shows E along
+ * the projected p until the first step is made. */
 void line_energy_draw(const Plot *card)
 {
     const Pane *pane = card->pane;
@@ -103,19 +132,9 @@ void line_energy_draw(const Plot *card)
     fill_curves(trace, both ? &other.trace : NULL, &curves);
     Axis x = {0, curves.alpha[LINE_POINTS - 1], false, false, "{alpha}"};
     Axis y = {curves.low, curves.high, false, false, NULL};
-    Paper *paper = card->paper;
     Plot rest = *card;
-    int rows = card->box.width / paper->em < WORDS_WIDTH ? 2 : 1;
-    int high = paper_pixels(paper, rows * ROW_HEIGHT), at[2] = {0, 0};
-    TextLine line = text_begin(&pane->values, text_trials);
-    int air = paper_pixels(paper, 0.4); /* room for superscripts */
-    Box words = box_cut_off(&rest.box, EDGE_TOP, high);
-    words.y -= air;
-    words.height += air;
-    Box before = canvas_set_clip(&paper->canvas, words);
-    while (text_next_line(&line))
-        card_write_flow(card, at, WORD_SIZE, 1, &line, true);
-    canvas_set_clip(&paper->canvas, before);
+    if (!card->content->in_document)
+        draw_legend(card, &rest.box);
     Plot plot = plot_create(&rest, x, y);
     const double origin[2] = {0, 0};
     plot_curve(&plot, LINE_POINTS, curves.alpha, curves.model, 1.3, COLOUR_P);

@@ -69,7 +69,7 @@ BEGIN {
     texts["text"] texts["value"] texts["struck_if"]
     values["min_height"] values["needed_height"] values["weight"] values["default_bounds"]
     values["draw"] values["table"] values["bounds"] values["add_values"] values["pick"]
-    values["hover"] values["sample"]
+    values["hover"] values["sample"] values["legend_row"]
     switches["has_no_curves"] switches["half_width"] switches["half_width_on_page"]
     switches["starts_closed"] switches["below_picture"]
     switches["beside_picture"]

@@ -62,7 +62,7 @@ extern CardDraw page_draw, residual_log_draw, line_energy_draw, residual_draw,
     radius_draw, relief_draw, step_matrix_draw, tangent_numbers_draw, law_draw,
     hessian_pattern_draw, spring_profile_draw, race_table_draw;
 extern CardTable residuals_fill_row, updates_fill_row, iterates_fill_row,
-    race_fill_row;
+    race_fill_row, energies_legend_row, line_legend_row;
 extern CardHeight page_needed_height, listing_needed_height,
     energies_needed_height, updates_needed_height;
 

@@ -128,6 +128,14 @@ static void find_pane_bounds(const FrameContent *content, const Layout *layout,
         memcpy(bounds, own, sizeof own);
 }
 
+/* Lists the switches on the stage; a document has them beside the picture. */
+static int list_switches(const Plot *stage, Switch out[SCENE_MAX_SWITCHES])
+{
+    return stage->has_text && !stage->content->in_document
+               ? exhibit_list_switches(stage->simulation, out)
+               : 0;
+}
+
 Plot stage_create(Paper *paper, const FrameContent *content,
                   const Layout *layout, int pane)
 {
@@ -141,8 +149,7 @@ Plot stage_create(Paper *paper, const FrameContent *content,
     Switch switches[SCENE_MAX_SWITCHES];
     find_pane_bounds(content, layout, pane, bounds);
     stage.camera = camera_create(room, bounds, stretched, lens);
-    if (!stage.has_text ||
-        exhibit_list_switches(stage.simulation, switches) == 0)
+    if (list_switches(&stage, switches) == 0)
         return stage;
     /* The picture moves left of the switches, unless it would become smaller.
      */
@@ -201,8 +208,8 @@ static void draw_switches(const Plot *stage)
 {
     Paper *paper = stage->paper;
     Switch switches[SCENE_MAX_SWITCHES];
-    int count = exhibit_list_switches(stage->simulation, switches);
-    for (int i = 0; i < count && stage->has_text; i++) {
+    int count = list_switches(stage, switches);
+    for (int i = 0; i < count; i++) {
         Box box = box_of_switch(stage, i),
             mark = box_inset(box, box.height / 4);
         bool on = switches[i].on;
@@ -257,9 +264,7 @@ Pick frame_pick(const FrameContent *content, const Layout *layout, double x,
     camera_to_world(&stage.camera, x, y, pick.point);
     pick.kind = picture->takes_clicks ? PICK_PLACE : PICK_NONE;
     if (!picture->own_handles) {
-        int count = stage.has_text
-                        ? exhibit_list_switches(stage.simulation, switches)
-                        : 0;
+        int count = list_switches(&stage, switches);
         for (pick.index = 0; pick.index < count; pick.index++)
             if (box_contains(box_of_switch(&stage, pick.index), x, y)) {
                 pick.kind = PICK_SWITCH;
@@ -468,13 +473,13 @@ void frame_draw(Paper *paper, const FrameContent *content)
     }
     if (content->bare && !sheet)
         return;
-    if (!sheet && !content->in_document) {
+    if (!sheet && !content->in_page) {
         if (content->column != COLUMN_CARDS)
             canvas_fill(&paper->canvas, layout.column, COLOUR_WHITE);
         cards_draw(paper, &layout, content);
     }
     if (!sheet)
         highlight_draw(paper, content);
-    if (!content->in_document)
+    if (!content->in_page)
         window_rows_draw(paper, &layout, content);
 }

@@ -461,13 +461,13 @@ Layout layout_create(const FrameContent *content, int width, int height)
         least = fmax(content->min_em, big ? fmin(height / 35.0, width / 54.0)
                                           : fmin(height / 55.0, width / 64.0));
     layout.em = fmax(size, least);
-    layout.stage = content->in_document ? (Box){0, 0, width, height}
-                                        : place_zones(content, &layout);
+    layout.stage = content->in_page ? (Box){0, 0, width, height}
+                                    : place_zones(content, &layout);
     if (content->sheet.cells > 0) {
         place_overview(content, &layout);
         return layout;
     }
-    if (content->in_document) {
+    if (content->in_page) {
         place_panes(content->panes, &layout);
         return layout;
     }

@@ -307,7 +307,8 @@ static void fill_frame(const Player *player, Frame *frame)
     content->min_em = player->screen.window  ? window_find_font_size()
                       : player->screen.draws ? SMALL_LETTER
                                              : 0;
-    content->in_document = player->screen.window && window_has_document();
+    content->in_page = player->screen.window && window_is_in_page();
+    content->in_document = content->in_page && window_has_document();
     content->panes = past_panes(past);
     if (content->panes > LAYOUT_PANES) /* scripts can have more panes */
         content->panes = LAYOUT_PANES;

@@ -151,15 +151,22 @@ Status player_frame(Player *player)
     return status;
 }
 
+bool player_is_idle(const Player *player)
+{
+    return player->screen.window && player_is_stopped(player) &&
+           !player->screen.sheet && !past_works(&player->past) &&
+           script_is_over(&player->given.script);
+}
+
 int player_find_wait_time(const Player *player)
 {
     bool stands = player_is_stopped(player);
+    double wait = 1e3 * (player->time.due - clock_now());
+    if (player_is_idle(player))
+        return IDLE_WAIT;
     if (!player->screen.window || past_works(&player->past) ||
         (stands && !script_is_over(&player->given.script)))
         return 0;
-    double wait = stands && !player->screen.sheet
-                      ? IDLE_WAIT
-                      : 1e3 * (player->time.due - clock_now());
     return (int)fmax(fmin(ceil(wait), IDLE_WAIT), 0);
 }
 

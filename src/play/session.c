@@ -105,7 +105,9 @@ bool player_is_slow(const Player *player)
 
 void player_sample_line_energy(Player *player)
 {
-    bool is_drawn = player->screen.draws && !player->screen.bare &&
+    const FrameContent *content = &player->screen.frame.content;
+    bool has_cards = content->in_document || !content->in_page;
+    bool is_drawn = player->screen.draws && !player->screen.bare && has_cards &&
                     cards_need_line_energy(player_simulation(player),
                                            player->screen.toggled_cards);
     player->past.line_pane = is_drawn ? player->active : -1;

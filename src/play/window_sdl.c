@@ -125,6 +125,11 @@ double window_find_font_size(void)
     return 9 * scale[0];
 }
 
+bool window_is_in_page(void)
+{
+    return false;
+}
+
 bool window_has_document(void)
 {
     return false;

@@ -18,7 +18,8 @@ EM_JS(void, window_find_size, (int *size), {
     HEAP32[(size >> 2) + 1] = Page.height();
 });
 EM_JS(double, window_find_font_size, (void), { return Page.letter(); });
-EM_JS(bool, window_has_document, (void), { return true; });
+EM_JS(bool, window_is_in_page, (void), { return true; });
+EM_JS(bool, window_has_document, (void), { return Page.hasDocument(); });
 EM_JS(void, page_show, (const void *pixels, int width, int height, int card), {
     Page.show(HEAPU8, pixels, width, height, card);
 });

@@ -24,6 +24,8 @@
  *                                 KIND: text, covered (before the guess), graph
  *                                 (drawn), or star (drawn larger than the
  *                                 picture); DESCRIPTION: the graph in words
+ *     legend INDEX COLOUR NAME VALUE   a row of the graph's legend; VALUE may
+ *                                 be missing
  *     words INDEX LINE            a line of a card of kind text,
  *     row INDEX LIT STRUCK INDENTED TEXT VALUE   of the algorithm in it,
  *     cells INDEX COLOUR TEXT ... and of the table in it; heads come first
@@ -149,22 +151,27 @@ static void put_energies(Writer *to, const Simulation *simulation)
               format_number(energies.row[i].value).text);
 }
 
-/* Describes a graph of energies, of residuals, or of E along p. */
+/* Describes a graph without legend, of energies or residuals. */
 static void put_description(Writer *to, const Pane *pane, const char *name)
 {
     const Trace *trace = pane->shown_trace;
-    if (strcmp(name, "energies") == 0 || strcmp(name, "budget") == 0) {
+    if (strcmp(name, "budget") == 0)
         put_energies(to, pane->simulation);
-    } else if (strcmp(name, "residual") == 0 && trace) {
+    else if (strcmp(name, "residual") == 0 && trace)
         for (int i = 0; i < trace->updates; i++)
             print(to, "%supdate %d: residual %s, step length %s", i ? "; " : "",
                   i + 1, format_number(trace->record[i].residual).text,
                   format_number(trace->record[i].alpha).text);
-    } else if (strcmp(name, "line") == 0) {
-        for (TextLine line = text_begin(&pane->values, text_trials);
-             text_next_line(&line);)
-            print(to, "%s; ", line.words);
-    }
+}
+
+/* Writes a row of a table or legend. */
+static void put_cells(Writer *to, const char *word, int index,
+                      const CardTableRow *row)
+{
+    print(to, "%s\t%d\t#%06x", word, index, document_colour(row->colour));
+    for (int c = 0; c < row->columns; c++)
+        print(to, "\t%s", row->cell[c]);
+    print(to, "\n");
 }
 
 /* Writes the heads and the last rows of a card's table, or a hint that the
@@ -183,18 +190,15 @@ static void put_table(Writer *to, const FrameContent *content, int index,
         if (i > 0 && i < rows - MOST_ROWS)
             continue;
         card->table(content, i, &row);
-        print(to, "cells\t%d\t#%06x", index, document_colour(row.colour));
-        for (int c = 0; c < row.columns; c++)
-            print(to, "\t%s", row.cell[c]);
-        print(to, "\n");
+        put_cells(to, "cells", index, &row);
     }
     if (rows == 0)
         print(to, "words\t%d\t#%06x\t0\t%s\n", index,
               document_colour(hint.colour), hint.words);
 }
 
-/* Writes a card: a line for its graph, and a line for its text with the rows of
- * this text below. */
+/* Writes a card: a line for its graph with the rows of its legend below, and a
+ * line for its text with the rows of this text below. */
 static void put_card(Writer *to, const FrameContent *content, int index,
                      const Card *card)
 {
@@ -206,6 +210,7 @@ static void put_card(Writer *to, const FrameContent *content, int index,
         page && page->main_card && strcmp(page->main_card, card->name) == 0;
     bool closed = content->cards.closed >> index & 1;
     TextLine title = text_first_line(&pane->values, card->title);
+    CardTableRow row;
     char word[24];
     snprintf(word, sizeof word, "words\t%d", index);
     if (graph) {
@@ -213,6 +218,9 @@ static void put_card(Writer *to, const FrameContent *content, int index,
               star ? "star" : "graph", closed, title.words);
         put_description(to, pane, card->name);
         print(to, "\n");
+        for (int i = 0; card->legend_row && card->legend_row(content, i, &row);
+             i++)
+            put_cells(to, "legend", index, &row);
     }
     if (graph && !card->table && !text_has_line(&pane->values, card->words))
         return;

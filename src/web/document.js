@@ -1,6 +1,6 @@
 // document.js - shows the lines of document.c as elements beside the canvas.  Only
-// elements whose lines have changed are replaced, so that a selection or a half
-// typed number elsewhere stays.
+// what has changed is written: layout is the dearest part of a frame, and a
+// selection, a translation or a half typed number elsewhere stays.
 
 const LIVE = 100; // ms between two texts of a run that goes on
 const SPOKEN = 4000; // ms between two texts that a screen reader speaks
@@ -24,10 +24,20 @@ const obey = (line) => wake(ask('web_obey', null, line));
 
 // Keeps a value in `store` and returns whether it differs from the value before.
 const isNew = (store, key, value) => store[key] !== (store[key] = JSON.stringify(value));
-// Calls build with the lines of the first word if the lines of a word have changed.
-const part = (words, build) => {
-  const lines = words.map((word) => now[word]);
-  if (isNew(seen, words, lines)) build(lines[0] ?? []);
+// Writes a property that has changed.
+const put = (element, key, value) => element[key] === value || (element[key] = value);
+// Shows lines as the children of an element.  show(line, index, child) returns the
+// child of a line that has changed: the old one or a new one.
+const fill = (parent, lines, show) => {
+  lines.forEach((line, i) => {
+    const old = parent.children[i];
+    if (old && !isNew(old, 'line', line)) return;
+    const child = show(line, i, old);
+    if (child === old) return;
+    isNew(child, 'line', line);
+    old ? old.replaceWith(child) : parent.append(child);
+  });
+  while (parent.children.length > lines.length) parent.lastChild.remove();
 };
 
 // ---- texts ------------------------------------------------------------------
@@ -55,13 +65,12 @@ const paragraph = ([colour, bold, text], asFormula) => {
   return p;
 };
 
-const showTexts = (word) =>
-  part([word], (lines) => {
-    const { head } = $(word).dataset;
-    const paragraphs = lines.map((line) => paragraph(line, word === 'formula'));
-    $(word).hidden = !lines.length;
-    $(word).replaceChildren(...(head ? [make('h2', [head])] : []), ...paragraphs);
-  });
+const showTexts = (word, lines = now[word] ?? []) => {
+  const { head } = $(word).dataset;
+  const show = (line) => (line === head ? make('h2', [head]) : paragraph(line, word === 'formula'));
+  put($(word), 'hidden', !lines.length);
+  fill($(word), head ? [head, ...lines] : lines, show);
+};
 
 // ---- numbers ----------------------------------------------------------------
 
@@ -111,28 +120,25 @@ const makeSwitch = ([index, on, label]) => {
 
 const showNumbers = () => {
   const rows = now.number ?? [];
-  const names = rows.map(([name, , , , , , , shown]) => name + shown);
-  if (isNew(seen, 'names', [field('page', 2), names])) {
+  const names = rows.map((row) => row[0] + row[7]);
+  if (isNew(seen, 'names', [now.page, names])) {
     const made = rows.map(makeNumber);
-    const of = (shown) => made.filter((item, i) => (rows[i][7] !== 'more') === shown);
-    $('row').replaceChildren(...of(true));
-    $('more').lastElementChild.replaceChildren(...of(false));
+    $('row').replaceChildren(...made.filter((item) => item.className !== 'more'));
+    $('more').lastElementChild.replaceChildren(...made.filter((item) => item.className === 'more'));
   }
-  if (!$('exhibit').contains(document.activeElement))
-    part(['switch', 'point'], (switches) => {
-      const points = (now.point ?? []).map(makePoint);
-      $('exhibit').replaceChildren(...switches.map(makeSwitch), ...points);
-    });
+  const exhibit = [...(now.switch ?? []), ...(now.point ?? [])];
+  const show = (line) => (now.point?.includes(line) ? makePoint : makeSwitch)(line);
+  if (!$('exhibit').contains(document.activeElement)) fill($('exhibit'), exhibit, show);
   for (const [name, , value, , , help, idle] of rows) {
     const element = document.querySelector(`[name="${name}"]`);
     const slider = element.parentNode.querySelector('[type=range]');
-    element.parentNode.title = idle || help;
-    element.disabled = Boolean(idle);
-    if (document.activeElement !== element) element.value = value;
-    if (element.options) element.parentNode.hidden = !element.value; // panes differ
-    if (!slider) continue;
+    put(element.parentNode, 'title', idle || help);
+    put(element, 'disabled', Boolean(idle));
+    if (document.activeElement !== element) put(element, 'value', value);
+    if (element.options) put(element.parentNode, 'hidden', !element.value); // panes differ
+    if (!slider || document.activeElement === slider || !isNew(slider, 'shown', value)) continue;
     slider.setAttribute('aria-valuetext', value);
-    if (document.activeElement !== slider) slider.value = Math.log(value / slider.first);
+    slider.value = Math.log(value / slider.first);
   }
 };
 
@@ -140,25 +146,13 @@ const showNumbers = () => {
 
 const isDrawn = (kind) => kind === 'graph' || kind === 'star';
 
-const makeCard = ([index, name, kind, closed]) => {
-  const graph = isDrawn(kind) && make('canvas', [], { role: 'img', id: 'graph' + index });
-  const box = make('div', graph ? [graph] : [], { class: 'paper' });
-  const card = make('details', [make('summary'), box], { class: kind, id: 'card-' + name });
-  card.open = closed === '0';
-  card.ontoggle = () => tell(REDRAW, { clientX: 0, clientY: 0 });
-  if (!graph) return card;
-  const larger = make('button', ['⤢'], { 'aria-label': 'Larger, or as before' });
-  larger.onclick = () => card.ontoggle(card.classList.toggle('large'));
-  box.append(larger);
-  return card;
-};
-
-// A line of an algorithm, with its values at the right.
-const makeRow = ([, lit, struck, indented, text, value], i) => {
-  const cells = [[String(i + 1)], [], []].map((content) => make('td', content));
-  const line = make('tr', cells, lit === '1' ? { class: 'lit', 'aria-current': 'step' } : {});
-  setMarkup(cells[1], text).classList.toggle('indented', indented === '1');
-  setMarkup(cells[2], value);
+// Shows a line of an algorithm, with its values at the right.
+const showRow = ([, lit, struck, indented, text, value], i, old) => {
+  const line = old ?? make('tr', [make('td', [String(i + 1)]), make('td'), make('td')]);
+  setMarkup(line.children[1], text).classList.toggle('indented', indented === '1');
+  setMarkup(line.children[2], value);
+  line.ariaCurrent = lit === '1' ? 'step' : null;
+  line.classList.toggle('lit', lit === '1');
   line.classList.toggle('struck', struck === '1');
   return line;
 };
@@ -171,13 +165,51 @@ const makeCells = ([, colour, ...texts], i) => {
   return make('tr', cells);
 };
 
-const cardLines = (lines, index) =>
-  ['words', 'row', 'cells'].map((word) => (lines[word] ?? []).filter(([of]) => of === index));
-const makeLines = ([words, rows, cells]) => {
-  const paragraphs = words.map((line) => paragraph(line.slice(1), true));
-  const listing = make('table', rows.map(makeRow), { class: 'listing' });
-  const table = make('div', [make('table', cells.map(makeCells))], cells.length && { tabindex: 0 });
-  return make('div', [...paragraphs, listing, table], { class: 'lines' });
+// Shows a row of a legend: a name, and its value.
+const showEntry = ([, colour, name, value = ''], i, old) => {
+  const entry = old ?? make('li', [make('span'), ' ', make('span')]);
+  setMarkup(entry.firstChild, name);
+  setMarkup(entry.lastChild, value);
+  entry.style.color = colour;
+  return entry;
+};
+
+// Lists of a card by their class: the element, and how a line is shown.
+const showWords = ([, ...line]) => paragraph(line, true);
+const LISTS = {
+  words: ['div', showWords],
+  row: ['table', showRow],
+  cells: ['table', makeCells],
+  legend: ['ul', showEntry],
+};
+const group = (name, ...children) => make('div', children, { class: name });
+const makeLists = (...words) =>
+  words.map((word) =>
+    make(LISTS[word][0], [], { class: word, tabindex: word === 'cells' ? 0 : -1 }),
+  );
+const makeBody = (canvas) =>
+  canvas
+    ? group('figure', ...makeLists('legend'), group('paper', canvas))
+    : group('lines', ...makeLists('words', 'row', 'cells'));
+const showBody = (body, index, lines = now) => {
+  const isOf = ([of]) => of === index;
+  for (const list of body.children)
+    if (LISTS[list.className])
+      fill(list, (lines[list.className] ?? []).filter(isOf), LISTS[list.className][1]);
+  return body;
+};
+
+const makeCard = ([index, name, kind, closed, title]) => {
+  const how = { role: 'img', id: 'graph' + index, 'aria-label': plain(title) };
+  const body = makeBody(isDrawn(kind) && make('canvas', [], how));
+  const card = make('details', [make('summary'), body], { class: kind, id: 'card-' + name });
+  card.open = closed === '0';
+  card.ontoggle = () => tell(REDRAW, { clientX: 0, clientY: 0 });
+  if (!isDrawn(kind)) return card;
+  const larger = make('button', ['⤢'], { 'aria-label': 'Larger, or as before' });
+  larger.onclick = () => card.ontoggle(card.classList.toggle('large'));
+  body.append(larger);
+  return card;
 };
 
 const showCards = () => {
@@ -187,13 +219,9 @@ const showCards = () => {
     $('graphs').replaceChildren(...made.filter((card) => isDrawn(card.className)));
     $('cards').replaceChildren(...made.filter((card) => !isDrawn(card.className)));
   }
-  for (const [index, name, kind, , title, description] of all) {
-    const texts = isDrawn(kind) ? description : cardLines(now, index);
-    const [summary, box] = $('card-' + name).children;
-    if (!isNew(summary, 'lines', [title, texts])) continue;
-    setMarkup(summary, title);
-    if (isDrawn(kind)) box.firstChild.ariaLabel = plain(`${title}. ${texts}`);
-    else box.replaceWith(makeLines(texts));
+  for (const [index, name, , , title] of all) {
+    setMarkup($('card-' + name).firstChild, title);
+    showBody($('card-' + name).lastChild, index);
   }
   // Sizes are read after all texts have changed, so that the page is laid out once.
   for (const { id, parentNode: box } of document.querySelectorAll('#graphs canvas'))
@@ -217,6 +245,7 @@ const showPage = ([[number, of, name]]) => {
     link.ariaCurrent = link.hash === `#${inLecture ? '--lecture+' : ''}${name}` ? 'page' : null;
   $('all').onclick = () => openPart(inLecture ? 'pages' : 'scenes');
   $('pages').open = $('scenes').open = false;
+  spoken = -1e9;
   $('answer').value = $('answer2').value = '';
   scrollTo(0, 0);
   updateAddress();
@@ -243,38 +272,31 @@ const showDocument = (time) => {
   rendered = time;
   now = parseLines(ask('web_document', 'string'));
   const number = Number(field('page'));
-  part(['page'], showPage);
-  part(['topic', 'page'], () => {
-    setMarkup($('topic'), field('topic') || field('page', 2));
-    document.title = `${number ? number + '. ' : ''}${$('topic').textContent} · elasto`;
-  });
-  part(['sentence', 'page'], () => setMarkup($('sentence'), number ? '' : field('sentence')));
-  part(['time'], () => setMarkup($('time'), field('time')));
+  const [text = '', right, guesses] = now.verdict?.[0] ?? [];
+  const [warning, told] = now.told[0];
+  const [step, newest, stands] = now.step[0];
+  if (isNew(seen, 'page', now.page)) showPage(now.page);
+  setMarkup($('topic'), field('topic') || field('page', 2));
+  put(document, 'title', `${number ? number + '. ' : ''}${$('topic').textContent} · elasto`);
+  setMarkup($('sentence'), number ? '' : field('sentence'));
+  setMarkup($('time'), field('time'));
   for (const word of ['text', 'formula', 'ask', 'look', 'try', 'claim', 'notes']) showTexts(word);
-  part(['asks', 'page'], showGuess);
-  part(['verdict', 'page'], ([[text = '', right, guesses] = []]) =>
-    setMarkup($('verdict'), text + (guesses > 1 ? ` ${right} of ${guesses} so far.` : '')),
-  );
-  part(['told', 'verdict'], ([[warning, text]]) => {
-    $('told').className = warning === '1' ? 'warning' : '';
-    setMarkup($('told'), now.verdict && / it is /.test(text) ? '' : text);
-  });
-  part(['step'], ([[step, newest, stands]]) => {
-    $('step').max = newest;
-    if (document.activeElement !== $('step')) $('step').value = step;
-    $('play').firstElementChild.textContent = stands === '1' ? '▶' : '❚❚';
-  });
-  part(['picture'], () => ($('picture').textContent = plain(field('picture'))));
-  if (field('step', 2) === '1' || time - spoken > SPOKEN) {
-    part(['event'], () => ($('event').textContent = plain(field('event'))));
-    spoken = time;
-  }
-  part(['code'], (lines) => {
-    const made = lines.map(([lit, text]) => make(lit === '1' ? 'mark' : 'span', [text + '\n']));
-    $('code').lastElementChild.replaceChildren(...made);
-  });
+  if (isNew(seen, 'asks', [now.asks, now.page])) showGuess(now.asks ?? []);
+  setMarkup($('verdict'), text + (guesses > 1 ? ` ${right} of ${guesses} so far.` : ''));
+  setMarkup($('told'), text && / it is /.test(told) ? '' : told);
+  put($('told'), 'className', warning === '1' ? 'warning' : '');
+  put($('step'), 'max', newest);
+  if (document.activeElement !== $('step')) put($('step'), 'value', step);
+  put($('play').firstElementChild, 'textContent', stands === '1' ? '▶' : '❚❚');
+  const showCode = ([lit, text]) => make(lit === '1' ? 'mark' : 'span', [text + '\n']);
+  fill($('code').lastElementChild, now.code ?? [], showCode);
   showNumbers();
   showCards();
+  if (stands === '0' && time - spoken < SPOKEN) return;
+  spoken = time;
+  for (const id of ['picture', 'event']) put($(id), 'textContent', plain(field(id)));
+  for (const [index, , kind, , title, description] of now.card ?? [])
+    if (isDrawn(kind)) put($('graph' + index), 'ariaLabel', plain(`${title}. ${description}`));
 };
 
 // Fills the lists of pages, scenes and keys.
@@ -321,15 +343,15 @@ const makeSheet = ([, topic], index) => {
   const told = parseLines(ask('web_document', 'string'));
   const open = (told.card ?? []).filter(([, , , closed]) => closed === '0');
   const made = open.map(([card, , kind]) =>
-    isDrawn(kind) ? draw(Number(card), 720) : makeLines(cardLines(told, card)),
+    showBody(makeBody(isDrawn(kind) && draw(Number(card), 720)), card, told),
   );
   const picture = draw(-1, 900);
   Module._web_print_hide_answer();
   const asked = parseLines(ask('web_document', 'string'));
   const covered = (asked.card ?? []).flatMap(([card, , kind]) => (kind === 'covered' ? card : []));
   const select = (late) => made.filter((card, i) => covered.includes(open[i][0]) === late);
-  const pictures = make('div', [picture, ...select(false)], { class: 'pictures' });
-  const room = make('div', [], { class: 'room' });
+  const pictures = group('pictures', picture, ...select(false));
+  const room = group('room');
   room.innerHTML = '<hr>'.repeat(16); // page.css cuts off those below the sheet
   const words = [...texts(asked.text), ...texts(asked.formula, true), make('b', texts(asked.ask))];
   return {
@@ -343,7 +365,7 @@ const printLecture = () => {
   sheet = {};
   const made = lists.pages.map(makeSheet);
   const columns = (head, what, name) =>
-    make('div', [make('h2', [head]), ...made.map((one) => one[what])], { class: name });
+    group(name, make('h2', [head]), ...made.map((one) => one[what]));
   sheet = Module._web_print_page(-1) ?? null;
   $('handout').replaceChildren(
     make('h1', ['Reliable simulation of elastodynamics']),

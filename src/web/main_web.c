@@ -2,6 +2,7 @@
  * command line, make its frames and answer questions about the last frame.
  */
 #include <emscripten.h>
+#include <limits.h>
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
@@ -236,7 +237,8 @@ EMSCRIPTEN_KEEPALIVE void web_print_hide_answer(void)
 /* ---- the loop ----------------------------------------------------------- */
 
 /* Makes a frame; without a window as many frames as fit into a slice of time.
- * Returns the time until the next frame is due, ms; < 0: the run has ended. */
+ * Returns the time until the next frame is due, ms; INT_MAX: no frame is due
+ * before an input; < 0: the run has ended. */
 EMSCRIPTEN_KEEPALIVE int web_frame(void)
 {
     Player *player = &session->player;
@@ -249,7 +251,7 @@ EMSCRIPTEN_KEEPALIVE int web_frame(void)
     while (!status && !player->screen.window && !player_ended(player) &&
            clock_now() < begin + SLICE);
     if (!status && !player_ended(player))
-        return player_find_wait_time(player);
+        return player_is_idle(player) ? INT_MAX : player_find_wait_time(player);
     program_end(player, status);
     player_free(player);
     plays = false;

@@ -205,7 +205,10 @@ const formula = (parts) => {
   });
 };
 
+// Shows a text in an element, which keeps its content if the text is the same.
 const setMarkup = (element, text, asFormula) => {
+  if (element.markup === text) return element;
+  element.markup = text;
   const letters = text.replace(SLIDES, (all, name) => `#${name}{${LETTERS[name]}}`);
   element.replaceChildren(...(asFormula ? formula : prose)(parse(letters)));
   element.normalize(); // screen readers pause between text nodes

@@ -5,8 +5,13 @@ const $ = (id) => document.getElementById(id);
 const canvas = $('canvas');
 let Module, FS; // the program, and its files
 
-const typeOf = (value) => typeof value;
-const ask = (name, type, ...values) => Module.ccall(name, type, values.map(typeOf), values);
+const ask = (name, type, ...values) =>
+  Module.ccall(
+    name,
+    type,
+    values.map((value) => typeof value),
+    values,
+  );
 
 // Time of the first frame, ms, and number of frames: tests wait for them.
 const stats = { first: 0, frames: 0 };
@@ -28,6 +33,7 @@ const Page = {
   width: () => pixels(canvas.clientWidth),
   height: () => pixels(canvas.clientHeight),
   letter: () => (sheet ? 26 : pixels(bare ? 10 : 12)),
+  hasDocument: () => !bare,
   // Shows pixels at an address of the heap: the picture (card -1) or a card.
   show(heap, at, width, height, card) {
     const target = sheet?.canvas ?? (card < 0 ? canvas : $('graph' + card));
@@ -35,17 +41,13 @@ const Page = {
     if (target.width !== width || target.height !== height)
       [target.width, target.height] = [width, height];
     const bytes = new Uint8ClampedArray(heap.buffer, at, 4 * width * height);
-    target.getContext('2d').putImageData(new ImageData(bytes, width, height), 0, 0);
+    target
+      .getContext('2d', { alpha: false })
+      .putImageData(new ImageData(bytes, width, height), 0, 0);
   },
 };
 
 // ---- files ------------------------------------------------------------------
-
-const give = (name, blob) => {
-  const link = make('a', [], { href: URL.createObjectURL(blob), download: name });
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 60000);
-};
 
 // Hands complete files of the program's folder out as downloads and removes them.
 const OUT = '/out';
@@ -55,7 +57,9 @@ const download = (folder = OUT) => {
     if (name[0] === '.' || /\.part\d*$/.test(name)) continue;
     if (FS.isDir(FS.stat(path).mode)) download(path);
     else {
-      give(name, new Blob([FS.readFile(path)]));
+      const href = URL.createObjectURL(new Blob([FS.readFile(path)]));
+      make('a', [], { href, download: name }).click();
+      setTimeout(() => URL.revokeObjectURL(href), 60000);
       FS.unlink(path);
     }
   }
@@ -82,6 +86,7 @@ let line = []; // words of the command line that runs
 let bare = false;
 let shown = ''; // the last address that was read or written
 let entry = null; // page of the newest entry of the history; null: not known yet
+let looking = 0; // timer of the next updateAddress, or 0
 const decode = (word) => new URLSearchParams('=' + word.replace(/\+/g, '%2B')).get('');
 const readAddress = () => {
   shown = location.hash;
@@ -98,6 +103,7 @@ const formatAddress = (words) =>
 // Writes scene, page and changed numbers into the address.  Another page of the
 // tour is a new entry of the history, so that Back leads to the page before.
 const updateAddress = () => {
+  looking = 0;
   if (location.hash !== shown) return; // a new address was not read yet
   const words = ask('web_address', 'string').split('\n').filter(Boolean);
   if (!words.length || formatAddress(words) === shown) return;
@@ -109,17 +115,11 @@ const updateAddress = () => {
 addEventListener('hashchange', () => {
   if (location.hash !== shown) begin(readAddress());
 });
-const copyLink = () => {
-  updateAddress();
-  const copied = navigator.clipboard?.writeText(location.href);
-  copied?.then(() => say('The link to this is copied.', true)).catch(() => {});
-};
 
 // ---- the loop ---------------------------------------------------------------
 
 let timer = 0; // of the next frame, if no frame is due now
 let asked = 0; // request for the next frame, or 0
-let looked = 0; // ms, time of the last updateAddress
 let drawn = false; // the picture was drawn after texts and cards were shown
 const frame = () => {
   asked = 0;
@@ -132,14 +132,11 @@ const frame = () => {
     const more = canvas.hidden || $('said').textContent;
     return more || say('The end. Reload the page to begin again.', true);
   }
+  if (drawn && !canvas.hidden) looking ||= setTimeout(updateAddress, 500);
   if (drawn) showDocument(start);
-  if (start - looked > 500 && !canvas.hidden) {
-    looked = start;
-    updateAddress();
-  }
   if (canvas.hidden) timer = setTimeout(frame, 0);
   else if (wait <= 20) asked = requestAnimationFrame(frame);
-  else timer = setTimeout(wake, wait);
+  else if (wait < 2 ** 31 - 1) timer = setTimeout(wake, wait); // else an input wakes it
 };
 const wake = () => {
   clearTimeout(timer);
@@ -163,7 +160,6 @@ const begin = (words) => {
   entry = null;
   canvas.hidden = words.includes('--headless');
   document.body.classList.toggle('bare', bare);
-  looked = 0;
   clearTimeout(timer);
   canvas.hidden ? frame() : wake();
 };
@@ -198,7 +194,10 @@ canvas.addEventListener('keydown', (event) => {
   event.preventDefault();
   if (FOLDS[whole]) return openPart(FOLDS[whole]);
   key(whole, event.repeat);
-  if (whole === 'Y') copyLink();
+  if (whole !== 'Y') return;
+  updateAddress();
+  const copied = navigator.clipboard?.writeText(location.href);
+  copied?.then(() => say('The link to this is copied.', true)).catch(() => {});
 });
 canvas.addEventListener('blur', () => {
   if (last.clicks) tell(RELEASE, last); // a drag ends with the focus

@@ -36,7 +36,7 @@ const CUT = `(() => {
   for (const element of document.querySelectorAll(
     'h1, h2, p, summary, label, button, input, select, math, output, #bar > *, td')) {
     const box = element.getBoundingClientRect();
-    if (!box.width || element.closest('.unseen, dialog, #handout, [tabindex] > table') || element.closest('[hidden]')) continue;
+    if (!box.width || element.closest('.unseen, dialog, #handout, .cells') || element.closest('[hidden]')) continue;
     const words = element.id || element.className || element.textContent.slice(0, 30);
     if (box.left < -1 || box.right > wide + 1) wrong.push(element.localName + ' ' + words + ' beyond the window');
     if (/^(p|h1|summary|button|label|output)$/.test(element.localName) && element.clientWidth && element.scrollWidth > element.clientWidth + 1)
@@ -144,6 +144,16 @@ const tourByKeys = async (browser) => {
     if (i + 1 < PAGES.length) await tab.key('PageDown');
     await tab.until(`field('page', 2) === '${PAGES[Math.min(i + 1, PAGES.length - 1)]}'`);
   }
+  // Legends are text; a switch is a checkbox, and stands in the picture of a bare page.
+  await tab.run(`location.hash = 'landscape'`);
+  await tab.until(`field('page', 2) === 'landscape' && !drawn`);
+  const boxes = (await tree(tab)).filter(({ role }) => role === 'checkbox').length;
+  if (boxes !== 2) wrong.push(`${boxes} checkboxes`);
+  await tab.run(`location.hash = 'drop'`);
+  await tab.until(`field('page', 2) === 'drop' && !drawn`);
+  const leaves = (await tree(tab)).map(({ name }) => name);
+  for (const name of ['exact', 'kinetic', 'elastic'])
+    if (!leaves.includes(name)) wrong.push(`no ${name} in a legend`);
   // Tab reaches picture, buttons, fields and lists; the focus is seen on each.
   const reached = new Set();
   await tab.run(`turnTo = location.hash = '--lecture+${PAGES[1]}'; document.activeElement.blur()`);

@@ -217,8 +217,9 @@ const saved = async (browser) => {
       ratio,
       before: CATCH,
     });
+    const frames = await tab.run('stats.frames');
     await tab.key('0'); // what the first window says goes with the first key
-    await tab.until(`stats.frames > ${await tab.run('stats.frames')} + 1`);
+    await tab.until(`stats.frames > ${frames}`);
     await tab.run(
       `ours = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data`,
     );
@@ -242,7 +243,6 @@ const addresses = async (browser) => {
   const tab = await browser.open(at(''));
   const follows = async (key, expected) => {
     if (key) await tab.key(key);
-    await tab.run('looked = 0');
     await tab
       .until(`location.hash === '#${expected}'`, 60000)
       .catch(async () => wrong.push(`${key}: ${await tab.run('location.hash')}, not #${expected}`));
@@ -346,6 +346,21 @@ const lacking = async (browser) => {
   verdict(
     'a_tab_in_the_background_stops',
     after === frames && back > after ? [] : [`${frames}, ${after}, ${back} frames`],
+  );
+
+  // Nothing is drawn or written while the run is paused.
+  await tab.run(`wake(ask('web_obey', null, 'pause'))`);
+  await tab.until(`field('step', 2) === '1' && !drawn`);
+  await sleep(700);
+  const still = await tab.run('stats.frames');
+  await tab.run(`changes = 0; new MutationObserver((all) => (changes += all.length)).observe(
+    document.body, { subtree: true, childList: true, attributes: true, characterData: true })`);
+  await sleep(700);
+  const more = (await tab.run('stats.frames')) - still;
+  const changes = await tab.run('changes');
+  verdict(
+    'a_paused_page_makes_no_frame_and_writes_nothing',
+    more || changes ? [`${more} frames, ${changes} changes`] : [],
   );
 };
 
