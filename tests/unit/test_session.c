@@ -122,6 +122,18 @@ static void read_words(const char *verb, const char *words)
         fail_msg("%s '%s':\n%s", wanted ? "no" : "there is", words, among);
 }
 
+/* Checks a line "COUNT WORDS": how many texts have these words. */
+static void count_texts(const char *line)
+{
+    const char *words = strchr(line, ' ') + 1;
+    int count = 0;
+    write_window();
+    for (const char *at = written; (at = strstr(at, words)); count++)
+        at += strcspn(at, "\n");
+    if (count != atoi(line))
+        fail_msg("%d times '%s':\n%s", count, words, written);
+}
+
 /* The text with these words that is nearest to the mouse. */
 static int find_text(const char *words, double *distance)
 {
@@ -940,6 +952,8 @@ static void session_line(const char *line)
         check_tables(rest);
     else if (strcmp(verb, "row") == 0)
         check_row(rest);
+    else if (strcmp(verb, "times") == 0)
+        count_texts(rest);
     else if (strcmp(verb, "near") == 0)
         check_text_near(rest);
     else if (strstr("reads lacks list", verb))
