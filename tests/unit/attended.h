@@ -63,25 +63,6 @@ static inline Status obey(const char *line)
     return player_obey(&player, &command);
 }
 
-/* Obeys the commands of a list that NULL ends. */
-static inline void obey_all(const char *const *lines)
-{
-    for (; *lines; lines++)
-        CHECK_OK(obey(*lines));
-}
-
-/* Runs until it pauses by itself, as it must within some hundred steps. */
-static inline void run_until_it_pauses(void)
-{
-    if (player_is_stopped(&player))
-        CHECK_OK(obey("play"));
-    for (int i = 0; i < 3000 && !player_is_stopped(&player); i++) {
-        Status status = player_make_step(&player);
-        CHECK(!status || status_is_unconverged(status));
-    }
-    CHECK(player_is_stopped(&player));
-}
-
 static inline const PaneRun *pane_run(int pane)
 {
     return &player.past.pane[pane];

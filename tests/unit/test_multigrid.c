@@ -9,7 +9,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "model/fracture.h"
 #include "model/pull_energy.h"
 #include "solve/multigrid.h"
 #include "solve/newton_parts.h"

@@ -359,15 +359,14 @@ static void check_frame(const LecturePage *page, Simulation *simulation,
     frame_fill_texts(&content);
     see_frame(&content, paper);
     bool good = (seen.smallest + 0.5) * (large ? 35 : 55) >= height;
-    if (kind == CODE) { /* the picture and a star stay */
+    if (kind == CODE) { /* the picture and the main card stay */
         Layout beside = layout_create(&content, width, height);
-        int star = page->main_card
-                       ? picture_find_card(picture_of_scene(simulation->scene),
-                                           page->main_card)
-                       : -1;
-        CHECK(beside.stage.width > 0.3 * width);
-        CHECK(star < 0 ||
-              beside.card[star].height > 0.25 * beside.stage.height);
+        const Picture *picture = picture_of_scene(simulation->scene);
+        int card =
+            page->main_card ? picture_find_card(picture, page->main_card) : 0;
+        CHECK(beside.stage.width > 0.3 * width && card >= 0);
+        CHECK(!page->main_card ||
+              beside.card[card].height > 0.25 * beside.stage.height);
         good = good && (strcmp(page->file, "src/lecture.c") != 0 ||
                         50 * (seen.smallest_code + 0.5) > height);
     }

@@ -9,7 +9,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "model/pull_energy.h"
 #include "play/past.h"
 
 static Past past;

@@ -121,9 +121,11 @@ TEST(curves_span_what_is_known)
             CHECK_NEAR(history->time[i], 0.004 * pace * i, 1e-9);
     }
     double before = history_now()->value[1][400];
-    obey_all((const char *const[]){"goto 30", "set stiffness 2e5", NULL});
+    CHECK_OK(obey("goto 30"));
+    CHECK_OK(obey("set stiffness 2e5"));
     CHECK(history_now()->count == 31);
-    obey_all((const char *const[]){"step", "undo", NULL});
+    CHECK_OK(obey("step"));
+    CHECK_OK(obey("undo"));
     CHECK(history_now()->count == 2100 / 4 + 1);
     CHECK(history_now()->value[1][400] == before);
     end();

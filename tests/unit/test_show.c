@@ -605,20 +605,4 @@ TEST(right_digits_are_marked)
     }
 }
 
-/* Every card of every picture has a name of its own, none of them in another
- * one, and they fit. */
-TEST(cards_have_names)
-{
-    for (const Scene *scene = scenes; scene->name; scene++) {
-        const Picture *picture = picture_of_scene(scene);
-        int count = picture->count;
-        CHECK(count <= LAYOUT_CARDS);
-        for (int i = 0; i < count * count; i++)
-            CHECK((i / count == i % count) ==
-                  !!strstr(picture->cards[i / count]->name,
-                           picture->cards[i % count]->name));
-        CHECK(picture_find_card(picture, "nothing") == -1);
-    }
-}
-
 TESTS(NULL, take_down)

@@ -286,7 +286,7 @@ uint64_t hash_with_ledger(const Simulation *simulation, uint64_t hash)
     return hash;
 }
 
-int count_broken_springs(const Simulation *simulation)
+double count_broken_springs(const Simulation *simulation)
 {
     int count = 0;
     for (int s = 0; s < simulation->system.springs; s++)

@@ -120,7 +120,7 @@ double energy_now(const Simulation *simulation, int run, const char *name);
  * STATE_HASH_SEED or the hash of the pane before. */
 uint64_t hash_with_ledger(const Simulation *simulation, uint64_t hash);
 
-int count_broken_springs(const Simulation *simulation);
+double count_broken_springs(const Simulation *simulation);
 
 /* Bytes that are allocated now, where the C library counts them, else 0. */
 double heap_in_use(void);
