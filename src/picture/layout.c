@@ -110,9 +110,16 @@ static void place_settings(const SettingsRow *row, Layout *layout, bool low,
         room.x += left;
         room.width -= 2 * left;
     }
-    layout->settings =
-        place_boxes(room, low ? 1 : 3, layout_pixels(layout, SETTING_GAP),
-                    row->count, width, box);
+    int gap = layout_pixels(layout, SETTING_GAP), last = row->count - 1;
+    int fit = place_boxes(room, low ? 1 : 3, gap, row->count, width, box);
+    layout->settings = low ? row->count : fit;
+    for (; low && 0 < fit && fit <= last; fit--) { /* "+ more" is the last */
+        int end = box[fit - 1].x + box[fit - 1].width + gap;
+        box[last] = (Box){end, room.y, width[last], room.height};
+        if (end + width[last] <= room.x + room.width)
+            break;
+        box[fit - 1] = (Box){0};
+    }
     if (low)
         return;
     int more = (box[layout->settings - 1].y - room.y) / room.height;

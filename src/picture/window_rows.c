@@ -206,9 +206,10 @@ void window_rows_draw(Paper *paper, const Layout *layout,
     draw_strip(paper, layout->strip, &content->strip);
     draw_zone_ground(paper, layout->settings_row, false);
     for (int i = 0; i < layout->settings; i++)
-        draw_setting(paper, layout->setting[i], &content->settings.item[i],
-                     content->settings.selected == i,
-                     mouse->zone == ZONE_SETTING && mouse->index == i);
+        if (layout->setting[i].width > 0)
+            draw_setting(paper, layout->setting[i], &content->settings.item[i],
+                         content->settings.selected == i,
+                         mouse->zone == ZONE_SETTING && mouse->index == i);
     draw_time_line(paper, layout, content);
     draw_chips(paper, layout, content);
 }

@@ -122,7 +122,9 @@ TEST(small_windows_leave_parts_out)
     CHECK(small.chips_left_out > 0 && small.chip[small.chips - 1].width > 0);
     CHECK(small.stage.width == 400 && small.stage.height > 200);
     simulation.options.big = true;
-    CHECK(layout_create(&content, 1366, 768).settings > 3);
+    Layout big = layout_create(&content, 1366, 768);
+    CHECK(big.setting[3].width > 0 && big.setting[8].width > 0);
+    CHECK(check_boxes(big.setting, 9, big.settings_row) < 9);
     simulation.options.big = false;
     /* wider than the window: the first line */
     content.settings.item[0].letters = 400;
