@@ -148,8 +148,8 @@ struct TermKind {
     /* Frees the allocations that data points to, not data itself. */
     void (*free)(void *data);
 
-    bool diagonal; /* P is a sum of c/2 |x_i - o|^2 over nodes i, so
-                      its Hessian is a diagonal matrix */
+    bool diagonal; /* P is a sum of c/2 |x_i - o|^2 over nodes i, c > 0,
+                      so its Hessian is a diagonal matrix */
     bool internal; /* has forces that add up to 0 and do not move the centre of
                       mass */
     bool depends_on_start;    /* P depends on x_n too, so that a turn of all

@@ -19,8 +19,8 @@ Colour colour_of_run(int run)
     return colours[run < 0 ? 0 : run % 6];
 }
 
-/* The first TERMS colours are those of letters and energies; then come words
- * and methods. */
+/* The first TERMS colours are those of letters and energies: the row of a new
+ * energy raises TERMS.  Then come words and methods. */
 enum { TERMS = 21 };
 static const struct {
     const char *name;

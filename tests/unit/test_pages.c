@@ -242,6 +242,7 @@ TEST(pages_ask_what_has_an_answer)
 enum { WORDS = 512 };
 static struct {
     int smallest, smallest_code, ellipses, cut, over, outside, words;
+    char cut_words[80]; /* the last text that leaves its box */
     Box column, word[WORDS];
     char texts[1 << 15];
 } seen;
@@ -271,9 +272,12 @@ int __wrap_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
     double wide = text_extent(text, style, markup).width;
     double left = x - 0.5 * (double)align * wide;
     size_t used = strlen(seen.texts);
-    seen.cut += left < place->x - 1.5 || y < place->y - 1.5 ||
-                left + wide > place->x + place->width + 1.5 ||
-                y + style->size > place->y + place->height + 1.5;
+    if (left < place->x - 1.5 || y < place->y - 1.5 ||
+        left + wide > place->x + place->width + 1.5 ||
+        y + style->size > place->y + place->height + 1.5) {
+        seen.cut++;
+        snprintf(seen.cut_words, sizeof seen.cut_words, "%s", markup);
+    }
     snprintf(seen.texts + used, sizeof seen.texts - used, "%s ", markup);
     Box word = {(int)left + 1, (int)y, (int)wide - 2, (int)(0.4 * style->size)};
     char *end;
@@ -377,11 +381,11 @@ static void check_frame(const LecturePage *page, Simulation *simulation,
         (!cuts && seen.outside > 0))
         fail_msg(
             "page %s, step %ld, at %d x %d, %d: letters of %d, of code "
-            "%d, %d cut, %d outside, %d over others, %d beyond the axes, no "
-            "'%s'",
+            "%d, %d ends in dots, %d outside its box (%s), %d over others, %d "
+            "curves beyond the axes, no '%s'",
             page->name, simulation->steps, width, height, kind, seen.smallest,
-            seen.smallest_code, seen.ellipses, seen.cut, seen.over,
-            seen.outside, missing ? missing : "");
+            seen.smallest_code, seen.ellipses, seen.cut, seen.cut_words,
+            seen.over, seen.outside, missing ? missing : "");
 }
 
 /* On every page, as it opens and later, letters have a 55th of the height, in
@@ -428,9 +432,9 @@ TEST(scenes_keep_their_words_in_place)
             see_frame(&content, &paper);
             paper_free(&paper);
             if (seen.cut > 0 || seen.over > 0)
-                fail_msg("%s at %d x %d: %d words cut, %d over others",
+                fail_msg("%s at %d x %d: %d words cut (%s), %d over others",
                          scenes[i].name, sizes[s][0], sizes[s][1], seen.cut,
-                         seen.over);
+                         seen.cut_words, seen.over);
         }
         free_all_begun();
     }

@@ -400,7 +400,9 @@ TEST(readme_shows_what_is_drawn)
             continue;
         int far = count_far_pixels(name, line, step);
         if (far)
-            print_error("tests/data/%s.png differs\n", name);
+            print_error("tests/data/%s.png differs; if it should: make "
+                        "pictures\n",
+                        name);
         CHECK_AT_MOST(far, 0);
     }
     fclose(list);

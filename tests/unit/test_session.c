@@ -5,6 +5,7 @@
 #include "model/contact.h"
 #include "oracle.h"
 #include "picture/live_values.h"
+#include "picture/picture.h"
 #include "picture/text.h"
 
 #include <ctype.h>
@@ -516,7 +517,7 @@ static void collect_parts(void)
         fact("lit %s %d", content->chips.item[i].key,
              content->chips.item[i].lit);
     }
-    for (int c = 0; c < 8; c++)
+    for (int c = 0; c < active_picture(content)->count; c++)
         fact("card %d %s", c,
              content->cards.closed >> c & 1 ? "closed"
              : content->cards.large == c    ? "large"
