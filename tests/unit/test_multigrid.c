@@ -1,8 +1,6 @@
 /* Multigrid: what each update does to E and the certified end, against sums and
  * a solution in extended precision; the work that it takes, and the same bits
- * whatever was before.  Both solvers: the same minimum, and what a step may
- * skip, by a counter.
- */
+ * whatever was before.  (That both solvers find the same minimum: stress.) */
 #include "test.h"
 #include "stress.h"
 
