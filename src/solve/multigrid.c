@@ -13,10 +13,11 @@
  * of the shortest spring since they were computed. */
 static const double NEARBY = 0.02;
 
-/* Tiles relax from the first iteration on whose bound of p is more than STALLS
- * times the bound before.  A sweep of a tile is worth its time if it lowers E by
- * more than PACE times the last direction's decrease, divided by the number of
- * tiles. */
+/* A direction is poor if the bound of p after it is more than STALLS times the
+ * bound before.  From the first poor direction of a single V-cycle on, conjugate
+ * gradients find the directions; from the first poor one of theirs on, tiles
+ * relax, too.  A sweep of a tile is worth its time if it lowers E by more than
+ * PACE times the last direction's decrease, divided by the number of tiles. */
 static const double STALLS = 0.3, PACE = 0.15;
 
 /* Number of iterations after which Newton takes over; most steps need ten. */
@@ -45,6 +46,7 @@ struct Multigrid {
     double weight;           /* s^2, weight of P in the grid */
     bool is_conjugate;       /* p becomes conjugate to last_p: no tiles relaxed
                                 after the update along last_p */
+    bool is_slow;            /* single V-cycles have given poor directions */
     bool stalls;             /* whether tiles relax in each iteration */
     bool was_hidden;         /* rounding hid the last iteration's change of E */
 };
@@ -140,7 +142,7 @@ static Status multigrid_read_problem(Newton *newton)
     if (status)
         return status;
     Multigrid *mg = newton->multigrid;
-    mg->stalls = mg->was_hidden = mg->is_conjugate = false;
+    mg->is_slow = mg->stalls = mg->was_hidden = mg->is_conjugate = false;
     mg->largest_change = mg->size = 0;
     incremental_potential_absorb_pulls(at, m, u_tilde);
     if (mg->weight != at->E.weight || mg->version != system->version) {
@@ -173,8 +175,8 @@ static Status multigrid_find_direction(Newton *newton)
     const double h = newton->settings.h * mg->grid.length;
     const double longest = h * newton->tolerance;
     double largest;
-    if (v_cycle_solve(&mg->cycle, mg->g, mg->gradient_norm2, longest, mg->p,
-                      &largest)) {
+    if (v_cycle_solve(&mg->cycle, mg->g, mg->gradient_norm2, longest,
+                      !mg->is_slow && record->iteration > 0, mg->p, &largest)) {
         double square = grid_linear_residual(&mg->grid, mg->g, mg->p, &largest);
         newton->passes_test =
             v_cycle_passes(&mg->grid, largest, square, longest);
@@ -244,7 +246,10 @@ static Status multigrid_update_iterate(Newton *newton)
     newton->counters.iterations++;
     if (newton->passes_test)
         return STATUS_OK;
-    mg->stalls = mg->stalls || mg->p_bound > STALLS * mg->last_p_bound;
+    if (mg->p_bound > STALLS * mg->last_p_bound) {
+        mg->stalls = mg->stalls || mg->is_slow || record->iteration == 1;
+        mg->is_slow = true;
+    }
     if (mg->stalls) {
         double pace = PACE * record->change * unit / tiles;
         record->change += tiles_relax(&mg->tiles, pace) / unit;
