@@ -143,9 +143,8 @@ static Plot draw_map(const Plot *stage)
     draw_contour_map(&plot);
     if (plot.has_text && stage->content->lecture.page)
         write_levels(&plot);
-    if (elastic)
-        plot_springs(&plot, system, x, 3.5, COLOUR_REST);
-    for (int i = 1; i < system->nodes && elastic; i++)
+    plot_springs(&plot, system, x, 3.5, elastic ? COLOUR_REST : COLOUR_GRID);
+    for (int i = 1; i < system->nodes; i++)
         plot_pin(&plot, x + 2 * i, 5);
     plot_disc(&plot, exhibit->target, 6, COLOUR_X_TILDE);
     return plot;

@@ -4,6 +4,7 @@
 #include <stdio.h>
 
 #include "model/friction.h"
+#include "model/self_contact.h"
 #include "picture/colour_map.h"
 #include "picture/square_pen.h"
 
@@ -18,69 +19,84 @@ typedef struct ContactForce {
     bool slides; /* slips faster than eps_v */
 } ContactForce;
 
-/* Begins a loop over the contacts of a run. */
-static ElementIterator begin_contacts(const SquarePen *pen)
-{
-    return pen->contact ? elements_begin(&pen->contact_point, NULL, 0)
-                        : (ElementIterator){0};
-}
-
 /* Computes the force of a contact from positions and velocities alone, which
- * the past keeps of each step. */
+ * the past keeps of each step.
+ *   at        evaluation point of the contact term
+ *   friction  term of the friction at these contacts; NULL: none */
 static ContactForce compute_contact_force(const SquarePen *pen,
+                                          const EvalPoint *at,
+                                          const Term *friction,
                                           const Element *element)
 {
-    const Term *term = system_find_term(pen->system, &friction_energy);
-    const double *n = element->n, h = pen->simulation->options.timestep;
-    const ElementKind *kind = pen->contact_point.term->kind->element;
-    double push = contact_normal_force(&pen->contact->barrier, element->s);
-    double t[4], v[4], carry, rub = 0;
-    double grip = kind->friction_limit(&pen->contact_point, element, t, &carry);
+    const ElementKind *kind = at->term->kind->element;
+    double h = pen->simulation->options.timestep, g[4], t[4], v[4], carry;
+    double grip = kind->friction_limit(at, element, t, &carry), rub = 0;
     ContactForce contact = {.node = element->node[0],
-                            .has_friction = term && grip > 0};
+                            .has_friction = friction && grip > 0};
+    kind->gradient(at, element, g);
     if (contact.has_friction) {
-        double speed = ((const Friction *)term->data)->slip_speed;
+        double speed = ((const Friction *)friction->data)->slip_speed;
+        double slip = -carry;
         element_vectors(element, pen->v, v);
-        double slip = t[0] * v[0] + t[1] * v[1] - carry;
+        for (int i = 0; i < 2 * element->vectors; i++)
+            slip += t[i] * v[i];
         rub = -grip * friction_slope(slip * h, speed * h);
         contact.slides = fabs(slip) >= speed;
     }
     for (int c = 0; c < 2; c++)
-        contact.force[c] = push * n[c] + rub * t[c];
+        contact.force[c] = rub * t[c] - g[c];
     return contact;
+}
+
+/* Draws the contact forces of one kind on the nodes of a run.
+ *   factor  m/N, length of an arrow over its force; 0: draws nothing
+ *   most    N, in and out, the largest force so far */
+static void draw_contact_term(const SquarePen *pen, bool between_bodies,
+                              double factor, double *most)
+{
+    const System *system = pen->system;
+    EvalPoint at = eval_point_at(system, NULL, NULL, pen->x);
+    at.term = system_find_term(system, between_bodies ? &self_contact_energy
+                                                      : &contact_energy);
+    const Term *friction = system_find_term(
+        system, between_bodies ? &self_friction_energy : &friction_energy);
+    if (!at.term)
+        return;
+    for (ElementIterator walk = elements_begin(&at, NULL, 0);
+         elements_next(&walk);) {
+        ContactForce contact =
+            compute_contact_force(pen, &at, friction, &walk.element);
+        const double *x = pen->x + 2 * contact.node, *f = contact.force;
+        double radius = fmax(pen->radius, 2), size = vector_length(f);
+        *most = fmax(*most, size);
+        if (factor == 0)
+            continue;
+        if (size > MIN_FORCE * *most)
+            plot_arrow(pen->stage, point_along(x, -factor, f).at, f, factor,
+                       1.8, COLOUR_FORCE);
+        if (contact.has_friction && contact.slides)
+            plot_ring(pen->stage, x, 1.6 * radius, 1.5, COLOUR_FORCE);
+        else if (contact.has_friction)
+            plot_disc(pen->stage, x, 1.4 * radius, COLOUR_FORCE);
+    }
 }
 
 void square_draw_forces(const SquarePen *pen, int runs)
 {
     Plot *stage = pen->stage;
     double most = 0; /* N, the largest force */
-    for (int r = 0; r < runs; r++)
-        for (ElementIterator at = begin_contacts(&pen[r]);
-             elements_next(&at);) {
-            ContactForce contact = compute_contact_force(&pen[r], &at.element);
-            most = fmax(most, vector_length(contact.force));
-        }
+    for (int i = 0; i < 2 * runs; i++)
+        draw_contact_term(&pen[i / 2], i % 2, 0, &most);
     if (most == 0 || !isfinite(most))
         return;
     double round = plot_round_up(most);
     double factor = FORCE_ARROW * stage->em / stage->camera.scale[0] / round;
-    for (int r = runs - 1; r >= 0; r--)
-        for (ElementIterator at = begin_contacts(&pen[r]);
-             elements_next(&at);) {
-            ContactForce contact = compute_contact_force(&pen[r], &at.element);
-            const double *x = pen[r].x + 2 * contact.node, *f = contact.force;
-            double radius = fmax(pen[r].radius, 2);
-            if (vector_length(f) > MIN_FORCE * most)
-                plot_arrow(stage, point_along(x, -factor, f).at, f, factor, 1.8,
-                           COLOUR_FORCE);
-            if (contact.has_friction && contact.slides)
-                plot_ring(stage, x, 1.6 * radius, 1.5, COLOUR_FORCE);
-            else if (contact.has_friction)
-                plot_disc(stage, x, 1.4 * radius, COLOUR_FORCE);
-        }
+    for (int i = 2 * runs - 1; i >= 0; i--)
+        draw_contact_term(&pen[i / 2], i % 2, factor, &most);
     plot_legend(stage, COLOUR_FORCE, "contact force \u2264 %s N",
                 format_number(round).text);
-    if (system_find_term(pen->system, &friction_energy))
+    if (system_find_term(pen->system, &friction_energy) ||
+        system_find_term(pen->system, &self_friction_energy))
         plot_legend(stage, COLOUR_FORCE, "\u25cf sticks   \u25cb slides");
 }
 

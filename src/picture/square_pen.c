@@ -68,8 +68,6 @@ SquarePen square_pen_create(Plot *stage, int run)
         if (!system->pinned[i])
             pen.fixed_bodies &= ~(1u << square_mesh_locate_body(mesh, &node));
     }
-    pen.contact_point = eval_point_at(system, NULL, NULL, pen.x);
-    pen.contact_point.term = system_find_term(system, &contact_energy);
     pen.width = fmin(fmax(0.06 * pen.spacing / unit, 1.1), 1.9);
     pen.width = fmax(1 / unit, pen.width);
     pen.radius = NODE_RADIUS * pen.spacing / unit;

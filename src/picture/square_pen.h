@@ -25,7 +25,6 @@ typedef struct SquarePen {
     bool shows_plastic;     /* colours show plastic strain */
     const double *ep;       /* [springs] plastic strain; NULL: no plasticity */
     const Contact *contact; /* NULL: the scene has no contact */
-    EvalPoint contact_point; /* evaluation point of the contact term */
     bool shows_projected;   /* springs with a projected block are coloured */
     unsigned fixed_bodies;  /* bit b: body b is pinned everywhere and drawn like
                                a wall; 0 for a single body */

@@ -93,7 +93,7 @@ static Status finish_step(Simulation *simulation, Status status)
 }
 
 /* Books the energy that backward Euler has gained in a step of the present run.
- * A gain below 1e-9 of all energies is due to rounding and the tolerance. */
+ * A gain below 1e-8 of all energies is due to rounding and the tolerance. */
 static void book_gain(Simulation *simulation)
 {
     int run = simulation->stepping;
@@ -103,7 +103,7 @@ static void book_gain(Simulation *simulation)
     bool backward_euler = simulation->run[run].method->ends_at_minimiser;
     for (int i = 1; i < now.rows; i++)
         abs_sum += fabs(now.row[i].value);
-    if (!backward_euler || !(gained > 1e-9 * abs_sum))
+    if (!backward_euler || !(gained > 1e-8 * abs_sum))
         return;
     simulation->ledger[run].gain.steps++;
     simulation->ledger[run].gain.energy += gained;
