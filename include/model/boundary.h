@@ -51,7 +51,7 @@ typedef struct Boundary {
     bool sorts_by_y;  /* whether coordinate 0 of the boxes is y */
     bool lists_near;  /* whether `near` had room for all near edges */
     int *near;        /* [8 nodes] near edges, point by point */
-    int *near_end;    /* [nodes] end of each point's edges in `near` */
+    int *near_list_end; /* [nodes] end of each point's edges in `near` */
 } Boundary;
 
 /* Bytes that boundary_place_arrays needs for its arrays. */

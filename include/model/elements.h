@@ -38,7 +38,8 @@ typedef struct Element {
     double n[2], r; /* further numbers, explained at each TermKind */
 } Element;
 
-/* Computes a and b, or their change along a direction.
+/* Computes the element's vectors a and b, which are weighted sums of its nodes'
+ * positions, or their change along a direction.
  *   x  [2n] m, in, positions or a direction
  *   v  [4] m, out, a and b */
 static inline void element_vectors(const Element *element, const double *x,

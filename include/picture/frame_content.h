@@ -226,14 +226,14 @@ typedef struct CardSets {
     unsigned closed;  /* cards of which only the title is drawn */
     unsigned hidden;  /* cards that the picture or the page leaves out */
     unsigned covered; /* cards whose content is not drawn before a guess */
-    int large;        /* index of the card that fills the column; -1: none */
+    int enlarged;     /* index of the card that fills the column; -1: none */
 } CardSets;
 
 /* A row of a list: a key or a number, and what it does. */
 typedef struct ListRow {
     char key[VALUE_SIZE], text[SENTENCE_SIZE];
     bool grey; /* is grey: a key without effect now, or an extra page */
-    bool head; /* is a heading, without a key */
+    bool is_heading; /* is a heading, without a key */
 } ListRow;
 
 typedef struct List {
@@ -334,9 +334,10 @@ long frame_find_step(const FrameContent *content, const Layout *layout,
 
 /* ---- live values --------------------------------------------------------- */
 
-/* If the simulation shows a page of the lecture, adds the page's topic and
- * hidden cards.  Fills the list of pages or letters if the column shows it.
- * Must come before frame_fill_texts.
+/* If the simulation shows a page of the lecture, adds the page's topic and the
+ * cards that are covered before the guess.  If the column shows a list (of
+ * pages, or of the formulas' letters), fills it.  Must come before
+ * frame_fill_texts.
  *   column  in, contents that the user chose; COLUMN_CODE exists only on a page
  *   left    in, page that was last open, which the list marks; or NULL */
 void frame_add_lecture(Column column, const struct LecturePage *left,

@@ -141,7 +141,7 @@ typedef struct Screen {
     bool bare;           /* the picture is shown without texts and cards */
     bool blank;          /* a black screen is shown */
     unsigned toggled_cards; /* bit c: card c was opened or closed by the user */
-    int large;           /* index of the enlarged card; -1: none */
+    int enlarged_card;      /* index of the enlarged card; -1: none */
     View view;
     Frame frame;
 } Screen;
@@ -259,9 +259,8 @@ enum ExitCode {
 
 /* Returns the index, from i on, of the next word of the command line that
  * decides what is simulated, not how long it runs or what it writes; 0: no
- * such word.  A loop: for (i = 0; (i = player_next_argument(player, i + 1));)
- */
-int player_next_argument(const Player *player, int i);
+ * such word.  The caller loops from i = 0 with i + 1 until it returns 0. */
+int player_next_scene_argument(const Player *player, int i);
 
 /* Reads the command line; prints --help, --version or a list, or creates the
  * player.  Prints a failure as one line on standard error.

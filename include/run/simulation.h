@@ -41,7 +41,7 @@ struct Simulation {
     const Scene *scene;
     Options options;
     SquareMesh mesh; /* mesh of the square; zero in other scenes */
-    System system;                    /* system of run 0 or of all runs */
+    System system;   /* system of run 0, which all runs may share */
     System more[SIMULATION_MAX_RUNS]; /* systems of runs 1 and 2 if each run has
                                          a system of its own */
     int runs;

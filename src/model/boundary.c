@@ -26,8 +26,8 @@ void boundary_place_arrays(const SquareMesh *mesh, void *bytes,
     boundary->edge_box = (Box2 *)(boundary->p + 2 * nodes);
     boundary->point_box = boundary->edge_box + springs;
     boundary->point = (int *)(boundary->point_box + nodes);
-    boundary->near_end = boundary->point + nodes;
-    boundary->near = boundary->near_end + nodes;
+    boundary->near_list_end = boundary->point + nodes;
+    boundary->near = boundary->near_list_end + nodes;
     boundary->sides = (unsigned char *)(boundary->near + NEAR_PER_NODE * nodes);
     boundary->role = boundary->sides + springs;
 }
@@ -201,7 +201,7 @@ void boundary_update(Boundary *boundary, const System *system, const double *x,
         while ((edge = search_next_edge(boundary, system, i, &place)) >= 0 &&
                count < room)
             boundary->near[count++] = edge;
-        boundary->near_end[i] = count;
+        boundary->near_list_end[i] = count;
         boundary->lists_near = edge < 0;
     }
 }
@@ -211,8 +211,8 @@ int boundary_next_edge(const Boundary *boundary, const System *system, int i,
 {
     if (!boundary->lists_near)
         return search_next_edge(boundary, system, i, place);
-    int first = i > 0 ? boundary->near_end[i - 1] : 0;
+    int first = i > 0 ? boundary->near_list_end[i - 1] : 0;
     int k = *place > 0 ? *place : first;
-    *place = k < boundary->near_end[i] ? k + 1 : 0;
+    *place = k < boundary->near_list_end[i] ? k + 1 : 0;
     return *place > 0 ? boundary->near[k] : -1;
 }

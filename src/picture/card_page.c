@@ -5,26 +5,26 @@
 #include "picture/cards.h"
 #include "picture/colour_map.h"
 
-/* A text of the card, with a head on its left side. */
+/* A text of the card, with a heading on its left side. */
 typedef struct PageText {
-    const char *head; /* word in bold letters at the left, or NULL */
-    const char *text; /* a text of live_values.h, or NULL */
-    Colour colour;    /* colour of the head */
+    const char *heading; /* word in bold letters at the left, or NULL */
+    const char *text;    /* a text of live_values.h, or NULL */
+    Colour colour;       /* colour of the heading */
     double size;      /* size of the letters, times LETTERS */
 } PageText;
 
 static const double LETTERS = 1.2;  /* ems, usual size of a page's letters */
 static const double SMALLEST = 0.9; /* ems, least size of a page's letters */
 /* Sizes over that of the letters: letters of a verdict and of a formula, width
- * of the head of a text and of the head "Tested". */
-static const double VERDICT_SIZE = 1.5, FORMULA_SIZE = 1.25, HEAD_WIDTH = 3.2,
-                    TESTED_WIDTH = 4.4;
+ * of the heading of a text and of the heading "Tested". */
+static const double VERDICT_SIZE = 1.5, FORMULA_SIZE = 1.25,
+                    HEADING_WIDTH = 3.2, TESTED_WIDTH = 4.4;
 static const double GAP = 0.35; /* gap between two texts, in line heights */
 
-/* Draws a text with its head, or only measures the text.
+/* Draws a text with its heading, or only measures the text.
  *   y     pixels, top of the text
  *   size  ems, size of the page's letters
- *   room  width for the head, in sizes of a letter
+ *   room  width for the heading, in sizes of a letter
  * Returns the top of the next text. */
 static int lay_out_text(Paper *paper, Box inside, int y, double size,
                         double room, const PageText *words,
@@ -33,7 +33,7 @@ static int lay_out_text(Paper *paper, Box inside, int y, double size,
     double letters = size * words->size, em = letters * paper->em;
     Box box = {inside.x, y, inside.width, 0};
     TextLine line = text_begin(&active_pane(content)->values, words->text);
-    if (words->head) {
+    if (words->heading) {
         int width = paper_pixels(paper, room * size);
         box.x += width;
         box.width -= width;
@@ -46,9 +46,9 @@ static int lay_out_text(Paper *paper, Box inside, int y, double size,
                 paper_write_paragraph(paper, FACE_REGULAR, letters, COLOUR_TEXT,
                                       box, draw ? lines : 0, line.words);
     }
-    if (draw && words->head && box.y > y)
+    if (draw && words->heading && box.y > y)
         paper_write(paper, FACE_BOLD, size, words->colour, inside.x, y,
-                    ALIGN_LEFT, "%s", words->head);
+                    ALIGN_LEFT, "%s", words->heading);
     return box.y +
            (box.y > y ? (int)(GAP * text_line_height(size * paper->em)) : 0);
 }
@@ -77,8 +77,8 @@ static int lay_out_page(Paper *paper, Box inside, double size, bool brief,
         {asks ? "How" : "Try", asks ? how : page->touch, COLOUR_HAND, 1}};
     int y = inside.y;
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
-        y = lay_out_text(paper, inside, y, size, HEAD_WIDTH, &words[i], content,
-                         draw);
+        y = lay_out_text(paper, inside, y, size, HEADING_WIDTH, &words[i],
+                         content, draw);
     return y - (int)(GAP * text_line_height(size * paper->em)) - inside.y;
 }
 

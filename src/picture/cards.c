@@ -94,7 +94,7 @@ static void draw_list(Paper *paper, Box inside, const List *list)
     for (int i = 0; i < list->rows; i++) {
         const ListRow *row = &list->row[i];
         char text[SENTENCE_SIZE];
-        int before = row->head ? 0 : (int)key;
+        int before = row->is_heading ? 0 : (int)key;
         double x = inside.x + i / grid.rows * wide;
         double y = inside.y + i % grid.rows * grid.row_height;
         Box room = {(int)x + before, (int)y, (int)(wide - before - 0.5 * em),
@@ -104,8 +104,8 @@ static void draw_list(Paper *paper, Box inside, const List *list)
                       text, sizeof text);
         paper_write(paper, FACE_BOLD, size, COLOUR_TEXT, x, y, ALIGN_LEFT, "%s",
                     row->key);
-        paper_write_in_box(paper, row->head ? FACE_BOLD : FACE_REGULAR, size,
-                           row->grey ? COLOUR_GREY : COLOUR_TEXT, room,
+        paper_write_in_box(paper, row->is_heading ? FACE_BOLD : FACE_REGULAR,
+                           size, row->grey ? COLOUR_GREY : COLOUR_TEXT, room,
                            ALIGN_LEFT, text);
     }
 }

@@ -55,8 +55,10 @@ static void find_hidden_cards(const Simulation *simulation, unsigned *hidden,
 void frame_create(const Simulation *simulation, FrameContent *content)
 {
     static const View whole = {.lens = {1, {0, 0}}};
-    *content = (FrameContent){
-        .panes = 1, .view = &whole, .settings.selected = -1, .cards.large = -1};
+    *content = (FrameContent){.panes = 1,
+                              .view = &whole,
+                              .settings.selected = -1,
+                              .cards.enlarged = -1};
     content->pane[0].simulation = simulation;
     find_hidden_cards(simulation, &content->cards.hidden,
                       &content->cards.closed);

@@ -43,7 +43,7 @@ enum { MOST_ROWS = 30 };
 static const double EM_HEIGHT = 800, EM_WIDTH = 1000, EM_PIXELS = 14,
                     MIN_EM = 9;
 
-static int layout_pixels(const Layout *layout, double ems)
+static int ems_to_pixels(const Layout *layout, double ems)
 {
     return (int)floor(ems * layout->em + 0.5);
 }
@@ -91,17 +91,17 @@ static int count_letters(const char *text)
 static void place_settings(const SettingsRow *row, Layout *layout, bool low,
                            Box *rest)
 {
-    int width[LAYOUT_SETTINGS] = {0}, left = layout_pixels(layout, GAP + 0.5);
+    int width[LAYOUT_SETTINGS] = {0}, left = ems_to_pixels(layout, GAP + 0.5);
     for (int i = 0; i < row->count; i++) {
         const Setting *setting = &row->item[i];
         int value = count_letters(setting->value);
         value = value > setting->letters ? value : setting->letters;
         value += count_letters(setting->name) + 1;
-        width[i] = layout_pixels(layout, value * LETTER + 0.6);
+        width[i] = ems_to_pixels(layout, value * LETTER + 0.6);
     }
-    Box room = {left, layout_pixels(layout, 0.2),
-                layout->width - layout_pixels(layout, GAP) - left,
-                layout_pixels(layout, SETTINGS - 0.4)};
+    Box room = {left, ems_to_pixels(layout, 0.2),
+                layout->width - ems_to_pixels(layout, GAP) - left,
+                ems_to_pixels(layout, SETTINGS - 0.4)};
     Box *box = layout->setting;
     if (low) {
         room = box_cut_off(&layout->time_line, EDGE_RIGHT,
@@ -110,7 +110,7 @@ static void place_settings(const SettingsRow *row, Layout *layout, bool low,
         room.x += left;
         room.width -= 2 * left;
     }
-    int gap = layout_pixels(layout, SETTING_GAP), last = row->count - 1;
+    int gap = ems_to_pixels(layout, SETTING_GAP), last = row->count - 1;
     int fit = place_boxes(room, low ? 1 : 3, gap, row->count, width, box);
     layout->settings = low ? row->count : fit;
     for (; low && 0 < fit && fit <= last; fit--) { /* "+ more" is the last */
@@ -125,7 +125,7 @@ static void place_settings(const SettingsRow *row, Layout *layout, bool low,
     int more = (box[layout->settings - 1].y - room.y) / room.height;
     layout->settings_row =
         box_cut_off(rest, EDGE_BOTTOM,
-                    layout_pixels(layout, SETTINGS + more * (SETTINGS - 0.4)));
+                    ems_to_pixels(layout, SETTINGS + more * (SETTINGS - 0.4)));
     for (int i = 0; i < layout->settings; i++)
         box[i].y += layout->settings_row.y;
 }
@@ -134,17 +134,17 @@ static void place_settings(const SettingsRow *row, Layout *layout, bool low,
  * keys. */
 static void place_chips(const ChipRow *chips, bool lecture, Layout *layout)
 {
-    int gap = layout_pixels(layout, 0.6), last = chips->count - 1;
+    int gap = ems_to_pixels(layout, 0.6), last = chips->count - 1;
     int width[LAYOUT_CHIPS];
-    Box room = box_inset(layout->chip_row, layout_pixels(layout, 0.35)), *box;
+    Box room = box_inset(layout->chip_row, ems_to_pixels(layout, 0.35)), *box;
     for (int i = 0; i <= last; i++) {
         double letters = BOLD * count_letters(chips->item[i].key) +
                          count_letters(chips->item[i].label) +
                          (lecture ? 2 : 1);
         width[i] =
-            layout_pixels(layout, letters * LETTER * 0.92 + CHIP_PADDING);
+            ems_to_pixels(layout, letters * LETTER * 0.92 + CHIP_PADDING);
     }
-    room.x = layout_pixels(layout, GAP);
+    room.x = ems_to_pixels(layout, GAP);
     room.width = layout->width - 2 * room.x - width[last] - gap;
     int fit = place_boxes(room, 1, gap, last, width, layout->chip);
     box = &layout->chip[last];
@@ -166,25 +166,25 @@ static Box place_zones(const FrameContent *content, Layout *layout)
     if (content->bare || high < 16)
         return rest;
     layout->strip = box_cut_off(&rest, EDGE_TOP,
-                                layout_pixels(layout, roomy ? STRIP : 2.2));
+                                ems_to_pixels(layout, roomy ? STRIP : 2.2));
     if (high >= 20)
         layout->chip_row = box_cut_off(
-            &rest, EDGE_BOTTOM, layout_pixels(layout, roomy ? CHIPS : 2.5));
+            &rest, EDGE_BOTTOM, ems_to_pixels(layout, roomy ? CHIPS : 2.5));
     if (layout->chip_row.width > 0 && content->chips.count > 0)
         place_chips(&content->chips, lecture, layout);
     if (content->sheet.cells > 0)
         return rest;
     layout->time_line = box_cut_off(
-        &rest, EDGE_BOTTOM, layout_pixels(layout, roomy ? TIME_LINE : 2));
+        &rest, EDGE_BOTTOM, ems_to_pixels(layout, roomy ? TIME_LINE : 2));
     if (content->settings.count > 0 && (roomy || lecture || big))
         place_settings(&content->settings, layout, !roomy, &rest);
     *bars = layout->time_line;
-    bars->x += layout_pixels(layout, GAP);
-    bars->width -= 2 * layout_pixels(layout, GAP);
+    bars->x += ems_to_pixels(layout, GAP);
+    bars->width -= 2 * ems_to_pixels(layout, GAP);
     if (roomy) {
-        bars->height = layout_pixels(layout, BARS);
+        bars->height = ems_to_pixels(layout, BARS);
         bars->y += layout->time_line.height - bars->height -
-                   layout_pixels(layout, 0.5);
+                   ems_to_pixels(layout, 0.5);
     }
     if (bars->width < 1)
         bars->width = 1;
@@ -241,10 +241,10 @@ static int find_card_rows(const FrameContent *content, double wide, double em,
     const Picture *picture = active_picture(content);
     const CardSets *sets = &content->cards;
     int count = 0, cards = picture->count, before = -2;
-    bool large = sets->large >= 0 && sets->large < cards;
+    bool large = sets->enlarged >= 0 && sets->enlarged < cards;
     for (int i = 0; i < cards; i++) {
         const Card *card = picture->cards[i];
-        bool bar = sets->closed >> i & 1 || (large && i != sets->large);
+        bool bar = sets->closed >> i & 1 || (large && i != sets->enlarged);
         bool half = card->half_width ||
                     (card->half_width_on_page && content->lecture.page);
         if (sets->hidden >> i & 1 || main_card_is_below(content, i) ||
@@ -269,9 +269,9 @@ static int find_card_rows(const FrameContent *content, double wide, double em,
 static void place_cards(const FrameContent *content, Layout *layout)
 {
     CardRow rows[LAYOUT_CARDS];
-    int gap = layout_pixels(layout, GAP * 0.75),
-        bar = layout_pixels(layout, TITLE_BAR);
-    Box rest = box_inset(layout->column, layout_pixels(layout, GAP));
+    int gap = ems_to_pixels(layout, GAP * 0.75),
+        bar = ems_to_pixels(layout, TITLE_BAR);
+    Box rest = box_inset(layout->column, ems_to_pixels(layout, GAP));
     bool pairs = layout->column.width >= MIN_PAIR * layout->em;
     double wide = card_inner_box(rest, layout->em).width / layout->em;
     int count = find_card_rows(content, wide, layout->em, pairs, rows),
@@ -297,7 +297,7 @@ static void place_cards(const FrameContent *content, Layout *layout)
         const CardRow *row = &rows[i];
         double high = row->min_height * (least > room ? room / least : 1) +
                       row->weight * fmax(room - least, 0) / weights;
-        int height = layout_pixels(layout, high);
+        int height = ems_to_pixels(layout, high);
         Box box = box_cut_off(&rest, EDGE_TOP,
                               row->closed || height < bar ? bar : height);
         box_cut_off(&rest, EDGE_TOP, gap);
@@ -310,7 +310,7 @@ static void place_cards(const FrameContent *content, Layout *layout)
 /* Places the panes in the number of columns that gives the largest panes. */
 static void place_panes(int count, Layout *layout)
 {
-    int columns = 1, gap = layout_pixels(layout, 0.15);
+    int columns = 1, gap = ems_to_pixels(layout, 0.15);
     double best = 0;
     for (int c = 1; c <= count; c++) { /* the larger square wins */
         int rows = (count + c - 1) / c;
@@ -338,7 +338,7 @@ static void place_panes(int count, Layout *layout)
 static int place_cells(const FrameContent *content, Layout *layout, int columns,
                        int side)
 {
-    int gap = layout_pixels(layout, GAP), name = layout_pixels(layout, NAME),
+    int gap = ems_to_pixels(layout, GAP), name = ems_to_pixels(layout, NAME),
         column = 0;
     int left = (layout->stage.width - columns * (side + gap) + gap) / 2, y = 0;
     for (int i = 0; i < content->sheet.cells; i++) {
@@ -347,7 +347,7 @@ static int place_cells(const FrameContent *content, Layout *layout, int columns,
             y += side + name;
             column = 0;
         }
-        y += heads ? layout_pixels(layout, HEADING) : 0;
+        y += heads ? ems_to_pixels(layout, HEADING) : 0;
         layout->cell[i] = (Box){layout->stage.x + left + column * (side + gap),
                                 layout->stage.y + y, side, side + name};
         column++;
@@ -360,7 +360,7 @@ static int place_cells(const FrameContent *content, Layout *layout, int columns,
  */
 static void place_overview(const FrameContent *content, Layout *layout)
 {
-    int gap = layout_pixels(layout, GAP), best = 0, wide = 1;
+    int gap = ems_to_pixels(layout, GAP), best = 0, wide = 1;
     for (int columns = 1; columns <= content->sheet.cells; columns++) {
         int least = place_cells(content, layout, columns, 0);
         int rows = place_cells(content, layout, columns, 1) - least;
@@ -380,7 +380,7 @@ static void place_overview(const FrameContent *content, Layout *layout)
 static void place_card_below(Layout *layout, int card, double high)
 {
     Box box = box_cut_off(&layout->stage, EDGE_BOTTOM, (int)high);
-    layout->card[card] = box_inset(box, layout_pixels(layout, GAP));
+    layout->card[card] = box_inset(box, ems_to_pixels(layout, GAP));
     place_panes(layout->panes, layout);
 }
 
@@ -397,7 +397,7 @@ static void place_main_card(const FrameContent *content, Layout *layout)
     if (main_card < 0 || main_card >= layout->cards || layout->panes != 1 ||
         layout->stage.height < 2 * bar ||
         content->cards.closed >> main_card & 1 ||
-        (content->cards.large >= 0 && content->cards.large != main_card))
+        (content->cards.enlarged >= 0 && content->cards.enlarged != main_card))
         return;
     Box *stage = &layout->pane[0], place = layout->card[main_card];
     if (main_card_is_below(content, main_card)) {
@@ -420,7 +420,7 @@ static void place_main_card(const FrameContent *content, Layout *layout)
         place = box_cut_off(
             stage, EDGE_BOTTOM,
             (int)((beside ? PICTURE_BELOW : PICTURE_PART) * stage->height));
-    layout->card[main_card] = box_inset(*stage, layout_pixels(layout, GAP));
+    layout->card[main_card] = box_inset(*stage, ems_to_pixels(layout, GAP));
     *stage = place;
 }
 
@@ -433,7 +433,7 @@ static void place_card_without_room(const FrameContent *content, Layout *layout)
 {
     const Simulation *simulation = active_pane(content)->simulation;
     const Options *options = &simulation->options;
-    int bar = layout_pixels(layout, TITLE_BAR), folded = 1;
+    int bar = ems_to_pixels(layout, TITLE_BAR), folded = 1;
     unsigned shut = content->cards.closed | content->cards.hidden;
     while (folded < layout->cards &&
            (shut >> folded & 1 ||
@@ -441,7 +441,7 @@ static void place_card_without_room(const FrameContent *content, Layout *layout)
         folded++;
     bool big = options->big;
     if (!content->lecture.page || options->main_card ||
-        content->cards.large >= 0 || folded >= layout->cards ||
+        content->cards.enlarged >= 0 || folded >= layout->cards ||
         (!big && ((options->law && !layout->has_list) || layout->panes != 1 ||
                   simulation->scene->switch_labels[layout->has_list])))
         return;
@@ -489,7 +489,7 @@ Layout layout_create(const FrameContent *content, int width, int height)
                 fmin(fmax(code_needed_width(content->lecture.page), ems), most);
         else if (page && content->list.rows > MOST_ROWS)
             ems = most;
-        int column = layout_pixels(&layout, ems);
+        int column = ems_to_pixels(&layout, ems);
         layout.column = layout.stage;
         layout.column.width = column;
         layout.column.x += layout.stage.width - column;
@@ -511,8 +511,8 @@ Layout layout_create(const FrameContent *content, int width, int height)
 Box layout_close_box(const Layout *layout, int card)
 {
     Box box = card >= 0 ? layout->card[card]
-                        : box_inset(layout->column, layout_pixels(layout, GAP));
-    int side = layout_pixels(layout, TITLE_BAR);
+                        : box_inset(layout->column, ems_to_pixels(layout, GAP));
+    int side = ems_to_pixels(layout, TITLE_BAR);
     return (Box){box.x + box.width - side, box.y, side,
                  box.height < side ? box.height : side};
 }

@@ -1,4 +1,5 @@
-/* lecture_show.c - the lists of pages and letters, and what a page shows
+/* lecture_show.c - the list of pages, the list of the formulas'
+ * letters, and what a page shows
  * besides its scene. */
 #include <stdio.h>
 #include <string.h>
@@ -24,7 +25,7 @@ static void list_pages(const LecturePage *marked, FrameContent *content)
     for (const LecturePage *page = lecture_pages;
          page->name && row < content->list.row + LAYOUT_ROWS - 1; page++) {
         if (page->section) {
-            *row = (ListRow){.head = true};
+            *row = (ListRow){.is_heading = true};
             snprintf((row++)->text, SENTENCE_SIZE, "%s", page->section);
         }
         *row = (ListRow){.grey = page->extra};

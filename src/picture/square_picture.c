@@ -653,8 +653,9 @@ int find_newest_spring(const Simulation *simulation)
     return simulation->steps < last ? (int)simulation->steps : last;
 }
 
-/* Adds h^2 times the block [[H, -H], [-H, H]] of the newest spring, kg, and the
- * rows of this block in the whole matrix. */
+/* For the spring of the present step adds h^2 H, kg, H projected, as entries
+ * xx, xy and yy, and the numbers of the four rows that its block [[H, -H], [-H,
+ * H]] has in the whole matrix. */
 static void add_block_values(const Simulation *simulation, LiveValues *values)
 {
     static const char *const names[] = {"Bxx", "Bxy", "Byy"};

@@ -326,7 +326,7 @@ static void fill_frame(const Player *player, Frame *frame)
     content->time_line.bar_data = player;
     content->time_line.step = past->step;
     content->strip.is_warning = player->warning;
-    content->cards.large = player->screen.large;
+    content->cards.enlarged = player->screen.enlarged_card;
     content->shows_strain =
         player->screen.strain !=
         (content->pane[0].simulation->scene->strain_colour_max > 0);

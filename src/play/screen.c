@@ -144,7 +144,8 @@ Status obey_card(Player *player, const Command *command)
     if (command->kind == COMMAND_CARD || closed)
         player->screen.toggled_cards ^= 1u << card;
     else
-        player->screen.large = player->screen.large == card ? -1 : card;
+        player->screen.enlarged_card =
+            player->screen.enlarged_card == card ? -1 : card;
     return STATUS_OK;
 }
 

@@ -12,7 +12,7 @@ enum {
     CELL_PAUSE = 24  /* frames between two steps in scenes without time */
 };
 
-/* s, time of a frame for steps of the scenes */
+/* s, computing time in a frame for the steps of all scenes together */
 static const double STEP_TIME = 0.008;
 
 /* The first cell shows the pages of the tour in turn, each other cell a scene.

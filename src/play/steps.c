@@ -128,7 +128,7 @@ static void enter_scene(Player *player)
     player->time.speed = player_initial_speed(player, options);
     player->screen.view.lens = LENS_FITS;
     player->screen.toggled_cards = 0;
-    player->screen.large = -1;
+    player->screen.enlarged_card = -1;
     player_deselect(player);
     player->screen.view.hover = (Pick){.kind = PICK_NONE};
     player->hands.mouse.drag = COMMAND_NONE;

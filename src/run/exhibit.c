@@ -72,7 +72,8 @@ int exhibit_list_switches(const Simulation *simulation,
     const char *const *label =
         has_kinds ? kinds : simulation->scene->switch_labels;
     const Options *options = &simulation->options;
-    /* Where N shortens a spring, switches show only if a page flips some. */
+    /* On pages where the key N shortens a spring (NEXT_NEARER), switches are
+     * listed only if the page itself turns one over. */
     bool none = options->next == NEXT_NEARER && !options->flips;
     int count = 0;
     for (; !none && count < SCENE_MAX_SWITCHES && label[count]; count++)

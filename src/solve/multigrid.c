@@ -48,7 +48,7 @@ struct Multigrid {
                                 after the update along last_p */
     bool is_slow;            /* single V-cycles have given poor directions */
     bool stalls;             /* whether tiles relax in each iteration */
-    bool was_hidden;         /* rounding hid the last iteration's change of E */
+    bool change_was_hidden;  /* rounding hid the last iteration's change of E */
 };
 
 Status multigrid_create(int segments, Multigrid **multigrid)
@@ -142,7 +142,7 @@ static Status multigrid_read_problem(Newton *newton)
     if (status)
         return status;
     Multigrid *mg = newton->multigrid;
-    mg->is_slow = mg->stalls = mg->was_hidden = mg->is_conjugate = false;
+    mg->is_slow = mg->stalls = mg->change_was_hidden = mg->is_conjugate = false;
     mg->largest_change = mg->size = 0;
     incremental_potential_absorb_pulls(at, m, u_tilde);
     if (mg->weight != at->E.weight || mg->version != system->version) {
@@ -290,12 +290,12 @@ static Status multigrid_test_iterate(Newton *newton, Status status)
     if (ends && status != STATUS_NOT_FINITE)
         return STATUS_OK;
     bool hidden = small && is_below_roundoff(newton, record->change);
-    if (stuck || (hidden && mg->was_hidden)) {
+    if (stuck || (hidden && mg->change_was_hidden)) {
         newton->active_solver = SOLVER_NEWTON;
         newton->rounding.E = NAN;
         newton->counters.handed_over++;
     }
-    mg->was_hidden = hidden;
+    mg->change_was_hidden = hidden;
     return last ? STATUS_ITERATION_LIMIT : STATUS_RUNNING;
 }
 

@@ -81,9 +81,9 @@ static double sample_coordinate_rounding(Newton *newton, const double *u,
     return fabs(incremental_potential_value(&newton->at.E, near_u, near_x) - E);
 }
 
-/* E may differ from record.change by its own rounding and by that of the
- * coordinates.  The second estimate is expensive, and is computed only if a
- * simpler test fails. */
+/* The change of E may lie above record.change by the rounding of E and by that
+ * of the coordinates.  The estimate for the coordinates needs E twice more, and
+ * is computed only if the rounding of E does not explain the difference. */
 bool rounding_confirms_change(Newton *newton)
 {
     Rounding *rounding = &newton->rounding;

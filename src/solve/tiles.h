@@ -26,9 +26,10 @@ typedef struct Tiles {
 
 void tiles_lay_out(const Grid *grid, Memory *memory, Tiles *tiles);
 
-/* Sweeps all tiles once, then those with the largest activity, until no
- * activity stands out from the mean, or a sweep lowers E by less than the pace.
- *   pace  < 0, change of E for which a sweep is worth its time
+/* Sweeps all tiles once, then in rounds those with the largest Tiles.activity,
+ * until none stands out from the mean, or the sweeps of a round lower E on
+ * average by less than the pace.
+ *   pace  J s^2, < 0, change of E for which a tile's sweep is worth its time
  * Returns the change of E, <= 0. */
 double tiles_relax(Tiles *tiles, double pace);
 

@@ -65,7 +65,7 @@ INLINE int rows_with_coarse(const Level *level)
 /* Converts one number, or in a browser two pairs, to single precision. */
 INLINE Few narrow_to_single(Pair low, Pair high)
 {
-#ifdef __wasm_simd128__ /* clang does not find this instruction by itself */
+#ifdef __wasm_simd128__ /* intrinsics: clang does not emit demote by itself */
     v128_t few = wasm_f32x4_demote_f64x2_zero((v128_t)low);
     v128_t more = wasm_f32x4_demote_f64x2_zero((v128_t)high);
     return (Few)wasm_i32x4_shuffle(few, more, 0, 1, 4, 5);

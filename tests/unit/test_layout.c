@@ -195,7 +195,7 @@ TEST(cards_share_the_column)
     content.cards.closed |= 1 << ENERGIES;
     Layout apart = layout_create(&content, 1280, 800);
     CHECK(apart.card[RESIDUAL].y < apart.card[ENERGIES].y);
-    content.cards.large = LISTING;
+    content.cards.enlarged = LISTING;
     Layout large = layout_create(&content, 1280, 800);
     for (int i = LINE; i <= ASSEMBLY; i++)
         CHECK(large.card[LISTING].height > 5 * large.card[i].height);

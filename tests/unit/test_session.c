@@ -520,7 +520,7 @@ static void collect_parts(void)
     for (int c = 0; c < active_picture(content)->count; c++)
         fact("card %d %s", c,
              content->cards.closed >> c & 1 ? "closed"
-             : content->cards.large == c    ? "large"
+             : content->cards.enlarged == c ? "large"
                                             : "open");
 }
 

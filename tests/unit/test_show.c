@@ -547,7 +547,7 @@ TEST(the_plot_of_energies_stays_high)
         for (int k = 0; k < content.panes; k++)
             content.pane[k].label = "turned by 30 \u00b0, h 0.02 s";
         content.cards.closed &= ~(1u << ENERGIES);
-        content.cards.large = strstr(rows[i].line, "big") ? ENERGIES : -1;
+        content.cards.enlarged = strstr(rows[i].line, "big") ? ENERGIES : -1;
         set_size(rows[i].wide, rows[i].high);
         writings = 0;
         draw();
