@@ -156,7 +156,7 @@ static int slip_count(const EvalPoint *at)
     return friction_of(at)->contacts;
 }
 
-/* Element i is contact i; its Element.s is the slip y, m.  Returns false
+/* Element i is contact i; Element.s is the slip y, m.  Returns false
  * outside a step (EvalPoint.u is NULL), where friction has no energy. */
 static bool slip_get_element(const EvalPoint *at, int i, double way,
                              Element *element)
