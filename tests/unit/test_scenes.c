@@ -207,20 +207,6 @@ TEST(a_body_that_is_pushed_stops_at_another)
     CHECK(x[2 * 9 + 1] > 0.5 && x[2 * 9 + 1] < 0.5 + 1e-3);
 }
 
-/* The blocks of the slope begin as high above their grounds, whatever their
- * size.  1e-15: rounding of coordinates of size 1. */
-TEST(blocks_begin_at_the_same_height)
-{
-    const Simulation *slope = simulate("slope --side 0.3");
-    const TimeIntegrator *run = slope->run;
-    double gap = smallest_gap(run[0].system, run[0].x);
-    CHECK(gap > 0 && slope->runs == 3);
-    for (int r = 1; r < 3; r++) {
-        CHECK_NEAR(smallest_gap(run[r].system, run[r].x), gap, 1e-15);
-        CHECK_NEAR(run[0].x[1] - run[r].x[1], r * 2.6 * 0.3, 1e-15);
-    }
-}
-
 /* ---- the ledger while hands are on ------------------------------------- */
 
 /* Changes a run between two steps. */

@@ -699,11 +699,6 @@ static double find_flattest(const Simulation *simulation)
     return smallest_cell(&simulation->system, simulation->run[0].x);
 }
 
-static double find_gap(const Simulation *simulation)
-{
-    return smallest_gap(&simulation->system, simulation->run[0].x);
-}
-
 /* J, energy that a run has gained without work, and in how many steps. */
 static double find_gained(const Simulation *simulation)
 {
@@ -822,7 +817,6 @@ static const struct {
                {"broken", count_broken_springs},
                {"crossings", count_crossings},
                {"flattest", find_flattest},
-               {"gap", find_gap},
                {"grown", find_grown},
                {"gained", find_gained},
                {"gains", count_gains},
@@ -854,6 +848,10 @@ static double find_number(const char *name)
         if (strcmp(counters[n].name, name) == 0)
             return (double)*(const long *)((const char *)&did +
                                            counters[n].place);
+    if (strncmp(name, "gap", 3) == 0) {
+        const TimeIntegrator *run = &simulation->run[atoi(name + 3)];
+        return smallest_gap(run->system, run->x);
+    }
     if (sscanf(name, "rise %d", &i) == 1)
         return find_rise(simulation, i);
     if (sscanf(name, "radius %d", &i) == 1)
