@@ -155,7 +155,10 @@ const begin = (words) => {
     begin(['--lecture']);
     return say(why);
   }
-  if (code >= 0) return;
+  if (code >= 0) {
+    bare = document.body.classList.contains('bare'); // the shown run goes on
+    return;
+  }
   line = words;
   entry = null;
   canvas.hidden = words.includes('--headless');
@@ -184,7 +187,7 @@ const nameOf = ({ key, code }) => {
 
 // Keys with a modifier and function keys are left to the browser; Q and Escape do
 // nothing.  FOLDS has keys whose list the document shows.
-const FOLDS = { K: 'code', 'Shift+G': 'pages', G: 'scenes', A: 'more', '?': 'keys', F1: 'keys' };
+const FOLDS = { K: 'code', 'Shift+G': 'pages', G: 'scenes', A: 'more', '?': 'keys' };
 canvas.addEventListener('keydown', (event) => {
   if (event.ctrlKey || event.altKey || event.metaKey || event.isComposing) return;
   const name = nameOf(event) || (event.key.length === 1 ? event.key : '');
@@ -279,6 +282,7 @@ const touchMove = (event) => {
 };
 const touchUp = (event) => {
   fingers.delete(event.pointerId);
+  if (event.type === 'pointerup') canvas.focus({ preventScroll: true });
   if (!touch) return;
   clearTimeout(touch.timer);
   if (!touch.pressed && event.type === 'pointerup') {
@@ -292,7 +296,7 @@ const touchUp = (event) => {
 
 const isTouch = (event) => event.pointerType === 'touch';
 canvas.onpointerdown = (event) => {
-  canvas.focus({ preventScroll: true });
+  if (!isTouch(event)) canvas.focus({ preventScroll: true }); // a finger may scroll
   canvas.setPointerCapture(event.pointerId);
   event.preventDefault();
   if (isTouch(event)) touchDown(event);

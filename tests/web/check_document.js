@@ -240,13 +240,19 @@ const history = async (browser) => {
   await tab.close();
 
   const bad = [];
-  for (const line of ['nonsense', '--lecture nosuch', 'square --segments 0', 'square --timestep']) {
+  const lines = ['nonsense', '--lecture nosuch', 'square --segments 0', 'square --timestep'];
+  for (const line of lines) {
     const lost = await browser.open(at(line));
     await lost
       .until(`field('page', 2) === '${PAGES[0]}'`, 20000)
       .catch(() => bad.push(`${line}: no tour`));
     if (!/^elasto: [^\n]+$/.test(await lost.run(`$('said').textContent`)))
       bad.push(`${line}: no line`);
+    // A second wrong address leaves the texts of the tour alive.
+    await lost.run(`location.hash = 'nonsense&bare'`);
+    await lost
+      .until(`!bare && location.hash === '#--lecture'`, 20000)
+      .catch(() => bad.push(`${line}: bare`));
     await lost.close();
   }
   verdict('a_wrong_address_shows_the_tour_and_one_line', bad);
@@ -269,6 +275,20 @@ const frames = async (browser) => {
   await sleep(3000);
   if (await tab.run('scrollY')) wrong.push('the page scrolled');
   if ((await tab.run('document.activeElement.id')) !== 'here') wrong.push('the focus was taken');
+  // A finger scrolls past a frame; after a tap it pulls in the frame.
+  const swipe = async () => {
+    await tab.run('scrollTo(0, 1700)');
+    await tab.touch('touchStart', [200, 500]);
+    for (let i = 1; i <= 10; i++) await tab.touch('touchMove', [200, 500 - 15 * i]);
+    await tab.touch('touchEnd');
+    return tab.run('scrollY - 1700');
+  };
+  if ((await swipe()) < 50) wrong.push('a finger does not scroll past a frame');
+  await tab.run('scrollTo(0, 1700)');
+  await tab.touch('touchStart', [200, 400]);
+  await tab.touch('touchEnd');
+  await tab.until(`document.activeElement.tagName === 'IFRAME'`);
+  if (await swipe()) wrong.push('a finger scrolls a frame that was tapped');
   await tab.close();
   const bare = await browser.open(at('circle') + '&bare', { width: 400, height: 300 });
   const seen = `[...document.querySelectorAll('body > *')].filter((e) => e.getBoundingClientRect().width > 0).map((e) => e.id).join()`;
