@@ -15,6 +15,7 @@
 
 enum {
     SENTENCE_SIZE = 224, /* bytes of a sentence */
+    LOOK_SIZE = 1536,    /* bytes of the answer of a page */
     VALUE_SIZE = 32      /* bytes of a setting's value */
 };
 
@@ -260,6 +261,9 @@ typedef struct LectureContent {
     bool hides_answer;       /* the page waits for the user's guess */
     const char *verdict;     /* verdict on the guess at this page, or NULL */
     int guesses, right_guesses; /* numbers of guesses and of right guesses */
+    char own[SENTENCE_SIZE]; /* heading for answers that are true with the
+                                page's own options; "": no option is changed */
+    char look[LOOK_SIZE]; /* text: the answer of the page */
 } LectureContent;
 
 /* ---- all of it ----------------------------------------------------------- */

@@ -82,9 +82,8 @@ enum { QUEUE_MOST = 16 };
 typedef struct Queue {
     Command command[QUEUE_MOST];
     int count;
-    bool of_page;        /* the commands belong to a page that opens */
+    bool of_page;        /* the commands belong to a page */
     const Control *pins; /* pins to be set at the end of the queue, or NULL */
-    bool plays;          /* the run goes on at the end of the queue */
     char note[SENTENCE_SIZE]; /* message at the end of the queue, or "" */
 } Queue;
 
@@ -106,7 +105,9 @@ typedef struct Tour {
     const LecturePage *revealed; /* page whose answer is shown, or NULL */
     char verdict[VALUE_SIZE];    /* verdict on the guess at the page, or "" */
     int guesses, right_guesses;  /* numbers of guesses so far */
-    bool opens;                  /* opening commands of a page are obeyed */
+    bool opens;                  /* commands of a page are obeyed */
+    Options own[OPTIONS_MAX_DRAWN]; /* the page's own options of each pane */
+    int panes;                      /* the page's own number of panes */
 } Tour;
 
 enum { LABEL_SIZE = 64 }; /* bytes */

@@ -73,7 +73,8 @@ static int lay_out_page(Paper *paper, Box inside, double size, bool brief,
         {judged ? "Ask" : NULL, judged ? page->ask : NULL, COLOUR_X, 1},
         {judged ? "You" : NULL, judged ? content->lecture.verdict : NULL,
          COLOUR_HAND, VERDICT_SIZE},
-        {asks ? "Ask" : "Look", asks ? page->ask : page->look, COLOUR_X, 1},
+        {asks ? "Ask" : "Look", asks ? page->ask : content->lecture.look,
+         COLOUR_X, 1},
         {asks ? "How" : "Try", asks ? how : page->touch, COLOUR_HAND, 1}};
     int y = inside.y;
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)

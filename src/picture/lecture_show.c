@@ -50,6 +50,41 @@ static void list_letters(FrameContent *content)
     content->list.rows = (int)(row - content->list.row);
 }
 
+/* Whether a line of `length` bytes has a live value. */
+static bool line_is_live(const char *text, size_t length)
+{
+    for (const char *at = text; at < text + length; at++)
+        if (*at == '{' && !text_is_markup_brace(text, at))
+            return true;
+    return false;
+}
+
+/* Adds the lines of a text with live values, or those without. */
+static void add_lines(const char *text, bool live, char *out, size_t size)
+{
+    while (*text) {
+        size_t length = strcspn(text, "\n");
+        if (line_is_live(text, length) == live)
+            append(out, size, "%.*s\n", (int)length, text);
+        text += length + (text[length] == '\n');
+    }
+}
+
+/* Copies the answer of the page.  If options are changed, lines with live
+ * values come first; the other lines follow below the heading lecture->own. */
+static void fill_look(const LecturePage *page, LectureContent *lecture)
+{
+    char *look = lecture->look;
+    look[0] = '\0';
+    if (lecture->own[0]) {
+        add_lines(page->look, true, look, LOOK_SIZE);
+        append(look, LOOK_SIZE, "%s\n", lecture->own);
+        add_lines(page->look, false, look, LOOK_SIZE);
+    } else {
+        append(look, LOOK_SIZE, "%s", page->look);
+    }
+}
+
 void frame_add_lecture(Column column, const LecturePage *left,
                        FrameContent *content)
 {
@@ -64,6 +99,7 @@ void frame_add_lecture(Column column, const LecturePage *left,
     if (!page)
         return;
     content->lecture.page = page;
+    fill_look(page, &content->lecture);
     content->strip.topic = page->topic;
     content->cards.covered = 0;
     for (int c = 0; c < picture->count; c++)

@@ -296,6 +296,54 @@ static void fill_time(const Player *player, FrameContent *content)
              player_active_run(player)->outcome.updates);
 }
 
+/* Whether an option has the same numbers in two structs. */
+static bool option_is_equal(const OptionRow *row, const Options *a,
+                            const Options *b)
+{
+    int count =
+        (row->count ? row->count : 1) * (row->max_times ? row->max_times : 1);
+    return memcmp(&a->number[row->slot], &b->number[row->slot],
+                  (size_t)count * sizeof *a->number) == 0;
+}
+
+/* Returns the first pane whose option is not the page's own, or -1. */
+static int find_changed_pane(const Player *player, const OptionRow *row,
+                             const Options *now)
+{
+    for (int p = 0; p < player->tour.panes; p++)
+        if (p < past_panes(&player->past) &&
+            !option_is_equal(row, &player->tour.own[p], &now[p]))
+            return p;
+    return -1;
+}
+
+/* If options of the page are changed, writes a heading for the lines of Look
+ * that are true with the page's own options: "As the page opened, with h 1 s:".
+ */
+static void fill_own_options(const Player *player, LectureContent *lecture)
+{
+    const OptionRow *row[OPTIONS_MAX_ROWS];
+    Options now[OPTIONS_MAX_PANES];
+    char text[SENTENCE_SIZE] = "As the page opened", value[VALUE_SIZE];
+    const char *before = ", with ";
+    int rows = player_list_options(player, true, row);
+    player_copy_options(player, now);
+    bool is_changed = now->flips != player->tour.own->flips;
+    for (int i = 0; i < rows; i++) {
+        int p = find_changed_pane(player, row[i], now);
+        if (p < 0)
+            continue;
+        is_changed = true;
+        player_format_value(row[i], &player->tour.own[p],
+                            player_simulation(player), value, sizeof value);
+        append(text, sizeof text, "%s%s %s", before, option_label(row[i]),
+               value);
+        before = ", ";
+    }
+    if (is_changed && now->page && player->given.asks)
+        snprintf(lecture->own, sizeof lecture->own, "%s:", text);
+}
+
 static void fill_frame(const Player *player, Frame *frame)
 {
     const Past *past = &player->past;
@@ -339,9 +387,10 @@ static void fill_frame(const Player *player, Frame *frame)
           !player->hands.typing))
         snprintf(content->strip.message, SENTENCE_SIZE, "%s", player->note);
     content->lecture.hides_answer = player_hides_answer(player);
+    fill_own_options(player, &content->lecture);
     bool judged =
         content->pane[0].simulation->options.page == player->tour.revealed &&
-        player->tour.verdict[0];
+        player->tour.verdict[0] && !content->lecture.own[0];
     content->lecture.verdict = judged ? player->tour.verdict : NULL;
     content->lecture.guesses = player->tour.guesses;
     content->lecture.right_guesses = player->tour.right_guesses;

@@ -103,6 +103,20 @@ static bool is_pull_due(const Player *player)
             player->past.step <= player->hands.pulled);
 }
 
+/* Stores the option that a command of a page has set as the page's own. */
+static void store_own_option(Player *player, const Command *command)
+{
+    Options options[OPTIONS_MAX_PANES];
+    Options *own = &player->tour.own[player->active];
+    player->tour.panes = player_copy_options(player, options);
+    if (command->kind == COMMAND_FLIP)
+        own->flips = options[player->active].flips;
+    if (command->kind == COMMAND_SET) {
+        int slot = option_rows[command->number].slot;
+        own->number[slot] = options[player->active].number[slot];
+    }
+}
+
 /* Obeys the queue like player_obey_queue, without showing INVALID_INPUT. */
 static Status obey_queue(Player *player, bool now)
 {
@@ -118,12 +132,12 @@ static Status obey_queue(Player *player, bool now)
             break;
         player->tour.opens = opens || queue.of_page;
         status = player_obey(player, command);
+        if (player->tour.opens && !status)
+            store_own_option(player, command);
         player->tour.opens = opens;
     }
     if (!status && i == queue.count) {
         status = player_restore_pins(player, queue.pins);
-        if (queue.plays)
-            player->time.mode = MODE_RUN;
         if (queue.note[0])
             player_note(player, "%s", queue.note);
         return status;

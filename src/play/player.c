@@ -231,11 +231,14 @@ Status player_create(const Options *options, int count, char *const *words,
     player->given.attended =
         player->screen.window || options->script || options->page;
     options = player->given.options;
+    Options own;
+    if (options->page &&
+        !lecture_make_options(options->page, &own, MESSAGE(player->message)))
+        player_store_own_options(player, &own);
     if (options->paused || (player->given.asks && options->steps < 0 &&
                             (options->page || options->scene->starts_paused)))
         player->time.mode = MODE_PAUSE;
-    status =
-        recording_open(&player->given.options[0], count, &player->recording);
+    status = recording_open(options, count, &player->recording);
     past_create(player->given.attended || player->screen.draws,
                 player->given.attended && options->steps < 0, &player->past);
     if (!status)

@@ -146,6 +146,9 @@ Status player_restore_pins(Player *player, const Control *before);
 /* Puts the opening commands of the page into the queue. */
 Status player_enqueue_page(Player *player);
 
+/* Stores the options with which a page begins as the page's own. */
+void player_store_own_options(Player *player, const Options *options);
+
 /* Whether the page in the window waits for a guess. */
 bool player_hides_answer(const Player *player);
 

@@ -46,13 +46,6 @@ static bool page_can_reopen(Player *player, const Options *now)
            own.segments == now->segments;
 }
 
-/* Whether the answer of the page is shown and its commands play the run. */
-static bool answer_plays_run(const Player *player, const LecturePage *page)
-{
-    return page && page == player->tour.revealed && page->tell &&
-           strstr(page->tell, "play");
-}
-
 /* Makes room for the body at its start.  Obstacles that overlap the body go
  * back to their places when the run began.  Returns OK, or INVALID_INPUT if the
  * run began with another number of obstacles. */
@@ -122,8 +115,8 @@ Status player_restart_runs(Player *player, const Options *options, int panes,
 }
 
 /* Begins the run again with the present numbers, pins and obstacles.
- * COMMAND_START begins the run at another point, in a pause.  A run that had
- * ended plays again, and so does a page whose answer plays. */
+ * COMMAND_START begins the run at another point, in a pause; a page begins in a
+ * pause, as it has opened.  Any other run that had ended plays again. */
 Status obey_restart(Player *player, const Command *command)
 {
     Options options[OPTIONS_MAX_PANES];
@@ -138,17 +131,14 @@ Status obey_restart(Player *player, const Command *command)
         options[p].start[0] = command->x;
         options[p].start[1] = command->y;
     }
-    if (moves)
+    if (moves || (options->page && player->given.asks))
         player->time.mode = MODE_PAUSE;
     else if (player->time.mode >= MODE_END && !options->page &&
              !options->scene->starts_paused)
         player->time.mode = MODE_RUN;
     if (!moves)
         player->screen.view.lens = LENS_FITS;
-    bool plays = !moves && answer_plays_run(player, options->page);
-    Status status = player_restart_runs(player, options, panes, command);
-    player->commands.queue.plays = plays && !status;
-    return status;
+    return player_restart_runs(player, options, panes, command);
 }
 
 /* ---- the lecture --------------------------------------------------------- */
@@ -158,6 +148,13 @@ Status player_enqueue_page(Player *player)
     const LecturePage *page = player_active_options(player)->page;
     player->commands.queue.of_page = true;
     return player_enqueue_lines(player, page ? page->open : NULL);
+}
+
+void player_store_own_options(Player *player, const Options *options)
+{
+    for (int p = 0; p < OPTIONS_MAX_DRAWN; p++)
+        player->tour.own[p] = *options;
+    player->tour.panes = 1;
 }
 
 bool player_hides_answer(const Player *player)
@@ -209,6 +206,7 @@ Status player_reveal_answer(Player *player, const char *typed)
                  : right ? ": right, "
                          : ": no, ",
                  number.text);
+    player->commands.queue.of_page = true;
     return player_enqueue_lines(player, page->tell);
 }
 
@@ -239,6 +237,7 @@ Status obey_page(Player *player, const Command *command)
     Status status = player_find_defaults(player, "", page, &options, &count);
     if (status)
         return status;
+    player_store_own_options(player, &options);
     status = player_begin_runs(player, &options, 1, command);
     player->time.speed = player_initial_speed(player, &options);
     player->tour.last_page = page;

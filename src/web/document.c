@@ -114,7 +114,7 @@ static void put_page_texts(Writer *to, const FrameContent *content)
                                      : "words",
               simulation_find_point(active_pane(content)->simulation, at));
     } else {
-        put_text(to, values, "look", page->look);
+        put_text(to, values, "look", content->lecture.look);
         put_text(to, values, "try", page->touch);
     }
     put_text(to, values, "claim", page->claim);
