@@ -275,6 +275,7 @@ const touchMove = (event) => {
   }
   if (!touch.pressed && !near(event, touch.first)) {
     clearTimeout(touch.timer);
+    if (bare && document.activeElement !== canvas) return (touch = null); // it scrolls
     touch.pressed = LEFT;
     press(touch.first, LEFT);
   }

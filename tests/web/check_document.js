@@ -293,6 +293,13 @@ const frames = async (browser) => {
   const bare = await browser.open(at('circle') + '&bare', { width: 400, height: 300 });
   const seen = `[...document.querySelectorAll('body > *')].filter((e) => e.getBoundingClientRect().width > 0).map((e) => e.id).join()`;
   if ((await bare.run(seen)) !== 'stage') wrong.push(`bare shows ${await bare.run(seen)}`);
+  // A finger that scrolls takes hold of nothing.
+  await bare.run(`canvas.blur(); kinds = []; told = Module._web_mouse;
+    Module._web_mouse = (...how) => kinds.push(how[0]) && told(...how)`);
+  await bare.touch('touchStart', [200, 200]);
+  await bare.touch('touchMove', [200, 180]);
+  await bare.touch('touchEnd');
+  if (await bare.run('kinds.includes(PRESS)')) wrong.push('a finger that scrolls pulls');
   await bare.run(`$('replay').click()`);
   await bare.until(`stats.frames > 3`);
   verdict('bare_frames_take_no_focus_and_have_a_button', [
