@@ -44,8 +44,8 @@ static Status assemble_hessian(Newton *newton, Projection projection,
     bool grown;
     Status status = incremental_potential_grow(&newton->at, &grown);
     *projected = 0;
-    if (!status && (!direction->cholesky || direction->factor_kind != kind || grown ||
-                    direction->pattern != system->pattern)) {
+    if (!status && (!direction->cholesky || direction->factor_kind != kind ||
+                    grown || direction->pattern != system->pattern)) {
         direction_free_matrix(direction);
         direction->pattern = system->pattern;
         direction->factor_kind = kind;

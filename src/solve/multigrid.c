@@ -14,10 +14,11 @@
 static const double NEARBY = 0.02;
 
 /* A direction is poor if the bound of p after it is more than STALLS times the
- * bound before.  From the first poor direction of a single V-cycle on, conjugate
- * gradients find the directions; from the first poor one of theirs on, tiles
- * relax, too.  A sweep of a tile is worth its time if it lowers E by more than
- * PACE times the last direction's decrease, divided by the number of tiles. */
+ * bound before.  From the first poor direction of a single V-cycle on,
+ * conjugate gradients find the directions; from the first poor one of theirs
+ * on, tiles relax, too.  A sweep of a tile is worth its time if it lowers E by
+ * more than PACE times the last direction's decrease, divided by the number of
+ * tiles. */
 static const double STALLS = 0.3, PACE = 0.15;
 
 /* Number of iterations after which Newton takes over; most steps need ten. */

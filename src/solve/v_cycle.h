@@ -1,7 +1,6 @@
 /* v_cycle.h - p = -H^-1 g without a factor: a multigrid V-cycle on the clamped
- * Hessian H in single precision.  If p may pass the test, or cycles
- * converge slowly, they precondition conjugate gradients, which tell how exact
- * p is.
+ * Hessian H in single precision.  If p may pass the test, or cycles converge
+ * slowly, they precondition conjugate gradients, which tell how exact p is.
  *
  * A level has a tensor, K = w 2k/l2 (iso I + along d d^T), for each spring and
  * a mass for each node; H x at a node is m x + sum K (x - x').  A coarser level
