@@ -195,23 +195,49 @@ static void fill_chips(const Player *player, Frame *frame)
 
 _Static_assert((int)OPTIONS_MAX_DRAWN == (int)LAYOUT_PANES, "all are drawn");
 
-void player_label(const Player *player, int pane, char label[LABEL_SIZE])
+/* Writes the value that an option has in a pane at the step that is shown. */
+static void format_pane_value(const Player *player, int pane,
+                              const OptionRow *row, char value[VALUE_SIZE])
 {
     const Past *past = &player->past;
     long last = past_find_end_step(past, pane, past->step);
     const Entry *entry = past_entry(past, pane, last < 0 ? past->step : last);
+    player_format_value(row, &entry->control->options,
+                        &past->pane[pane].simulation, value, VALUE_SIZE);
+}
+
+/* Whether all panes but one have this value of an option, if there are at least
+ * three. */
+static bool is_usual_value(const Player *player, const OptionRow *row,
+                           const char *value)
+{
+    int panes = past_panes(&player->past), equal = 0;
+    char other[VALUE_SIZE];
+    for (int p = 0; p < panes; p++) {
+        format_pane_value(player, p, row, other);
+        equal += strcmp(value, other) == 0;
+    }
+    return panes > 2 && equal == panes - 1;
+}
+
+void player_label(const Player *player, int pane, char label[LABEL_SIZE])
+{
+    const Past *past = &player->past;
+    long last = past_find_end_step(past, pane, past->step);
     char value[VALUE_SIZE];
     label[0] = '\0';
-    for (const OptionRow *row = option_rows; row->name; row++) {
-        if (!player_panes_differ(player, row))
-            continue;
-        player_format_value(row, &entry->control->options,
-                            &past->pane[pane].simulation, value, sizeof value);
-        append(label, LABEL_SIZE, "%s", label[0] ? ", " : "");
-        if (row->slot != OPTION_SLOT(integrator))
-            append(label, LABEL_SIZE, "%s ", row->label);
-        append(label, LABEL_SIZE, "%s", value);
-    }
+    for (int all = 0; all < 2 && !label[0]; all++)
+        for (const OptionRow *row = option_rows; row->name; row++) {
+            if (!player_panes_differ(player, row))
+                continue;
+            format_pane_value(player, pane, row, value);
+            if (!all && is_usual_value(player, row, value))
+                continue;
+            append(label, LABEL_SIZE, "%s", label[0] ? ", " : "");
+            if (row->slot != OPTION_SLOT(integrator))
+                append(label, LABEL_SIZE, "%s ", row->label);
+            append(label, LABEL_SIZE, "%s", value);
+        }
     if (last < 0)
         return;
     append(label, LABEL_SIZE, "%sended at step %ld", label[0] ? ", " : "",
