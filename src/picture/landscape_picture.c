@@ -85,6 +85,8 @@ static void draw_contour_map(const Plot *plot)
     double metre = 1 / plot->camera.scale[0],
            e = find_contour_scale(simulation);
     const Box *box = &plot->box;
+    bool curves = shows_layer(plot, LAYER_CURVES);
+    Colour contour = curves ? COLOUR_GRID : COLOUR_GREY;
     Box before = canvas_set_clip(canvas, *box);
     canvas_fill(canvas, *box, COLOUR_WHITE);
     for (int j = box->y; j < box->y + box->height; j += 2)
@@ -96,8 +98,8 @@ static void draw_contour_map(const Plot *plot)
             if (!landscape_is_convex(&E))
                 canvas_fill(canvas, (Box){i, j, 2, 2}, COLOUR_SHADE);
             draw_contours(plot, i, j, E.value / e, E.g[0] * metre / e,
-                          E.g[1] * metre / e, false, COLOUR_GREY);
-            for (int k = 0; k < 2 && shows_layer(plot, LAYER_CURVES); k++)
+                          E.g[1] * metre / e, false, contour);
+            for (int k = 0; k < 2 && curves; k++)
                 draw_contours(plot, i, j, E.g[k], E.H[k] * metre,
                               E.H[k + 1] * metre, true, curve_colour[k]);
         }
