@@ -85,7 +85,7 @@ typedef struct Push {
     int obstacle;     /* number of the obstacle */
     double target[2]; /* m, target of the obstacle's point o */
     SquareMesh shape; /* mesh of the bodies, whose cells no ball may enter */
-    bool stopped;     /* whether the obstacle was stopped in this step */
+    bool stopped;     /* the obstacle found no room to move in this step */
     double moved;     /* part of the step before the obstacle stopped */
 } Push;
 

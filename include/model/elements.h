@@ -76,7 +76,7 @@ struct ElementKind {
     /* Writes the nodes of a block and returns their number. */
     int (*block_nodes)(const EvalPoint *at, int block, int node[3]);
 
-    /* Returns W, J. */
+    /* Returns the energy W of the element, in joules. */
     double (*value)(const EvalPoint *at, const Element *element);
 
     /* Writes the gradient of W in (a, b) to g. */

@@ -19,8 +19,8 @@
 
 #include "model/system.h"
 
-/* The function V of one spring in this step.  With damping (damping.h) V has
- * the further summand theta (e - e_n)^2/2. */
+/* Numbers of the function V(e) of one spring in this step (see above).  With
+ * damping (damping.h) V has the further summand theta (e - e_n)^2/2. */
 typedef struct FlowLaw {
     double ep;    /* plastic strain at the step's start */
     double yield; /* yield strain Y_n > 0 */

@@ -13,7 +13,7 @@
 
 extern const TermKind central_field, hand_energy;
 
-/* Data of both terms. */
+/* Data of central_field, and of hand_energy. */
 typedef struct Pull {
     int node;         /* pulled node i */
     double k;         /* J/m^2, stiffness */

@@ -63,7 +63,7 @@ typedef struct CommandRow {
                           those of the row before; NULL: not listed */
     const char *takes; /* arguments: "N X Y", a whole number from 0 and two
                           numbers; "OPTION VALUE"; a name; NULL: none */
-    Keyboard keyboard; /* parts of the window with these keys; 0: AT_PLAY */
+    Keyboard keyboard; /* places where the keys work; 0: AT_PLAY */
     const char *chip;  /* labels of its chip, by state: "pause|play" */
 } CommandRow;
 

@@ -32,7 +32,7 @@ enum SceneNeeds {
     NEEDS_MESH = 1,        /* a square: segments, side, density, stiffness */
     NEEDS_TIME = 2,        /* motion in time, by an integrator */
     NEEDS_START = 4,       /* a point to start from */
-    NEEDS_SPRINGS = 8,     /* solver and projection of the springs' Hessian */
+    NEEDS_SPRINGS = 8,     /* springs: solver, projection of their Hessian */
     NEEDS_MINIMUM = 16,    /* tolerance and line search */
     NEEDS_ONE_NUMBER = 32, /* a start with one coordinate, x */
     NEEDS_STEP = 64,       /* a time step h without an integrator */

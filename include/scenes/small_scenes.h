@@ -167,8 +167,9 @@ Status create_envelope(Simulation *simulation);
 /* Runs the cells of the next row, from the softest springs to the stiffest. */
 Status step_envelope(Simulation *simulation);
 
-/* Makes the run of a cell as run 0.  Returns OK, also if steps did not
- * converge, or OUT_OF_MEMORY. */
+/* Runs the steps of a cell, with the h of its column and the k of its row, as
+ * run 0 of the simulation.  Returns OK, also if steps did not converge, or
+ * OUT_OF_MEMORY. */
 Status envelope_run_cell(Simulation *simulation, int column, int row);
 
 #endif

@@ -114,7 +114,8 @@ typedef struct Rounding {
     double shortest; /* m, the shortest spring at rest; 1 without springs */
     bool stiff;      /* w stiffest > 1e5 lightest, with w the weight of P in E:
                         a decrease of E is checked by a second computation */
-    bool factor_is_inexact; /* w stiffest > 1e10 lightest */
+    bool factor_is_inexact; /* w stiffest > 1e10 lightest: the residual is
+                               only an estimate */
     double start_energy;    /* J s^2, E at the start; NAN: not needed */
     double energy_limit; /* J s^2, upper limit of E: its value at the start plus
                             rounding; INFINITY: no limit */

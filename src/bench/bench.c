@@ -245,7 +245,7 @@ static Status measure_start(Program program, int segments, int start, int steps,
     return status;
 }
 
-/* Measures all programs on one square, in turn for each start.
+/* Measures all programs on one square: for each start one after the other.
  *   ms  out, median time a step */
 static Status measure_solvers(bool quick, int segments, double ms[SOLVERS])
 {

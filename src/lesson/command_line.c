@@ -16,7 +16,7 @@
 typedef struct Word {
     const OptionRow *row; /* option; NULL: the word is a scene */
     const char *text;     /* value, or name of the scene */
-    const char *list;     /* list of values that contains the text, or NULL */
+    const char *list;     /* "1,2,3", if `text` is one of several values */
     char list_item[64];   /* copy of the text, if the text is part of `list` */
 } Word;
 

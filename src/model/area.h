@@ -60,9 +60,10 @@ bool area_project_hessian(const double f[4], double unit, double on_plus,
 /* Writes the numbers of H.  H [4][4] out. */
 void area_assemble_hessian(const AreaHessian *area, double H[4][4]);
 
-/* Writes Hv = H v without the numbers of H.  A rotation v = S f is then
- * multiplied by on_plus alone, which may be smaller than the rounding of these
- * numbers. v, Hv  [4] in, out */
+/* Writes Hv = H v from the eigenvectors, without the entries of H.  Where f- is
+ * small, a rotation v = S f is multiplied almost by on_plus alone, which may be
+ * smaller than the rounding of the entries.
+ *   v, Hv  [4] in, out */
 void area_multiply_hessian(const AreaHessian *area, const double v[4],
                            double Hv[4]);
 

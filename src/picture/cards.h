@@ -13,12 +13,12 @@ typedef struct ListingRow {
     /* The row is shown if a line of this text has known values; NULL: end of
      * the listing. */
     const char *shown_if;
-    Line line; /* line of Algorithm 3 */
+    Line line; /* the slides' line of Algorithm 3 */
     bool indented;
     /* The row is struck out if a line of this text has known values. */
     const char *struck_if;
     const char *text;
-    const char *value; /* text at the right once the run has reached the row */
+    const char *value; /* text at the right, once this line has been executed */
 } ListingRow;
 
 /* A row of a listing as the present frame shows it. */

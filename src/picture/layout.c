@@ -16,7 +16,7 @@ static const double BARS = 2.4;         /* height of the time line's bars */
 static const double NAME = 1.8;         /* height of a cell's name */
 static const double HEADING = 2.2;      /* height of a group's heading */
 static const double MIN_COLUMN = 27;    /* least width of the column */
-static const double MIN_PAIR = 28; /* least width of a column with card pairs */
+static const double MIN_PAIR = 28;      /* least width for two cards in a row */
 
 static const double BOLD = 1.12; /* width of bold over normal letters */
 /* If the main card is on the stage and the column has no room, the picture has

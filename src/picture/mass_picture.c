@@ -476,7 +476,7 @@ void mass_add_values(const Simulation *simulation, LiveValues *values)
     if (!step.by_old_v && !backward) {
         values_add(values, "h limit", 2);
         values_add_flag(values, "ellipse", h < 2);
-        if (h < 2) { /* if h >= 2, rounding hides the invariant */
+        if (h < 2) { /* beyond, growth makes the invariant inexact */
             values_add(values, "kept", symplectic_invariant(step.x, step.v, h));
             values_add(values, "kept later",
                        symplectic_invariant(step.new_x, step.new_v, h));

@@ -26,8 +26,8 @@ long past_newest(const Past *past)
     return present_branch(past)->first + present_branch(past)->count - 1;
 }
 
-/* Returns the pane of the branch below that a pane continues; a pane that was
- * added continues the last one. */
+/* Returns which pane of the branch before, branch[-1], this pane continues.  A
+ * pane that was added continues the last pane of that branch. */
 static int find_pane_below(const Branch *branch, int pane)
 {
     int last = branch[-1].panes - 1;

@@ -1,4 +1,5 @@
-/* scene.c - the table of scenes, and a user's guess about the next step. */
+/* scene.c - the table of scenes; compares the end of the next step with the end
+ * that a user has guessed. */
 #include "scenes/scenes.h"
 
 #include "run/body.h"

@@ -225,7 +225,8 @@ Status step_race(Simulation *simulation)
     TimeIntegrator run = {0};
     double seconds;
     RacePoint *point = &race->point[race->count];
-    if (race->count >= RACE_METHODS) { /* measure the method's last run again */
+    /* The run with 2h is timed twice: the shorter time counts. */
+    if (race->count >= RACE_METHODS) {
         RacePoint *before = point - RACE_METHODS;
         measure_run_time(simulation, method, before->h, steps / 2, &run,
                          &seconds);

@@ -101,8 +101,8 @@ INLINE double relax_tile(const Tiles *tiles, int tile)
     return sum_lanes(sum);
 }
 
-/* Sweeps the tiles with at least this activity.  Tiles of one colour are not
- * neighbours, so their order has no effect.
+/* Sweeps the tiles whose change of E (Tiles.activity) is at most `activity`.
+ * Tiles of one colour are not neighbours, so their order has no effect.
  *   visits  out, number of sweeps
  * Returns the change of E. */
 FAST static double relax_active(Tiles *tiles, double activity, int *visits)
