@@ -268,12 +268,20 @@ typedef struct LectureContent {
 
 /* ---- all of it ----------------------------------------------------------- */
 
+/* The node or obstacle that the mouse or a script holds in the active pane. */
+typedef struct HeldByHand {
+    bool on;          /* the hand holds a node or an obstacle */
+    int node;         /* node that the hand pulls; -1: none */
+    int obstacle;     /* obstacle that the hand pushes; -1: none */
+    double target[2]; /* m, place to which the hand pulls or pushes */
+} HeldByHand;
+
 typedef struct FrameContent {
     int panes;  /* number of panes, 1 ... LAYOUT_PANES */
     int active; /* index of the pane whose numbers the cards show */
     Pane pane[LAYOUT_PANES];
     const View *view;
-    const struct Control *hand; /* pull of the mouse, or NULL */
+    HeldByHand hand;            /* hand of the mouse or of a script */
     bool shows_strain;          /* springs are coloured by strain */
     bool bare;                  /* shows pictures without words */
     bool in_page;               /* shows the stage alone, as on the web page */

@@ -403,7 +403,7 @@ static void draw_pane(Paper *paper, const Layout *layout,
     if (layout->panes > 1 && stage.pane->label)
         draw_pane_label(&stage, stage.pane->label);
     if (picture->hover && stage.has_text && hover->pane == pane &&
-        hover->kind != PICK_NONE && !content->hand)
+        hover->kind != PICK_NONE && !content->hand.on)
         picture->hover(&stage);
     canvas_set_clip(&paper->canvas, before);
 }

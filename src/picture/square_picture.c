@@ -121,11 +121,11 @@ static void widen_to_obstacles(const Plot *stage, Extent *view)
     const Simulation *simulation = stage->simulation;
     const Options *options = &simulation->options;
     const Contact *contact = contact_of(&simulation->system);
-    const Control *hand = stage->content->hand;
+    const HeldByHand *hand = &stage->content->hand;
     const Extent seen = find_seen_extent(stage, view);
     double air = 0.04 * fmin(view->half_size[0], view->half_size[1]);
-    if (hand && !stage->content->view->held.on)
-        widen_to_circle(&seen, hand->at, air, PULL_REACH, view);
+    if (hand->on && !stage->content->view->held.on)
+        widen_to_circle(&seen, hand->target, air, PULL_REACH, view);
     for (int k = 0; contact && k < options->grounds + options->balls; k++) {
         const Obstacle *obstacle = &contact->obstacle[k];
         bool held = contact->push.on && contact->push.obstacle == k;
@@ -273,8 +273,8 @@ static void mark_under_mouse(const SquarePen *pen)
     const Plot *stage = pen->stage;
     const FrameContent *content = stage->content;
     const System *system = pen->system;
-    const Control *hand =
-        stage->pane == active_pane(content) ? content->hand : NULL;
+    const HeldByHand *hand = &content->hand;
+    bool holds = hand->on && stage->pane == active_pane(content);
     const Pick *hover = &content->view->hover;
     bool over = hover->pane == plot_pane_index(stage);
     bool writes = pen->simulation->options.next == NEXT_SPRING;
@@ -293,16 +293,16 @@ static void mark_under_mouse(const SquarePen *pen)
                    node);
     }
     const double *from = NULL;
-    if (hand && hand->push >= 0 && pen->contact &&
-        pen->contact->obstacle[hand->push].kind == OBSTACLE_BALL)
-        from = pen->contact->obstacle[hand->push].o;
-    if (hand && hand->hand >= 0) {
-        from = pen->x + 2 * (size_t)hand->hand;
+    if (holds && hand->obstacle >= 0 && pen->contact &&
+        pen->contact->obstacle[hand->obstacle].kind == OBSTACLE_BALL)
+        from = pen->contact->obstacle[hand->obstacle].o;
+    if (holds && hand->node >= 0) {
+        from = pen->x + 2 * (size_t)hand->node;
         plot_ring(stage, from, pen->radius + 4, 2, COLOUR_HAND);
     }
     if (from) {
-        plot_dashes(stage, from, hand->at, 2, NULL, COLOUR_HAND);
-        plot_disc(stage, hand->at, 4, COLOUR_HAND);
+        plot_dashes(stage, from, hand->target, 2, NULL, COLOUR_HAND);
+        plot_disc(stage, hand->target, 4, COLOUR_HAND);
     }
 }
 

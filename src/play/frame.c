@@ -394,7 +394,10 @@ static void fill_frame(const Player *player, Frame *frame)
     fill_chips(player, frame);
     const Control *control = past_control(past, active);
     if (control_hand_holds(control) && player->view_of_pane[active].place < 0)
-        content->hand = control;
+        content->hand = (HeldByHand){true,
+                                     control->hand,
+                                     control->push,
+                                     {control->at[0], control->at[1]}};
     content->time_line.steps = past->stores_states ? past_newest(past) : 0;
     content->time_line.bar = find_step_bar;
     content->time_line.bar_data = player;

@@ -348,18 +348,13 @@ TEST(the_camera_does_not_jump)
 TEST(the_target_of_the_hand_is_in_the_picture)
 {
     stand_up("square --stretch 1", 0);
-    Control *hand = control_from_simulation(&simulation);
-    hand->hand = 4;
-    hand->at[0] = 2;
-    hand->at[1] = -1;
-    content.hand = hand;
+    content.hand = (HeldByHand){true, 4, -1, {2, -1}};
     draw_without_words();
     CHECK(on_stage(COLOUR_HAND) > 100);
     Camera camera = camera_of_pane(&content, &layout, 0);
     double at[2];
-    camera_to_pixel(&camera, hand->at, at);
+    camera_to_pixel(&camera, content.hand.target, at);
     CHECK(box_contains(layout.stage, at[0], at[1]));
-    control_release(hand);
 }
 
 /* ---- what the mouse finds ------------------------------------------------ */
