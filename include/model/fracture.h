@@ -29,8 +29,8 @@ typedef struct Fracture {
 
 /* Fracture as a term; data: Fracture.  The option's number is s_c.  The term
  * has no value.  After a step it breaks springs and books the energy that they
- * and their cells had.  Fracture is last in the list, after all other terms
- * have ended the step. */
+ * and their cells had.  Fracture follows all terms whose energy breaks with
+ * springs, which have then ended the step. */
 extern const TermKind fracture;
 
 /* Returns the strain at which spring s breaks. */

@@ -23,9 +23,8 @@ Status cholesky_create(const Sparse *A, CholeskyKind kind, Cholesky **out);
 void cholesky_free(Cholesky *cholesky);
 
 /* Factors A with its present values.
- * Returns OK, NOT_POSITIVE_DEFINITE (a pivot
- * not > 0; never for INDEFINITE), NOT_FINITE (NaN or infinity in A),
- * OUT_OF_MEMORY. */
+ * Returns OK, NOT_POSITIVE_DEFINITE (a pivot not > 0; never for INDEFINITE),
+ * NOT_FINITE (NaN or infinity in A), OUT_OF_MEMORY. */
 Status cholesky_factor(Cholesky *cholesky);
 
 /* Solves A x = b with the last factor.  b [size] in, x [size] out; x may be b.

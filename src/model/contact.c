@@ -173,8 +173,8 @@ static double contact_max_step(const EvalPoint *at, const Element *element,
 }
 
 /* Along P the distance to the centre of a ball changes by pn + k: pn is the
- * part of P along n, and the part pt across n contributes k = sqrt((r + pn)^2 +
- * pt^2) - (r + pn). */
+ * part of P along n, and the part pt across n contributes
+ * k = sqrt((r + pn)^2 + pt^2) - (r + pn). */
 static double contact_line_remainder(const EvalPoint *at,
                                      const Element *element, const double P[4],
                                      double alpha)

@@ -29,9 +29,10 @@ bool elements_next(ElementIterator *walk)
     return false;
 }
 
-/* Adds factor times the gradient of an element to the nodes' gradient, out
- * [2n]. g [4] is the element's gradient in its vectors a and b, which are
- * weighted sums of node positions. */
+/* Adds factor times the gradient of an element to the nodes' gradient.
+ *   g    [4] in, the element's gradient in its vectors a and b, which are
+ *        weighted sums of node positions
+ *   out  [2n] in/out, the nodes' gradient */
 static void element_add_vector(const Element *element, double factor,
                                const double g[4], double *out)
 {

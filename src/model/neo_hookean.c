@@ -56,8 +56,8 @@ static double compute_volume_energy(double J)
     return J > 0.5 ? -log1p_minus(J - 1) : J - 1 - math_log(J);
 }
 
-/* W = A0 (mu (|F-|^2 + J - 1 - ln J) + lambda/2 (ln J)^2) follows from |F|^2 =
- * 2 J + 2 |F-|^2.  Every summand is positive, so none cancel. */
+/* W = A0 (mu (|F-|^2 + J - 1 - ln J) + lambda/2 (ln J)^2) follows from
+ * |F|^2 = 2 J + 2 |F-|^2.  Every summand is positive, so none cancel. */
 static double neo_hookean_value(const EvalPoint *at, const Element *element)
 {
     const NeoHookean *data = at->term->data;
@@ -154,8 +154,8 @@ static double neo_hookean_max_step(const EvalPoint *at, const Element *element,
                          ELEMENT_LIMIT * element->s, P);
 }
 
-/* Bounds the curvature at F = I, where the Hessian in F is mu (I - K) + (lambda
- * + mu) (K f)(K f)^T. */
+/* Bounds the curvature at F = I, where the Hessian in F is
+ * mu (I - K) + (lambda + mu) (K f)(K f)^T. */
 static double neo_hookean_curvature_bound(const EvalPoint *at)
 {
     const NeoHookean *data = at->term->data;

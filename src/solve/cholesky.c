@@ -162,8 +162,8 @@ static void solve_by_columns(const cholmod_factor *L, double *y)
 }
 
 /* Without pivoting an indefinite factor can be inaccurate, and pivots near 0
- * were replaced.  Iterative refinement with the matrix itself, x +=
- * (L D L^T)^-1 (b - A x), restores the accuracy. */
+ * were replaced.  Iterative refinement with the matrix itself,
+ * x += (L D L^T)^-1 (b - A x), restores the accuracy. */
 Status cholesky_solve(Cholesky *cholesky, const double *b, double *x)
 {
     enum { MAX_SOLVES = 21 };

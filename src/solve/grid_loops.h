@@ -67,8 +67,8 @@ INLINE NodeRun nodes_in_row(const Rows *rows, int i, int odd)
 /* Few and Pair are what EACH_FEW and EACH_PAIR handle at once.  In a browser
  * they are four numbers in single and two in double precision, and
  * contributions of springs have to be added one after the other (IN_ORDER) to
- * stay in registers. Elsewhere they are one number, and the compiler vectorises
- * the loop. */
+ * stay in registers.  Elsewhere they are one number, and the compiler
+ * vectorises the loop. */
 #ifdef __wasm_simd128__
 typedef float Few __attribute__((vector_size(16), aligned(4)));
 typedef double Pair __attribute__((vector_size(16), aligned(8)));

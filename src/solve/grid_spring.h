@@ -36,8 +36,8 @@ INLINE Spring evaluate_grid_spring(const Grid *grid, int kind, int q, int to,
 
 /* Adds a spring to the sums f1, f2, f3, which give the change of E along p:
  * E(x + a p) - E(x) = q[0] a + q[1] a^2 + q[2] a^3 + q[3] a^4, where the
- * springs contribute f1/4 to q[1], f2/2 to q[2] and f3/4 to q[3]. ux, uy
- * difference p_i - p_j of the spring's ends */
+ * springs contribute f1/4 to q[1], f2/2 to q[2] and f3/4 to q[3].
+ *   ux, uy  difference p_i - p_j of the spring's ends */
 INLINE void spring_line_polynomial(Spring s, Pair ux, Pair uy, Pair *f1,
                                    Pair *f2, Pair *f3)
 {

@@ -14,11 +14,11 @@
 static const double NEARBY = 0.02;
 
 /* A direction is poor if the bound of p after it is more than STALLS times the
- * bound before.  From the first poor direction of a single V-cycle on,
- * conjugate gradients find the directions; from the first poor one of theirs
- * on, tiles relax, too.  A sweep of a tile is worth its time if it lowers E by
- * more than PACE times the last direction's decrease, divided by the number of
- * tiles. */
+ * bound before.  After the first poor direction of a step, conjugate gradients
+ * find the directions.  After the second one, or if already the step's first
+ * direction is poor, tiles relax, too.  A sweep of a tile is worth its time if
+ * it lowers E by more than PACE times the last direction's decrease, divided by
+ * the number of tiles. */
 static const double STALLS = 0.3, PACE = 0.15;
 
 /* Number of iterations after which Newton takes over; most steps need ten. */
@@ -38,16 +38,15 @@ struct Multigrid {
     double gradient_norm2;   /* |g|_(M^-1)^2 */
     double p_bound;          /* m, upper bound of |p_x| + |p_y|, from g alone */
     double last_p_bound;     /* m, p_bound in the iteration before */
-    double size;             /* m, upper bound of |p_x| + |p_y|, p conjugate */
+    double size;             /* m, upper bound of |p_x| + |p_y|, once p is
+                                conjugate to last_p */
     double way_since_setup;  /* m, upper bound of a node's displacement since
                                 the V-cycle's matrices were computed */
     double largest_change;   /* J s^2, largest change of E in this step, < 0 */
     Quartic line;            /* E(x + alpha p) - E(x), J s^2 */
     unsigned version;        /* System.version in the grid */
     double weight;           /* s^2, weight of P in the grid */
-    bool is_conjugate;       /* p becomes conjugate to last_p: no tiles relaxed
-                                after the update along last_p */
-    bool is_slow;            /* single V-cycles have given poor directions */
+    bool is_slow;            /* a direction of this step was poor */
     bool stalls;             /* whether tiles relax in each iteration */
     bool change_was_hidden;  /* rounding hid the last iteration's change of E */
 };
@@ -143,7 +142,7 @@ static Status multigrid_read_problem(Newton *newton)
     if (status)
         return status;
     Multigrid *mg = newton->multigrid;
-    mg->is_slow = mg->stalls = mg->change_was_hidden = mg->is_conjugate = false;
+    mg->is_slow = mg->stalls = mg->change_was_hidden = false;
     mg->largest_change = mg->size = 0;
     incremental_potential_absorb_pulls(at, m, u_tilde);
     if (mg->weight != at->E.weight || mg->version != system->version) {
@@ -208,14 +207,14 @@ static double minimise_quartic(const Quartic *quartic, int *trials)
     return a > 1e-9 ? a : 0;
 }
 
-/* Makes p conjugate to the direction before, and finds the step length at which
- * E, a quartic along p, is lowest. */
+/* Makes p conjugate to the direction before, unless tiles have relaxed since.
+ * Finds the step length at which E, a quartic along p, is lowest. */
 static Status multigrid_find_step_length(Newton *newton)
 {
     Multigrid *mg = newton->multigrid;
     NewtonRecord *record = &newton->record;
     double beta = 0;
-    if (mg->is_conjugate)
+    if (record->iteration > 0 && !mg->stalls)
         beta = grid_conjugate(&mg->grid, mg->g, mg->last_g, mg->last_p,
                               mg->line.q[0] * mg->grid.energy, mg->p);
     mg->size = record->residual * newton->settings.h + beta * mg->size;
@@ -248,7 +247,7 @@ static Status multigrid_update_iterate(Newton *newton)
     if (newton->passes_test)
         return STATUS_OK;
     if (mg->p_bound > STALLS * mg->last_p_bound) {
-        mg->stalls = mg->stalls || mg->is_slow || record->iteration == 1;
+        mg->stalls = mg->is_slow || record->iteration == 1;
         mg->is_slow = true;
     }
     if (mg->stalls) {
@@ -257,7 +256,6 @@ static Status multigrid_update_iterate(Newton *newton)
         mg->way_since_setup = INFINITY;
     }
     newton->counters.tile_sweeps = mg->tiles.sweeps;
-    mg->is_conjugate = !mg->stalls;
     mg->g = mg->last_g;
     mg->p = mg->last_p;
     mg->last_g = g;

@@ -4,7 +4,8 @@
  * V-cycle on the clamped Hessian finds the directions (v_cycle.h), each of
  * which is made conjugate to the one before.  E along a direction is a quartic,
  * whose minimum is the step length.  Where folds run, tiles of nodes relax
- * between the directions (tiles.h).  No update raises E.
+ * between the directions (tiles.h), which are then not made conjugate.  No
+ * update raises E.
  *
  * The test of Algorithm 3 needs p = -H^-1 g, which conjugate gradients know up
  * to a linear residual r = -g - H p, computed in double precision.  H - M is

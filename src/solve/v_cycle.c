@@ -1,6 +1,5 @@
-/* v_cycle.c - conjugate gradients with a multigrid V-cycle as
- * preconditioner.
- */
+/* v_cycle.c - directions by a multigrid V-cycle, alone or as the preconditioner
+ * of conjugate gradients. */
 #include "solve/v_cycle.h"
 
 #include <math.h>
@@ -559,8 +558,8 @@ FAST bool v_cycle_solve(VCycle *cycle, const double *g, double square,
         if (share <= (*largest > HOPEFUL * longest ? LOOSE : LEAST))
             break;
     }
-    const double metre = 1 / unit;
+    const double inverse_unit = 1 / unit;
     EACH_OF (numbers)
-        p[e] = metre * found[e];
+        p[e] = inverse_unit * found[e];
     return passes;
 }

@@ -1,6 +1,7 @@
 /* v_cycle.h - p = -H^-1 g without a factor: a multigrid V-cycle on the clamped
- * Hessian H in single precision.  If p may pass the test, or cycles converge
- * slowly, they precondition conjugate gradients, which tell how exact p is.
+ * Hessian H in single precision.  If p may pass the test, or the caller does
+ * not set is_quick, cycles precondition conjugate gradients, which tell how
+ * exact p is.
  *
  * A level has a tensor, K = w 2k/l2 (iso I + along d d^T), for each spring and
  * a mass for each node; H x at a node is m x + sum K (x - x').  A coarser level
@@ -37,7 +38,7 @@ typedef struct Level {
 typedef struct VCycle {
     const Grid *grid;
     Level level[MAX_LEVELS]; /* the finest level first */
-    float *c[KINDS];   /* [plane] Grid.c in single precision */
+    float *c[KINDS];         /* [plane] Grid.c in single precision */
     float *p, *d, *Ad; /* [2 planes] solution, direction d and A d of conjugate
                           gradients */
     bool is_set_up; /* has the tensors at grid->x; set to false when x moves */
@@ -51,11 +52,11 @@ void v_cycle_lay_out(const Grid *grid, Memory *memory, VCycle *cycle);
 void v_cycle_read_system(VCycle *cycle);
 
 /* Computes p = -H^-1 g up to a linear residual.
- *   g        [2 planes] grad E; anything at pins
- *   square   |g|_(M^-1)^2
- *   longest  largest |p_x| + |p_y| of a node with which p passes the test
+ *   g         [2 planes] grad E; anything at pins
+ *   square    |g|_(M^-1)^2
+ *   longest   largest |p_x| + |p_y| of a node with which p passes the test
  *   is_quick  one V-cycle is enough if p is too long to pass the test
- *   largest  out, max over nodes of |p_x| + |p_y|
+ *   largest   out, max over nodes of |p_x| + |p_y|
  * Returns whether p passes the test, as far as single precision tells. */
 bool v_cycle_solve(VCycle *cycle, const double *g, double square,
                    double longest, bool is_quick, double *p, double *largest);
