@@ -233,7 +233,7 @@ typedef struct CardSets {
 /* A row of a list: a key or a number, and what it does. */
 typedef struct ListRow {
     char key[VALUE_SIZE], text[SENTENCE_SIZE];
-    bool grey; /* is grey: a key without effect now, or an extra page */
+    bool grey;       /* is grey: a key without effect now, or an extra page */
     bool is_heading; /* is a heading, without a key */
 } ListRow;
 
@@ -257,13 +257,13 @@ typedef struct SheetContent {
 
 /* The page of the lecture and the guesses at its question. */
 typedef struct LectureContent {
-    const LecturePage *page; /* NULL outside of the lecture */
-    bool hides_answer;       /* the page waits for the user's guess */
-    const char *verdict;     /* verdict on the guess at this page, or NULL */
+    const LecturePage *page;    /* NULL outside of the lecture */
+    bool hides_answer;          /* the page waits for the user's guess */
+    const char *verdict;        /* verdict on the guess at this page, or NULL */
     int guesses, right_guesses; /* numbers of guesses and of right guesses */
-    char own[SENTENCE_SIZE]; /* heading for answers that are true with the
-                                page's own options; "": no option is changed */
-    char look[LOOK_SIZE]; /* text: the answer of the page */
+    char own[SENTENCE_SIZE];    /* heading for answers that are true with the
+                                   page's own options; "": none is changed */
+    char look[LOOK_SIZE];       /* text: the answer of the page */
 } LectureContent;
 
 /* ---- all of it ----------------------------------------------------------- */
@@ -281,13 +281,13 @@ typedef struct FrameContent {
     int active; /* index of the pane whose numbers the cards show */
     Pane pane[LAYOUT_PANES];
     const View *view;
-    HeldByHand hand;            /* hand of the mouse or of a script */
-    bool shows_strain;          /* springs are coloured by strain */
-    bool bare;                  /* shows pictures without words */
-    bool in_page;               /* shows the stage alone, as on the web page */
-    bool in_document;           /* the web page has switches, texts and cards */
-    struct Text *text;          /* fonts; NULL: widths of texts are estimated */
-    double min_em; /* pixels, least size of an em; 0: the usual minimum */
+    HeldByHand hand;   /* hand of the mouse or of a script */
+    bool shows_strain; /* springs are coloured by strain */
+    bool bare;         /* shows pictures without words */
+    bool in_page;      /* shows the stage alone, as on the web page */
+    bool in_document;  /* the web page has switches, texts and cards */
+    struct Text *text; /* fonts; NULL: widths of texts are estimated */
+    double min_em;     /* pixels, least size of an em; 0: the usual minimum */
     Strip strip;
     SettingsRow settings;
     TimeLine time_line;

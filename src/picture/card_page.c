@@ -10,7 +10,7 @@ typedef struct PageText {
     const char *heading; /* word in bold letters at the left, or NULL */
     const char *text;    /* a text of live_values.h, or NULL */
     Colour colour;       /* colour of the heading */
-    double size;      /* size of the letters, times LETTERS */
+    double size;         /* size of the letters, times LETTERS */
 } PageText;
 
 static const double LETTERS = 1.2;  /* ems, usual size of a page's letters */

@@ -34,7 +34,7 @@
 #define COLOUR_PROJECT  0xffd3156bu /* springs with a projected block */
 #define COLOUR_GHOST    0xffb08d57u /* ghost: the outcome with other settings */
 #define COLOUR_HAND     0xff2e7d32u /* the node or ball that the mouse holds */
-#define COLOUR_VELOCITY 0xff117733u /* velocity of one mass */
+#define COLOUR_VELOCITY 0xff117733u /* velocities, displacements */
 #define COLOUR_FORCE    0xff9a5b00u /* contact forces */
 #define COLOUR_SOLID    0xffe9e6e0u /* walls, balls */
 #define COLOUR_EDGE     0xff8b8578u /* outline of walls and balls */

@@ -190,13 +190,12 @@ void stage_draw_handles(const Plot *stage)
     }
 }
 
-static Box box_of_switch(const Plot *stage, int i)
+/* Returns the box of switch i of `count`. */
+static Box box_of_switch(const Plot *stage, int i, int count)
 {
     const Box *box = &stage->box;
     int wide = (int)(SWITCH_WIDTH * stage->em);
     int high = (int)(SWITCH_HEIGHT * stage->em), gap = (int)(0.4 * stage->em);
-    Switch switches[SCENE_MAX_SWITCHES];
-    int count = exhibit_list_switches(stage->simulation, switches);
     bool narrow = box->width < 3 * wide; /* the legend needs the upper edge */
     int top =
         narrow ? box->height - (count + 1) * (high + gap) : high + 3 * gap;
@@ -212,7 +211,7 @@ static void draw_switches(const Plot *stage)
     Switch switches[SCENE_MAX_SWITCHES];
     int count = list_switches(stage, switches);
     for (int i = 0; i < count; i++) {
-        Box box = box_of_switch(stage, i),
+        Box box = box_of_switch(stage, i, count),
             mark = box_inset(box, box.height / 4);
         bool on = switches[i].on;
         canvas_framed_box(&paper->canvas, box, on ? COLOUR_LIT : COLOUR_CHIP,
@@ -268,7 +267,7 @@ Pick frame_pick(const FrameContent *content, const Layout *layout, double x,
     if (!picture->own_handles) {
         int count = list_switches(&stage, switches);
         for (pick.index = 0; pick.index < count; pick.index++)
-            if (box_contains(box_of_switch(&stage, pick.index), x, y)) {
+            if (box_contains(box_of_switch(&stage, pick.index, count), x, y)) {
                 pick.kind = PICK_SWITCH;
                 return pick;
             }

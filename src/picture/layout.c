@@ -76,6 +76,21 @@ static int place_boxes(Box room, int lines, int gap, int count,
     return count;
 }
 
+/* Places as many of the first boxes as fit into one line, and the last box
+ * behind them.  The other boxes keep no width.  Returns how many of the first
+ * boxes fit. */
+static int place_first_and_last(Box room, int gap, int count, const int *width,
+                                Box *box)
+{
+    int last = count - 1, left = room.x;
+    room.width -= width[last] + gap;
+    int fit = place_boxes(room, 1, gap, last, width, box);
+    if (fit > 0)
+        left = box[fit - 1].x + box[fit - 1].width + gap;
+    box[last] = (Box){left, room.y, width[last], room.height};
+    return fit;
+}
+
 /* Counts the characters of UTF-8, with those of the markup; 0 for NULL. */
 static int count_letters(const char *text)
 {
@@ -87,7 +102,8 @@ static int count_letters(const char *text)
 
 /* Places the settings in one to three lines at the bottom of `rest`, which
  * loses their height.  In a low window places them in one line at the right of
- * the time line.  Settings without room are left out. */
+ * the time line; the last setting, which may list all numbers, has room first.
+ * Settings without room are left out. */
 static void place_settings(const SettingsRow *row, Layout *layout, bool low,
                            Box *rest)
 {
@@ -110,18 +126,13 @@ static void place_settings(const SettingsRow *row, Layout *layout, bool low,
         room.x += left;
         room.width -= 2 * left;
     }
-    int gap = ems_to_pixels(layout, SETTING_GAP), last = row->count - 1;
-    int fit = place_boxes(room, low ? 1 : 3, gap, row->count, width, box);
-    layout->settings = low ? row->count : fit;
-    for (; low && 0 < fit && fit <= last; fit--) { /* "+ more" is the last */
-        int end = box[fit - 1].x + box[fit - 1].width + gap;
-        box[last] = (Box){end, room.y, width[last], room.height};
-        if (end + width[last] <= room.x + room.width)
-            break;
-        box[fit - 1] = (Box){0};
-    }
-    if (low)
+    int gap = ems_to_pixels(layout, SETTING_GAP);
+    if (low) {
+        place_first_and_last(room, gap, row->count, width, box);
+        layout->settings = row->count;
         return;
+    }
+    layout->settings = place_boxes(room, 3, gap, row->count, width, box);
     int more = (box[layout->settings - 1].y - room.y) / room.height;
     layout->settings_row =
         box_cut_off(rest, EDGE_BOTTOM,
@@ -136,7 +147,7 @@ static void place_chips(const ChipRow *chips, bool lecture, Layout *layout)
 {
     int gap = ems_to_pixels(layout, 0.6), last = chips->count - 1;
     int width[LAYOUT_CHIPS];
-    Box room = box_inset(layout->chip_row, ems_to_pixels(layout, 0.35)), *box;
+    Box room = box_inset(layout->chip_row, ems_to_pixels(layout, 0.35));
     for (int i = 0; i <= last; i++) {
         double letters = BOLD * count_letters(chips->item[i].key) +
                          count_letters(chips->item[i].label) +
@@ -145,12 +156,9 @@ static void place_chips(const ChipRow *chips, bool lecture, Layout *layout)
             ems_to_pixels(layout, letters * LETTER * 0.92 + CHIP_PADDING);
     }
     room.x = ems_to_pixels(layout, GAP);
-    room.width = layout->width - 2 * room.x - width[last] - gap;
-    int fit = place_boxes(room, 1, gap, last, width, layout->chip);
-    box = &layout->chip[last];
-    *box = (Box){room.x, room.y, width[last], room.height};
-    if (fit > 0)
-        box->x = box[fit - 1 - last].x + width[fit - 1] + gap;
+    room.width = layout->width - 2 * room.x;
+    int fit =
+        place_first_and_last(room, gap, chips->count, width, layout->chip);
     layout->chips = chips->count;
     layout->chips_left_out = last - fit;
 }
@@ -209,27 +217,14 @@ typedef struct CardRow {
     double weight;     /* weight with which the row shares free height */
 } CardRow;
 
-/* Whether the card is open, and is the page's main card. */
-static bool card_is_main(const FrameContent *content, int card)
+/* Returns the index of the page's main card; -1: no main card, or a closed one.
+ */
+static int find_main_card(const FrameContent *content)
 {
     const char *name = active_pane(content)->simulation->options.main_card;
-    return name &&
-           !((content->cards.hidden | content->cards.closed) >> card & 1) &&
-           card == picture_find_card(active_picture(content), name);
-}
-
-/* Whether the card is the page's main card, and stands below the picture. */
-static bool main_card_is_below(const FrameContent *content, int card)
-{
-    return card_is_main(content, card) &&
-           active_picture(content)->cards[card]->below_picture;
-}
-
-/* Whether the card is the page's main card, and stands beside the picture. */
-static bool main_card_is_beside(const FrameContent *content, int card)
-{
-    return card_is_main(content, card) &&
-           active_picture(content)->cards[card]->beside_picture;
+    int card = name ? picture_find_card(active_picture(content), name) : -1;
+    unsigned shut = content->cards.hidden | content->cards.closed;
+    return card >= 0 && !(shut >> card & 1) ? card : -1;
 }
 
 /* Finds the rows of all visible cards.  If `pairs`, two cards of half width
@@ -240,6 +235,7 @@ static int find_card_rows(const FrameContent *content, double wide, double em,
 {
     const Picture *picture = active_picture(content);
     const CardSets *sets = &content->cards;
+    int main_card = find_main_card(content);
     int count = 0, cards = picture->count, before = -2;
     bool large = sets->enlarged >= 0 && sets->enlarged < cards;
     for (int i = 0; i < cards; i++) {
@@ -247,8 +243,9 @@ static int find_card_rows(const FrameContent *content, double wide, double em,
         bool bar = sets->closed >> i & 1 || (large && i != sets->enlarged);
         bool half = card->half_width ||
                     (card->half_width_on_page && content->lecture.page);
-        if (sets->hidden >> i & 1 || main_card_is_below(content, i) ||
-            (main_card_is_beside(content, i) && !bar))
+        bool on_stage = i == main_card &&
+                        (card->below_picture || (card->beside_picture && !bar));
+        if (sets->hidden >> i & 1 || on_stage)
             continue;
         double least = bar ? TITLE_BAR : needed_height(content, i, wide, em);
         if (pairs && half && !bar && before == i - 1) {
@@ -390,27 +387,24 @@ static void place_card_below(Layout *layout, int card, double high)
  * stage with the picture. */
 static void place_main_card(const FrameContent *content, Layout *layout)
 {
-    const Picture *picture = active_picture(content);
-    const char *name = active_pane(content)->simulation->options.main_card;
-    int main_card = name ? picture_find_card(picture, name) : -1;
+    const int main_card = find_main_card(content);
     double bar = 3 * layout->em; /* a closed card is lower */
     if (main_card < 0 || main_card >= layout->cards || layout->panes != 1 ||
         layout->stage.height < 2 * bar ||
-        content->cards.closed >> main_card & 1 ||
         (content->cards.enlarged >= 0 && content->cards.enlarged != main_card))
         return;
+    const Card *card = active_picture(content)->cards[main_card];
     Box *stage = &layout->pane[0], place = layout->card[main_card];
-    if (main_card_is_below(content, main_card)) {
+    if (card->below_picture) {
         double wide = stage->width / layout->em;
-        double needs =
-            fmax(needed_height(content, main_card, wide, layout->em),
-                 MAIN_CARD_GROWTH * picture->cards[main_card]->min_height);
+        double needs = fmax(needed_height(content, main_card, wide, layout->em),
+                            MAIN_CARD_GROWTH * card->min_height);
         place_card_below(
             layout, main_card,
             fmin((needs + 2 * GAP) * layout->em, 0.6 * stage->height));
         return;
     }
-    bool beside = main_card_is_beside(content, main_card);
+    bool beside = card->beside_picture;
     if (place.width < 1 && !layout->has_list && !beside)
         return;
     if (beside && PICTURE_PART * stage->width > MIN_BESIDE * layout->em)

@@ -1,6 +1,5 @@
-/* lecture_show.c - the list of pages, the list of the formulas'
- * letters, and what a page shows
- * besides its scene. */
+/* lecture_show.c - the list of pages, the list of the formulas' letters, and
+ * what a page shows besides its scene. */
 #include <stdio.h>
 #include <string.h>
 

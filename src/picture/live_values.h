@@ -65,9 +65,11 @@ void card_write_text(const Plot *card, const LiveValues *values,
                      const char *text);
 
 /* Writes a line behind the one before, or in a new row if the card is too
- * narrow; draw false: only measures it.  Returns the height of all rows,
- * pixels. gap  ems between two lines at   [2] in/out, pixels from the card's
- * corner to the next line; at first 0, 0 */
+ * narrow.  Returns the height of all rows, pixels.
+ *   at    [2] in/out, pixels from the card's corner to the next line; at first
+ *         0, 0
+ *   gap   ems between two lines
+ *   draw  false: the line is only measured */
 int card_write_flow(const Plot *card, int at[2], double size, double gap,
                     const TextLine *line, bool draw);
 

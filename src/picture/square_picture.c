@@ -8,7 +8,6 @@
 #include "model/fracture.h"
 #include "model/spring_law.h"
 #include "picture/square_pen.h"
-#include "run/control.h"
 
 enum {
     ARROW_SPACING = 16, /* pixels, least distance between two arrows */
@@ -197,7 +196,7 @@ static double find_needed_growth(const double box[4], const Extent *view,
 
 /* Starts from the first view, which follows a free body.  While nodes are
  * outside, the view grows by factors of 1.5 and moves with the nodes.  At last
- * the view widens to show balls and grounds in reach. */
+ * the view widens to show obstacles in reach, and the target of the hand. */
 void square_bounds(const Plot *stage, double bounds[4])
 {
     static const double GROWTH = 1.5;

@@ -65,7 +65,8 @@ const paragraph = ([colour, bold, text], asFormula) => {
   return p;
 };
 
-const showTexts = (word, lines = now[word] ?? []) => {
+const showTexts = (word) => {
+  const lines = now[word] ?? [];
   const { head } = $(word).dataset;
   const show = (line) => (line === head ? make('h2', [head]) : paragraph(line, word === 'formula'));
   put($(word), 'hidden', !lines.length);
@@ -223,7 +224,11 @@ const showCards = () => {
     setMarkup($('card-' + name).firstChild, title);
     showBody($('card-' + name).lastChild, index);
   }
-  // Sizes are read after all texts have changed, so that the page is laid out once.
+};
+
+// Draws the graphs.  Their sizes are read after all texts have changed, so that the
+// page is laid out once.
+const drawCards = () => {
   for (const { id, parentNode: box } of document.querySelectorAll('#graphs canvas'))
     if (box.clientWidth && box.clientHeight)
       Module._web_draw_card(Number(id.slice(5)), pixels(box.clientWidth), pixels(box.clientHeight));
@@ -267,7 +272,7 @@ const showDocument = (time) => {
   clearTimeout(late);
   if (field('step', 2) === '0' && time - rendered < LIVE) {
     late = setTimeout(() => showDocument(performance.now()), LIVE); // no frame may follow
-    return showCards();
+    return drawCards();
   }
   rendered = time;
   now = parseLines(ask('web_document', 'string'));
@@ -292,6 +297,7 @@ const showDocument = (time) => {
   fill($('code').lastElementChild, now.code ?? [], showCode);
   showNumbers();
   showCards();
+  drawCards();
   if (stands === '0' && time - spoken < SPOKEN) return;
   spoken = time;
   for (const id of ['picture', 'event']) put($(id), 'textContent', plain(field(id)));
