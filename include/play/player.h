@@ -105,7 +105,7 @@ typedef struct Tour {
     const LecturePage *revealed; /* page whose answer is shown, or NULL */
     char verdict[VALUE_SIZE];    /* verdict on the guess at the page, or "" */
     int guesses, right_guesses;  /* numbers of guesses so far */
-    bool opens;                  /* commands of a page are obeyed */
+    bool obeys_page;             /* commands of a page are obeyed */
     Options own[OPTIONS_MAX_DRAWN]; /* the page's own options of each pane */
     int panes;                      /* the page's own number of panes */
 } Tour;

@@ -239,6 +239,12 @@ void option_write_short(const OptionRow *row, const Options *options,
  */
 bool option_is_on(const OptionRow *row, const Options *options);
 
+/* Whether an option has the same numbers in two structs. */
+bool option_is_equal(const OptionRow *row, const Options *a, const Options *b);
+
+/* Copies all numbers of an option. */
+void option_copy(const OptionRow *row, const Options *from, Options *to);
+
 /* Returns what the window and the page call an option: "h" for timestep. */
 const char *option_label(const OptionRow *row);
 

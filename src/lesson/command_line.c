@@ -402,8 +402,6 @@ static Status check_pins(const Options *options, Message message)
         options->pin ? pins_read(options->pin, &shape, NULL) : NULL;
     if (!bad)
         return STATUS_OK;
-    static const char *const words[] = {"top-corners", "top", "bottom", "left",
-                                        "right",       "all", NULL};
     char name[64];
     int body = 0;
     snprintf(name, sizeof name, "%.*s", (int)strcspn(bad, ","), bad);
@@ -413,7 +411,7 @@ static Status check_pins(const Options *options, Message message)
         "--pin: '%s' is no node from 0 to %d, and none of: " PINS_WORDS "%s",
         name, shape.nodes - 1,
         body > shape.bodies ? "; there are not so many bodies"
-                            : suggest_name(name, "", NAMES_OF(words)).text);
+                            : suggest_name(name, "", pins_words()).text);
 }
 
 /* Refuses options that have no effect beside the others.  Several bodies touch

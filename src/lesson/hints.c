@@ -31,7 +31,7 @@ static bool letters_match(char typed, char letter)
 
 enum {
     NAME_LETTERS = 24, /* largest number of letters that are compared */
-    SHORT_NAME = 4     /* letters of a text whose first letter must be right */
+    SHORT_TEXT = 4     /* most letters if the first one must be right */
 };
 
 /* Number of typing mistakes (Damerau 1964) between a text, of at most
@@ -119,7 +119,8 @@ static const struct Synonym {
                 {"triangles", "neo-hookean"},
                 {"solid", "neo-hookean"}};
 
-/* A text of 3 to 4 letters may have one mistake, of 5 to 7 letters two. */
+/* A text of 3 to 4 letters may have one mistake behind its first letter, of 5
+ * to 7 letters two mistakes anywhere. */
 Phrase suggest_name(const char *text, const char *dashes, Names names)
 {
     Phrase hint = {""};
@@ -130,7 +131,7 @@ Phrase suggest_name(const char *text, const char *dashes, Names names)
     for (int i = 0; is_comparable && (name = names_get(names, i)); i++) {
         int mistakes = count_mistakes(text, name);
         if (name[0] && mistakes < fewest &&
-            (letters > SHORT_NAME || letters_match(text[0], name[0]))) {
+            (letters > SHORT_TEXT || letters_match(text[0], name[0]))) {
             fewest = mistakes;
             meant = name;
         }

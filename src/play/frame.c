@@ -213,7 +213,7 @@ static bool is_usual_value(const Player *player, const OptionRow *row,
 {
     int panes = past_panes(&player->past), equal = 0;
     char other[VALUE_SIZE];
-    for (int p = 0; p < panes; p++) {
+    for (int p = 0; p < panes && panes > 2; p++) {
         format_pane_value(player, p, row, other);
         equal += strcmp(value, other) == 0;
     }
@@ -322,23 +322,13 @@ static void fill_time(const Player *player, FrameContent *content)
              player_active_run(player)->outcome.updates);
 }
 
-/* Whether an option has the same numbers in two structs. */
-static bool option_is_equal(const OptionRow *row, const Options *a,
-                            const Options *b)
-{
-    int count =
-        (row->count ? row->count : 1) * (row->max_times ? row->max_times : 1);
-    return memcmp(&a->number[row->slot], &b->number[row->slot],
-                  (size_t)count * sizeof *a->number) == 0;
-}
-
 /* Returns the first pane whose option is not the page's own, or -1. */
-static int find_changed_pane(const Player *player, const OptionRow *row,
-                             const Options *now)
+static int find_changed_pane(const Player *player, const OptionRow *row)
 {
-    for (int p = 0; p < player->tour.panes; p++)
-        if (p < past_panes(&player->past) &&
-            !option_is_equal(row, &player->tour.own[p], &now[p]))
+    const Past *past = &player->past;
+    for (int p = 0; p < player->tour.panes && p < past_panes(past); p++)
+        if (!option_is_equal(row, &player->tour.own[p],
+                             &past_control(past, p)->options))
             return p;
     return -1;
 }
@@ -349,24 +339,28 @@ static int find_changed_pane(const Player *player, const OptionRow *row,
 static void fill_own_options(const Player *player, LectureContent *lecture)
 {
     const OptionRow *row[OPTIONS_MAX_ROWS];
-    Options now[OPTIONS_MAX_PANES];
+    const Options *own = player->tour.own;
     char text[SENTENCE_SIZE] = "As the page opened", value[VALUE_SIZE];
     const char *before = ", with ";
+    const LecturePage *page = past_control(&player->past, 0)->options.page;
+    /* After undo the window may show another page than the one opened last. */
+    if (!page || page != own->page || !player->given.asks)
+        return;
     int rows = player_list_options(player, true, row);
-    player_copy_options(player, now);
-    bool is_changed = now->flips != player->tour.own->flips;
+    bool is_changed =
+        exhibit_find_flips(&player->past.pane[0].simulation) != own->flips;
     for (int i = 0; i < rows; i++) {
-        int p = find_changed_pane(player, row[i], now);
+        int p = find_changed_pane(player, row[i]);
         if (p < 0)
             continue;
         is_changed = true;
-        player_format_value(row[i], &player->tour.own[p],
-                            player_simulation(player), value, sizeof value);
+        player_format_value(row[i], &own[p], player_simulation(player), value,
+                            sizeof value);
         append(text, sizeof text, "%s%s %s", before, option_label(row[i]),
                value);
         before = ", ";
     }
-    if (is_changed && now->page && player->given.asks)
+    if (is_changed)
         snprintf(lecture->own, sizeof lecture->own, "%s:", text);
 }
 

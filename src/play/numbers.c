@@ -134,7 +134,7 @@ static Status set_option_value(Player *player, int pane, const Command *command,
 }
 
 /* Sets an option in all panes, or only in the active one if the panes differ in
- * it or a page opens.  Begins new runs if the option needs a new start. */
+ * it or a page sets it.  Begins new runs if the option needs a new start. */
 Status obey_set(Player *player, const Command *command)
 {
     const OptionRow *row = find_command_option(command);
@@ -148,7 +148,7 @@ Status obey_set(Player *player, const Command *command)
     const char *idle = player_idle_reason(player, row);
     if (idle)
         return player_refuse(player, "%s", idle);
-    bool one = player->tour.opens || player_panes_differ(player, row);
+    bool one = player->tour.obeys_page || player_panes_differ(player, row);
     int from = one ? player->active : 0;
     int to = one ? player->active + 1 : past_panes(&player->past);
     player_copy_options(player, options);

@@ -106,22 +106,20 @@ static bool is_pull_due(const Player *player)
 /* Stores the option that a command of a page has set as the page's own. */
 static void store_own_option(Player *player, const Command *command)
 {
-    Options options[OPTIONS_MAX_PANES];
     Options *own = &player->tour.own[player->active];
-    player->tour.panes = player_copy_options(player, options);
+    player->tour.panes = past_panes(&player->past);
     if (command->kind == COMMAND_FLIP)
-        own->flips = options[player->active].flips;
-    if (command->kind == COMMAND_SET) {
-        int slot = option_rows[command->number].slot;
-        own->number[slot] = options[player->active].number[slot];
-    }
+        own->flips = exhibit_find_flips(player_simulation(player));
+    if (command->kind == COMMAND_SET)
+        option_copy(&option_rows[command->number],
+                    player_active_options(player), own);
 }
 
 /* Obeys the queue like player_obey_queue, without showing INVALID_INPUT. */
 static Status obey_queue(Player *player, bool now)
 {
     Queue queue = player->commands.queue;
-    const bool opens = player->tour.opens;
+    const bool obeys_page = player->tour.obeys_page;
     Status status = STATUS_OK;
     int i = 0;
     player->commands.queue = (Queue){.count = 0};
@@ -130,11 +128,11 @@ static Status obey_queue(Player *player, bool now)
         bool pulls = command->kind == COMMAND_RELEASE && is_pull_due(player);
         if (!now && (past_works(&player->past) || pulls))
             break;
-        player->tour.opens = opens || queue.of_page;
+        player->tour.obeys_page = obeys_page || queue.of_page;
         status = player_obey(player, command);
-        if (player->tour.opens && !status)
+        if (player->tour.obeys_page && !status)
             store_own_option(player, command);
-        player->tour.opens = opens;
+        player->tour.obeys_page = obeys_page;
     }
     if (!status && i == queue.count) {
         status = player_restore_pins(player, queue.pins);

@@ -37,8 +37,8 @@ Status obey_method(Player *player, const Command *command)
     return STATUS_OK;
 }
 
-/* Adds a pane with the run of the last pane and the next method.  A page that
- * opens keeps the method, since the commands of the page set what differs. */
+/* Adds a pane with the run of the last pane and the next method.  A page keeps
+ * the method, since further commands of the page set what differs. */
 Status obey_add_pane(Player *player, const Command *command)
 {
     int panes = past_panes(&player->past);
@@ -48,14 +48,15 @@ Status obey_add_pane(Player *player, const Command *command)
     if (player_simulation(player)->runs > 1)
         return player_refuse(player, "several runs are in this picture "
                                      "already: nothing goes beside it");
-    const IntegratorMethod *next =
-        player->tour.opens ? run->method : find_next_method(player, panes - 1);
+    const IntegratorMethod *next = player->tour.obeys_page
+                                       ? run->method
+                                       : find_next_method(player, panes - 1);
     if (!next)
         return STATUS_INVALID_INPUT;
     const Command change = make_set_command(
         option_find("integrator"), (double)(next - integrator_methods));
     Status status = player_edit(player, command, 0, 0, false);
-    if (!status && !player->tour.opens)
+    if (!status && !player->tour.obeys_page)
         status = player_edit(player, &change, panes, panes + 1, false);
     if (status)
         return status;

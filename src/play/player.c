@@ -231,10 +231,8 @@ Status player_create(const Options *options, int count, char *const *words,
     player->given.attended =
         player->screen.window || options->script || options->page;
     options = player->given.options;
-    Options own;
-    if (options->page &&
-        !lecture_make_options(options->page, &own, MESSAGE(player->message)))
-        player_store_own_options(player, &own);
+    if (options->page)
+        player_store_own_options(player, options);
     if (options->paused || (player->given.asks && options->steps < 0 &&
                             (options->page || options->scene->starts_paused)))
         player->time.mode = MODE_PAUSE;

@@ -161,7 +161,7 @@ bool player_hides_answer(const Player *player)
 {
     const LecturePage *page = player_active_options(player)->page;
     return page && page->ask && player->tour.revealed != page &&
-           player->given.asks && !player->tour.opens;
+           player->given.asks && !player->tour.obeys_page;
 }
 
 /* Writes the verdict on a guess for the page's card, and counts the guess. */

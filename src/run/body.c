@@ -30,6 +30,11 @@ static const struct PinWord {
                  {"all", 0, 0},
                  {NULL, 0, 0}};
 
+Names pins_words(void)
+{
+    return NAMES_OF(pin_words);
+}
+
 const char *pins_read(const char *text, const SquareMesh *shape,
                       unsigned char *pinned)
 {

@@ -362,6 +362,26 @@ bool option_is_on(const OptionRow *row, const Options *options)
     return on;
 }
 
+/* Returns the size of all numbers of an option, bytes. */
+static size_t find_numbers_size(const OptionRow *row)
+{
+    int count = row->count ? row->count : 1;
+    int times = row->max_times ? row->max_times : 1;
+    return (size_t)count * (size_t)times * sizeof(double);
+}
+
+bool option_is_equal(const OptionRow *row, const Options *a, const Options *b)
+{
+    return memcmp(&a->number[row->slot], &b->number[row->slot],
+                  find_numbers_size(row)) == 0;
+}
+
+void option_copy(const OptionRow *row, const Options *from, Options *to)
+{
+    memcpy(&to->number[row->slot], &from->number[row->slot],
+           find_numbers_size(row));
+}
+
 const char *option_label(const OptionRow *row)
 {
     return row->label ? row->label : row->name;
