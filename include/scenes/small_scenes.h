@@ -160,8 +160,8 @@ double envelope_timestep(int column);
 /* Returns the stiffness of a row, J/m^2. */
 double envelope_stiffness(int row);
 
-/* Creates `envelope`: run 0 is the run of the shown cell, at the start that
- * with the numbers of the options. */
+/* Creates `envelope`: run 0 is the run of the shown cell.  At the start this is
+ * the cell nearest to h and k of the options. */
 Status create_envelope(Simulation *simulation);
 
 /* Runs the cells of the next row, from the softest springs to the stiffest. */
