@@ -30,7 +30,7 @@ enum { LARGEST_SOLVED = 400 };
 
 /* Shaken squares add coordinates and forces of very different sizes, and their
  * sums are off by so many times what exact_residual allows for. */
-enum { SHAKEN_NOISE = 8 };
+enum { SHAKEN_NOISE = 4 };
 
 /* Part of a direction that a factor may be wrong by where the program takes it
  * as exact (rounding.c, BLURRED_MASSES). */

@@ -877,10 +877,13 @@ enum { UNITS = 4, SAMPLES = 12 };
 
 /* What becomes of p where x, x_n and the parts of the gradient have other last
  * digits: the places the same ones for all parts, so that forces still balance.
+ * Each number of u is off by half a unit of its last digit, which inertia sees
+ * where u is much larger than u - u_tilde.
  *   place  [4n] workspace */
 static Real nearby(const Spot *spot, const double *u, const double *u_tilde,
                    const Assembly *of, Random *random, double *place)
 {
+    const System *system = spot->at->system;
     double *x = place, *x_n = place + of->n;
     EvalPoint at = *spot->at;
     Spot own = *spot;
@@ -893,9 +896,11 @@ static Real nearby(const Spot *spot, const double *u, const double *u_tilde,
         x_n[i] = spot->at->x_n[i] * (1 + ulps);
     }
     assemble(&own, u, u_tilde, of);
-    for (int i = 0; i < of->n; i++)
-        of->g[i] += (2 * random_below(random, 2) - 1) * UNITS * DBL_EPSILON *
-                    of->size[i];
+    for (int i = 0; i < of->n; i++) {
+        Real m = system->pinned[i / 2] ? 0 : system->m[i / 2];
+        of->g[i] += (2 * random_below(random, 2) - 1) * DBL_EPSILON *
+                    (UNITS * of->size[i] + m * fabsl(u[i]) / 2);
+    }
     return solve_densely(of);
 }
 
