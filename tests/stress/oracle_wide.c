@@ -75,11 +75,11 @@ static Real log_of(Real a)
     return small_log_of(a / ldexpl(0.5L, k)) + (k - 1) * small_log_of(2);
 }
 
-#define fabsl             size_of
-#define sqrtl             root_of
-#define logl              log_of
-#define hypotl            length_of
-#define fminl             smaller
-#define fmaxl             larger
-#define copysignl         with_sign
+#define fabsl     size_of
+#define sqrtl     root_of
+#define logl      log_of
+#define hypotl    length_of
+#define fminl     smaller
+#define fmaxl     larger
+#define copysignl with_sign
 #include "../unit/oracle.c"

@@ -95,11 +95,18 @@ enum { STRESS_LINE = 512 };
 bool stress_rows(const char *name, bool (*take)(void *user, char *row),
                  void *user);
 
-/* The random scene with this number, as a command line; kinds are letters, of
- * which the scenes have one after the other:
+/* So many steps of a command line, which may end with the word "shaken N",
+ * judged; reason [512] out where one was WRONG; tally in/out. */
+Verdict stress_run(const char *line, int steps, Tally *tally, char *reason);
+
+/* The line that runs. */
+extern char stress_present[STRESS_LINE];
+
+/* So many random scenes; the first that is WRONG ends them.  kinds are letters,
+ * of which the scenes have one after the other:
  *   s  squares over all that the command line allows: h to 1e6 s, k to 1e15
- *      J/m^2, density from 1e-9 kg/m^2, so h^2 k/m to 1e34; with the word
- *      "shaken N" at the end no squares any more
+ *      J/m^2, density from 1e-9 kg/m^2, so h^2 k/m to 1e34; where they are
+ *      shaken no squares any more
  *   f  springs that flow, half of them without hardening, h to 1e4 s
  *   c, t, b, w  contact, friction, cells, flow, fracture, damping and what
  *      moves: scenes that fall and are pressed, tear, bend; a square among
@@ -109,16 +116,6 @@ bool stress_rows(const char *name, bool (*take)(void *user, char *row),
  *   k  solids of triangles: moduli to 1e13 Pa, density from 1e-6 kg/m^2, h to
  *      1 s, tolerances from 1e-9 m/s
  *   l  large squares */
-void stress_line(const char *kinds, uint64_t seed, long number,
-                 char line[STRESS_LINE]);
-
-/* So many steps of it, judged; reason [512] out where one was WRONG; tally
- * in/out. */
-Verdict stress_run(const char *line, int steps, Tally *tally, char *reason);
-
-/* So many of them; the first that is WRONG ends them.  stress_present always
- * holds the line that runs. */
-extern char stress_present[STRESS_LINE];
 bool stress_scenes(const char *kinds, uint64_t seed, long count, int steps,
                    Tally *tally, char *reason);
 

@@ -86,8 +86,9 @@ static void draw_part(Random *random, const char *part, char *line)
     }
 }
 
-void stress_line(const char *kinds, uint64_t seed, long number,
-                 char line[STRESS_LINE])
+/* The random scene with this number, as a command line. */
+static void draw_line(const char *kinds, uint64_t seed, long number,
+                      char line[STRESS_LINE])
 {
     Random random = {seed * 1000003 + (uint64_t)number};
     char kind = kinds[number % (long)strlen(kinds)];
@@ -199,7 +200,7 @@ bool stress_scenes(const char *kinds, uint64_t seed, long count, int steps,
 {
     Verdict verdict = VERDICT_CONVERGED;
     for (long i = 0; i < count && verdict != VERDICT_WRONG; i++) {
-        stress_line(kinds, seed, i, stress_present);
+        draw_line(kinds, seed, i, stress_present);
         stress_limit(SCENE_LIMIT);
         verdict = stress_run(stress_present, steps, tally, reason);
     }

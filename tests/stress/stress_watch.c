@@ -102,20 +102,20 @@ typedef double (*JudgedResidual)(const IncrementalPotential *E, const double *u,
 static bool residual_holds(const Watch *watch, const double *u, double limit,
                            JudgedResidual judge, double *noise, double *least)
 {
-    static const int lifts[PROJECTION_COUNT][2] = {
-        [PROJECTION_CLAMP] = {1, 1},
-        [PROJECTION_NONE] = {0, 0},
-        [PROJECTION_ABS] = {2, 2},
-        [PROJECTION_ON_DEMAND] = {1, 0}};
+    static const int lifts[PROJECTION_COUNT] = {[PROJECTION_CLAMP] = 1,
+                                                [PROJECTION_NONE] = 0,
+                                                [PROJECTION_ABS] = 2,
+                                                [PROJECTION_ON_DEMAND] = 1};
     const NewtonSettings *settings = &watch->run->newton->settings;
     Moment moment = watch_moment(watch);
     *least = INFINITY;
     for (int i = 0; i < watch_size(watch); i++)
         watch->way[i] = watch->x_n[i] + u[i];
-    for (int k = 0; k < 2; k++) {
+    bool either = settings->projection == PROJECTION_ON_DEMAND;
+    for (int k = 0; k <= either; k++) {
         double residual =
             judge(&moment.E, u, watch->way, settings->h, moment.moved,
-                  lifts[settings->projection][k], noise);
+                  lifts[settings->projection] - k, noise);
         *least = fmin(*least, residual);
         if (noise && watch->springs)
             *noise *= SHAKEN_NOISE;
