@@ -4,7 +4,6 @@
 #include "test.h"
 #include "stress.h"
 
-#include <stdio.h>
 #include <string.h>
 
 #include "model/pull_energy.h"

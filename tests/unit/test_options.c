@@ -8,22 +8,11 @@
 #include "run/message.h"
 #include "lesson/pages.h"
 
-static Options parse_good(const char *line)
-{
-    Options options;
-    char message[512];
-    Status status = parse_line(line, 0, &options, message);
-    if (status)
-        print_error("%s: %s\n", line, message);
-    CHECK_OK(status);
-    return options;
-}
-
 /* One option of a square.  message [512] */
 static Status set_option(Options *options, const char *name, const char *value,
                          char *message)
 {
-    *options = parse_good("square");
+    *options = line_options("square");
     return options_set(options, option_find(name), value, NAN,
                        (Message){message, 512});
 }
@@ -75,28 +64,33 @@ TEST(numbers_have_ranges)
     }
     CHECK(numbers > 15);
     char message[512];
-    Options solid = parse_good("return"); /* a start that makes no sense */
+    Options solid = line_options("return"); /* a start that makes no sense */
     CHECK_STATUS(
         options_set(&solid, option_find("stretch"), "0", 0, MESSAGE(message)),
         STATUS_INVALID_INPUT);
     CHECK(strstr(message, "would be turned over") != NULL);
 }
 
-/* What is not given has a value, too.  (Where a body stands, what it meets and
- * how fast it is are for test_reference.) */
+/* What is not given has a value, too.  (Numbers that are given: lines.txt.) */
 TEST(values_are_read)
 {
-    Options o = parse_good(""); /* of the integrators: the scene's choice */
+    Options o = line_options(""); /* of the integrators: the scene's choice */
     CHECK(o.scene == scenes && o.integrator == -1 && o.steps == -1);
     CHECK(!o.frames && !o.page && o.panes == 1);
-    CHECK(parse_good("-h -V").help && parse_good("-V").version);
-    assert_string_equal(parse_good("--lecture").page->name, "opening");
-    assert_string_equal(parse_good("--lecture 2").page->name, "solid");
+    CHECK(line_options("-h -V").help && line_options("-V").version);
+    assert_string_equal(line_options("--lecture").page->name, "opening");
+    assert_string_equal(line_options("--lecture 2").page->name, "solid");
     /* what is given stands instead of the scene's own */
-    CHECK(parse_good("drop").grounds == 3);
-    CHECK(parse_good("drop --ground 0,1,0,-2").grounds == 1);
+    CHECK(line_options("drop").grounds == 3);
+    CHECK(line_options("drop --ground 0,1,0,-2").grounds == 1);
     /* the scene stands anywhere */
-    CHECK(parse_good("--segments 3 6").scene == scene_find("hang"));
+    CHECK(line_options("--segments 3 6").scene == scene_find("hang"));
+}
+
+/* Whether a part of a row is about an option, not about the message. */
+static bool is_of_option(const char *part)
+{
+    return strchr("=+-", part[0]) && part[1] == ' ';
 }
 
 /* A part of a row behind its line: "= NAME NUMBER...", the value of an option;
@@ -107,7 +101,7 @@ static bool part_holds(const char *part, const Options *options,
     char name[32];
     int used;
     double wanted;
-    if (!strchr("=+-", part[0]) || part[1] != ' ')
+    if (!is_of_option(part))
         return strstr(message, part) != NULL;
     CHECK(sscanf(part + 2, "%31s%n", name, &used) == 1);
     const OptionRow *row = option_find(name);
@@ -132,7 +126,7 @@ TEST(command_lines_are_accepted_or_explained)
         char *rest = row;
         row[strcspn(row, "\n")] = '\0';
         const char *line = next_part(&rest);
-        bool taken = !rest || (strchr("=+-", rest[0]) && rest[1] == ' ');
+        bool taken = !rest || is_of_option(rest);
         if (line[0] == '#')
             continue;
         Options options = {.panes = 1};

@@ -1,7 +1,7 @@
 /* The one past: every state comes back to the last bit, whatever was kept,
- * thrown away (changed, undone: test_session); commands.  The hand: its
- * work is booked; it wins; whatever the mouse does, every step ends (the
- * derivatives of its energy are in test_terms.c).
+ * thrown away (changed, undone: test_session); commands.  The hand: whatever
+ * the mouse does, every step ends (its work, and that it wins: test_session;
+ * the derivatives of its energy: test_terms).
  */
 #include "test.h"
 

@@ -1,6 +1,5 @@
-/* Promises of the window, held without a window: the same commands, scene by
- * scene.
- */
+/* Curves of E along p and of the energies, and the time between two steps,
+ * without a window. */
 #include "test.h"
 #include "attended.h"
 

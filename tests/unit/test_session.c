@@ -747,6 +747,7 @@ static double find_way_from_stop(const Simulation *simulation)
 {
     const System *system = &simulation->system;
     double far = 0, l2 = INFINITY;
+    CHECK(2 * sizeof *rested * (size_t)system->nodes <= sizeof rested);
     for (int s = 0; s < system->springs; s++)
         l2 = fmin(l2, system->l2[s]);
     for (int i = 0; i < 2 * system->nodes; i++)
