@@ -38,9 +38,9 @@ typedef struct EvalPoint {
 EvalPoint eval_point_at(const System *system, const double *x_n,
                         const double *u, const double *x);
 
-/* Selects term t of the system's list and returns its kind.  A loop over
- * 0 <= t < system->terms evaluates all terms. */
-const TermKind *eval_point_select_term(EvalPoint *at, int t);
+/* Selects the next term of the system's list and returns its kind; after the
+ * last term selects none and returns NULL. */
+const TermKind *eval_point_next_term(EvalPoint *at);
 
 /* begin_step and end_step have this argument. */
 typedef struct TermStep {

@@ -129,10 +129,12 @@ EvalPoint eval_point_at(const System *system, const double *x_n,
                        .l2 = damped ? damped->l2 : system->l2};
 }
 
-const TermKind *eval_point_select_term(EvalPoint *at, int t)
+const TermKind *eval_point_next_term(EvalPoint *at)
 {
-    at->term = &at->system->term[t];
-    return at->term->kind;
+    const System *system = at->system;
+    const Term *next = at->term ? at->term + 1 : system->term;
+    at->term = next < system->term + system->terms ? next : NULL;
+    return at->term ? at->term->kind : NULL;
 }
 
 Status system_check(const System *system, const double *x)
@@ -150,10 +152,8 @@ Status system_check(const System *system, const double *x)
             i != j && is_positive_normal(l2) &&
             (k == 0 || (is_positive_normal(k) && is_positive_normal(k / l2)));
     }
-    for (int t = 0; valid && t < system->terms; t++) {
-        const TermKind *kind = eval_point_select_term(&at, t);
+    for (const TermKind *kind; valid && (kind = eval_point_next_term(&at));)
         valid = !kind->is_feasible || kind->is_feasible(&at);
-    }
     return valid && isfinite(system_curvature_bound(system))
                ? STATUS_OK
                : STATUS_INVALID_INPUT;
@@ -162,11 +162,9 @@ Status system_check(const System *system, const double *x)
 double system_max_step(EvalPoint at, const double *p, bool internal)
 {
     double reach = INFINITY;
-    for (int t = 0; t < at.system->terms; t++) {
-        const TermKind *kind = eval_point_select_term(&at, t);
+    for (const TermKind *kind; (kind = eval_point_next_term(&at));)
         if (kind->max_step && (kind->internal || !internal))
             reach = fmin(reach, kind->max_step(&at, p));
-    }
     return reach;
 }
 
@@ -201,11 +199,9 @@ double system_potential(const System *system, const double *x)
 {
     EvalPoint at = eval_point_at(system, x, NULL, x);
     double sum = 0;
-    for (int t = 0; t < system->terms; t++) {
-        const TermKind *kind = eval_point_select_term(&at, t);
+    for (const TermKind *kind; (kind = eval_point_next_term(&at));)
         if (kind->value)
             sum += kind->value(&at);
-    }
     return sum;
 }
 
@@ -251,11 +247,9 @@ void system_acceleration(const System *system, const double *x, double *a)
     at.weight = -1;
     for (int i = 0; i < 2 * system->nodes; i++)
         a[i] = 0;
-    for (int t = 0; t < system->terms; t++) {
-        const TermKind *kind = eval_point_select_term(&at, t);
+    for (const TermKind *kind; (kind = eval_point_next_term(&at));)
         if (kind->gradient)
             kind->gradient(&at, a);
-    }
     for (int i = 0; i < 2 * system->nodes; i++)
         a[i] = a[i] / system->m[i / 2] + system->gravity[i % 2];
     system_clear_pinned(system, a);
@@ -265,11 +259,9 @@ double system_curvature_bound(const System *system)
 {
     EvalPoint at = eval_point_at(system, NULL, NULL, NULL);
     double most = 0;
-    for (int t = 0; t < system->terms; t++) {
-        const TermKind *kind = eval_point_select_term(&at, t);
+    for (const TermKind *kind; (kind = eval_point_next_term(&at));)
         if (kind->curvature_bound)
             most = max_or_nan(most, kind->curvature_bound(&at));
-    }
     return most;
 }
 

@@ -114,11 +114,9 @@ static void note_node(Plot *stage, const Pane *pane, int node)
         eval_point_at(system, pane_positions(pane), NULL, pane_positions(pane));
     LiveValues values = {0};
     at.weight = -1;
-    for (int t = 0; f && t < system->terms; t++) {
-        const TermKind *kind = eval_point_select_term(&at, t);
+    for (const TermKind *kind; f && (kind = eval_point_next_term(&at));)
         if (kind->gradient)
             kind->gradient(&at, f);
-    }
     for (int k = 0; k < 2; k++) {
         force[k] =
             f ? f[2 * node + k] + system->m[node] * system->gravity[k] : NAN;

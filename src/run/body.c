@@ -427,8 +427,7 @@ static Status check_gaps_and_cells(const Options *options, const System *system,
 {
     const SquareMesh shape = body_make_mesh(options);
     EvalPoint at = eval_point_at(system, NULL, NULL, x);
-    for (int t = 0; t < system->terms; t++) {
-        const TermKind *kind = eval_point_select_term(&at, t);
+    for (const TermKind *kind; (kind = eval_point_next_term(&at));) {
         if (!kind->element || !kind->element->max_step)
             continue;
         ElementIterator walk = elements_begin(&at, NULL, 0);

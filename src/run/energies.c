@@ -28,8 +28,7 @@ Energies simulation_energies(const Simulation *simulation, int run)
     add_energy(&energies, "total", 0);
     add_energy(&energies, "kinetic", energies.kinetic);
     EvalPoint at = eval_point_at(system, NULL, NULL, x);
-    for (int t = 0; t < system->terms; t++) {
-        const TermKind *kind = eval_point_select_term(&at, t);
+    for (const TermKind *kind; (kind = eval_point_next_term(&at));) {
         double value = kind->energy ? kind->value(&at) : 0;
         energies.total += value;
         if (kind->energy)

@@ -294,11 +294,9 @@ double simulation_find_fastest_mode(const Simulation *simulation,
         for (int i = 0; i < n; i++)
             mode[i] /= sqrt(length2);
         double image[ROOM] = {0}; /* M^-1 H mode, 1/s^2 */
-        for (int t = 0; t < system->terms; t++) {
-            const TermKind *kind = eval_point_select_term(&at, t);
+        for (const TermKind *kind; (kind = eval_point_next_term(&at));)
             if (kind->hessian)
                 kind->hessian(&at, PROJECTION_NONE, NULL, mode, image);
-        }
         for (int i = 0; i < n; i++)
             image[i] /= system->m[i / 2];
         system_clear_pinned(system, image);

@@ -22,11 +22,9 @@ double incremental_potential_value(const IncrementalPotential *E,
 {
     EvalPoint at = eval_point_of(E, u, x);
     double P = 0;
-    for (int t = 0; t < E->system->terms; t++) {
-        const TermKind *kind = eval_point_select_term(&at, t);
+    for (const TermKind *kind; (kind = eval_point_next_term(&at));)
         if (kind->value)
             P += kind->value(&at);
-    }
     return inertia_energy_value(E->system->nodes, u, E->u_tilde, E->system->m) +
            E->weight * P;
 }
@@ -36,11 +34,9 @@ double incremental_potential_scale(const IncrementalPotential *E,
 {
     EvalPoint at = eval_point_of(E, u, x);
     double P = 0;
-    for (int t = 0; t < E->system->terms; t++) {
-        const TermKind *kind = eval_point_select_term(&at, t);
+    for (const TermKind *kind; (kind = eval_point_next_term(&at));)
         if (kind->value)
             P += fabs(kind->value(&at));
-    }
     return inertia_energy_value(E->system->nodes, u, E->u_tilde, E->system->m) +
            E->weight * P;
 }
@@ -53,11 +49,9 @@ void incremental_potential_gradient(const IncrementalPotential *E,
     for (int i = 0; i < 2 * system->nodes; i++)
         g[i] = 0;
     inertia_energy_gradient(system->nodes, u, E->u_tilde, system->m, g);
-    for (int t = 0; t < system->terms; t++) {
-        const TermKind *kind = eval_point_select_term(&at, t);
+    for (const TermKind *kind; (kind = eval_point_next_term(&at));)
         if (kind->gradient)
             kind->gradient(&at, g);
-    }
     system_clear_pinned(system, g);
 }
 
@@ -70,18 +64,14 @@ Status incremental_potential_pattern(const System *system, Sparse *A,
     long long count = masses;
     *A = (Sparse){0};
     *slot = NULL;
-    for (int t = 0; t < system->terms; t++) {
-        const TermKind *kind = eval_point_select_term(&at, t);
+    for (const TermKind *kind; (kind = eval_point_next_term(&at));)
         count += kind->entries ? kind->entries(&at) : 0;
-    }
     Status status = triplets_create(masses, count, &triplets);
     for (int i = 0; i < system->nodes && !status; i++)
         term_add_diagonal(system, i, &triplets);
-    for (int t = 0; t < system->terms && !status; t++) {
-        const TermKind *kind = eval_point_select_term(&at, t);
+    for (const TermKind *kind; !status && (kind = eval_point_next_term(&at));)
         if (kind->pattern)
             kind->pattern(&at, &triplets);
-    }
     if (!status) {
         *slot = malloc((size_t)triplets.count * sizeof **slot);
         status =
@@ -107,8 +97,7 @@ static int add_hessians(const Iterate *iterate, Projection projection,
 {
     EvalPoint at = eval_point_of(&iterate->E, iterate->u, iterate->x);
     int projected = 0;
-    for (int t = 0; t < at.system->terms; t++) {
-        const TermKind *kind = eval_point_select_term(&at, t);
+    for (const TermKind *kind; (kind = eval_point_next_term(&at));) {
         if (!kind->hessian)
             continue;
         projected += kind->hessian(&at, projection, slot, q, out);
@@ -123,11 +112,9 @@ Status incremental_potential_grow(const Iterate *iterate, bool *grown)
     EvalPoint at = eval_point_of(&iterate->E, iterate->u, iterate->x);
     Status status = STATUS_OK;
     *grown = false;
-    for (int t = 0; t < at.system->terms && !status; t++) {
-        const TermKind *kind = eval_point_select_term(&at, t);
+    for (const TermKind *kind; !status && (kind = eval_point_next_term(&at));)
         if (kind->grow)
             status = kind->grow(&at, grown);
-    }
     return status;
 }
 
@@ -165,8 +152,7 @@ LineEnergy incremental_potential_prepare_line(const Iterate *iterate)
         q[0] += g[i] * p[i];
         q[1] += 0.5 * system->m[i / 2] * p[i] * p[i];
     }
-    for (int t = 0; t < system->terms; t++) {
-        const TermKind *kind = eval_point_select_term(&at, t);
+    for (const TermKind *kind; (kind = eval_point_next_term(&at));) {
         if (kind->line_polynomial)
             kind->line_polynomial(&at, p, q + 1);
         along.has_remainder = along.has_remainder || kind->line_remainder;
@@ -182,11 +168,9 @@ double line_energy_difference(const void *function, double alpha)
         return sum;
     const Iterate *iterate = along->at;
     EvalPoint at = eval_point_of(&iterate->E, iterate->u, iterate->x);
-    for (int t = 0; t < at.system->terms; t++) {
-        const TermKind *kind = eval_point_select_term(&at, t);
+    for (const TermKind *kind; (kind = eval_point_next_term(&at));)
         if (kind->line_remainder)
             sum += kind->line_remainder(&at, iterate->p, alpha);
-    }
     return sum;
 }
 
@@ -200,11 +184,9 @@ bool incremental_potential_allows(const IncrementalPotential *E,
                                   const double *u, const double *x)
 {
     EvalPoint at = eval_point_of(E, u, x);
-    for (int t = 0; t < E->system->terms; t++) {
-        const TermKind *kind = eval_point_select_term(&at, t);
+    for (const TermKind *kind; (kind = eval_point_next_term(&at));)
         if (kind->is_feasible && !kind->is_feasible(&at))
             return false;
-    }
     return true;
 }
 
@@ -219,8 +201,7 @@ void incremental_potential_absorb_pulls(const Iterate *iterate, double *m,
         iterate->g[i] = 0;
         iterate->p[i] = 1;
     }
-    for (int t = 0; t < system->terms; t++) {
-        const TermKind *kind = eval_point_select_term(&at, t);
+    for (const TermKind *kind; (kind = eval_point_next_term(&at));) {
         if (!kind->diagonal)
             continue;
         kind->gradient(&at, iterate->g);

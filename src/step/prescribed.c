@@ -246,11 +246,9 @@ double prescribed_work(const TimeIntegrator *run, double weight)
         memset(g, 0, run->size * sizeof *g);
         inertia_energy_gradient(system->nodes, u, newton->u_tilde, system->m,
                                 g);
-        for (int t = 0; t < system->terms; t++) {
-            const TermKind *kind = eval_point_select_term(&at, t);
+        for (const TermKind *kind; (kind = eval_point_next_term(&at));)
             if (kind->gradient)
                 kind->gradient(&at, g);
-        }
         for (int i = 0; i < 2 * system->nodes; i++)
             if (system->pinned[i / 2])
                 pins += g[i] * u[i] / weight;

@@ -541,8 +541,7 @@ static void row_is_right(void **state)
     for (int n = 0; n < tests_many(2000, 150); n++) {
         static Case c;
         make_case(row, &random, &c);
-        for (int t = 0; t < c.system.terms; t++) {
-            const TermKind *kind = eval_point_select_term(&c.at, t);
+        for (const TermKind *kind; (kind = eval_point_next_term(&c.at));) {
             if (!kind->value)
                 continue;
             derivatives(&c, kind);
