@@ -15,18 +15,16 @@
 #ifndef ELASTO_CELLS_H
 #define ELASTO_CELLS_H
 
+#include "model/elements.h"
 #include "model/square_mesh.h"
-#include "model/system.h"
 
 #define CELL_J_HAT 0.4 /* area over rest area at which the barrier begins */
 
 typedef struct Cells {
-    int triangles;
-    int *node;   /* [3 triangles] nodes a, b, c of each triangle */
-    int *spring; /* [3 triangles] sides of each triangle, which ends when one
-                    breaks */
-    double area; /* m^2, A0 of each triangle */
-    double c;    /* J, A0 k_c */
+    Triangles triangles; /* four in each cell */
+    int (*spring)[3];    /* [triangles.count] sides of each triangle, which ends
+                            when one breaks */
+    double c;            /* J, A0 k_c */
 } Cells;
 
 /* The sum of W over the triangles with three whole springs; data: Cells. */

@@ -55,6 +55,14 @@ static inline void element_vectors(const Element *element, const double *x,
     }
 }
 
+/* Triangles of equal rest area, for a term with a triangle as element; the
+ * data of the term begin with this struct. */
+typedef struct Triangles {
+    int count;
+    double area;    /* m^2, A0 of each triangle at rest */
+    int (*node)[3]; /* [count] nodes a, b, c of each triangle, anticlockwise */
+} Triangles;
+
 /* The functions of one kind of element.  Elements are numbered from 0. */
 struct ElementKind {
     /* Finds the elements before count is called, at x and, with p [2n], on the

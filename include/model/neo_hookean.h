@@ -23,14 +23,12 @@
 #ifndef ELASTO_NEO_HOOKEAN_H
 #define ELASTO_NEO_HOOKEAN_H
 
+#include "model/elements.h"
 #include "model/square_mesh.h"
-#include "model/system.h"
 
 typedef struct NeoHookean {
-    int triangles;
-    double area;       /* m^2, A0 of each triangle */
-    double mu, lambda; /* J/m^2: Lame's parameters times a thickness of 1 m */
-    int (*node)[3]; /* [triangles] nodes, anticlockwise from the right angle */
+    Triangles triangles; /* two in each cell, with the right angle at a */
+    double mu, lambda;   /* J/m^2: Lame's parameters times a thickness of 1 m */
 } NeoHookean;
 
 /* The sum of W over the triangles; data: NeoHookean.  The option's numbers are

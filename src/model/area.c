@@ -3,6 +3,8 @@
  */
 #include "model/area.h"
 
+#include <string.h>
+
 #include "base/mathematics.h"
 
 void area_expand_along(const double f[4], double unit, const double P[4],
@@ -12,12 +14,38 @@ void area_expand_along(const double f[4], double unit, const double P[4],
     *J2 = unit * cross(P, P + 2);
 }
 
-/* The alpha is the smallest positive root of most + alpha J1 + alpha^2 J2. */
-double area_max_step(const double f[4], double unit, double most,
-                     const double P[4])
+int triangle_count(const EvalPoint *at)
 {
-    double J1, J2;
-    area_expand_along(f, unit, P, &J1, &J2);
+    return ((const Triangles *)at->term->data)->count;
+}
+
+int triangle_block_nodes(const EvalPoint *at, int t, int node[3])
+{
+    const Triangles *triangles = at->term->data;
+    memcpy(node, triangles->node[t], 3 * sizeof *node);
+    return 3;
+}
+
+void triangle_set_element(const EvalPoint *at, int t, Element *element)
+{
+    static const double edges[2][3] = {{-1, 1, 0}, {-1, 0, 1}};
+    element->vectors = 2;
+    element->nodes = triangle_block_nodes(at, t, element->node);
+    element->weight = edges;
+    element->block = t;
+    element->factor = at->weight;
+    for (int i = 0; i < 4; i++)
+        element->v[i] = at->x[2 * element->node[1 + i / 2] + i % 2] -
+                        at->x[2 * element->node[0] + i % 2];
+}
+
+/* The alpha is the smallest positive root of most + alpha J1 + alpha^2 J2. */
+double triangle_max_step(const EvalPoint *at, const Element *element,
+                         const double P[4])
+{
+    const Triangles *triangles = at->term->data;
+    double J1, J2, most = ELEMENT_LIMIT * element->s;
+    area_expand_along(element->v, 1 / (2 * triangles->area), P, &J1, &J2);
     double discriminant = J1 * J1 - 4 * J2 * most;
     if (!(discriminant >= 0))
         return INFINITY;

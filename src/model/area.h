@@ -12,7 +12,7 @@
 #ifndef ELASTO_AREA_H
 #define ELASTO_AREA_H
 
-#include "model/psd.h"
+#include "model/elements.h"
 
 static inline double cross(const double a[2], const double b[2])
 {
@@ -37,10 +37,16 @@ static inline void area_split(const double f[4], double plus[2],
 void area_expand_along(const double f[4], double unit, const double P[4],
                        double *J1, double *J2);
 
-/* Returns the smallest alpha > 0 at which unit J along P has decreased by
- * `most`; infinite if there is none.  f, P [4] in. */
-double area_max_step(const double f[4], double unit, double most,
-                     const double P[4]);
+/* ElementKind's functions for terms with Triangles; an element has s = unit J,
+ * unit = 1/(2 A0). */
+int triangle_count(const EvalPoint *at);
+int triangle_block_nodes(const EvalPoint *at, int t, int node[3]);
+double triangle_max_step(const EvalPoint *at, const Element *element,
+                         const double P[4]);
+
+/* Makes triangle t an element with a = x_b - x_a and b = x_c - x_a; s is left
+ * to the caller. */
+void triangle_set_element(const EvalPoint *at, int t, Element *element);
 
 /* A Hessian H by its eigenspaces.  H is on_plus in the space of f+, on_minus in
  * the space of f-, plus second (unit K f)(unit K f)^T.  H maps the plane of

@@ -2,23 +2,9 @@
 #include "model/cells.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "model/area.h"
 #include "model/barrier.h"
-#include "model/elements.h"
-
-static int cell_count(const EvalPoint *at)
-{
-    return ((const Cells *)at->term->data)->triangles;
-}
-
-static int cell_block_nodes(const EvalPoint *at, int t, int node[3])
-{
-    const Cells *cells = at->term->data;
-    memcpy(node, cells->node + 3 * t, 3 * sizeof *node);
-    return 3;
-}
 
 /* Whether triangle t can have an energy: no spring of it is broken, and J may
  * fall below CELL_J_HAT.  The element has a = e1, b = e2 and s = J.
@@ -27,28 +13,15 @@ static int cell_block_nodes(const EvalPoint *at, int t, int node[3])
 static bool cell_get_element(const EvalPoint *at, int t, double way,
                              Element *element)
 {
-    static const double edges[2][3] = {{-1, 1, 0}, {-1, 0, 1}};
     const Cells *cells = at->term->data;
-    const double *k = at->system->k;
-    const int *side = cells->spring + 3 * t;
-    const double *x_a = at->x + 2 * cells->node[3 * t];
-    const double *x_b = at->x + 2 * cells->node[3 * t + 1];
-    const double *x_c = at->x + 2 * cells->node[3 * t + 2];
-    const double e[4] = {x_b[0] - x_a[0], x_b[1] - x_a[1], x_c[0] - x_a[0],
-                         x_c[1] - x_a[1]};
+    const double *e = element->v, *k = at->system->k;
+    const int *side = cells->spring[t];
+    triangle_set_element(at, t, element);
     double sides = fabs(e[0]) + fabs(e[1]) + fabs(e[2]) + fabs(e[3]);
-    double q = 1 / (2 * cells->area), J = cross(e, e + 2) / (2 * cells->area);
-    if (J >= CELL_J_HAT + q * way * (sides + way) ||
-        !(k[side[0]] > 0 && k[side[1]] > 0 && k[side[2]] > 0))
-        return false;
-    element->vectors = 2;
-    element->nodes = cell_block_nodes(at, t, element->node);
-    element->weight = edges;
-    element->block = t;
-    element->factor = at->weight;
-    element->s = J;
-    memcpy(element->v, e, sizeof e);
-    return true;
+    double twice = 2 * cells->triangles.area;
+    element->s = cross(e, e + 2) / twice;
+    return !(element->s >= CELL_J_HAT + 1 / twice * way * (sides + way)) &&
+           k[side[0]] > 0 && k[side[1]] > 0 && k[side[2]] > 0;
 }
 
 static double cell_value(const EvalPoint *at, const Element *element)
@@ -63,7 +36,7 @@ static void cell_gradient(const EvalPoint *at, const Element *element,
 {
     const Cells *cells = at->term->data;
     const double *e1 = element->v, *e2 = element->v + 2;
-    double factor = cells->c / CELL_J_HAT / (2 * cells->area) *
+    double factor = cells->c / CELL_J_HAT / (2 * cells->triangles.area) *
                     barrier_slope(element->s / CELL_J_HAT);
     g[0] = factor * e2[1];
     g[1] = -factor * e2[0];
@@ -75,7 +48,7 @@ static bool cell_hessian(const EvalPoint *at, const Element *element,
                          Projection projection, double H[4][4])
 {
     const Cells *cells = at->term->data;
-    double s = element->s / CELL_J_HAT, q = 1 / (2 * cells->area);
+    double s = element->s / CELL_J_HAT, q = 1 / (2 * cells->triangles.area);
     double slope = cells->c / CELL_J_HAT * barrier_slope(s) * q;
     double bend = cells->c / (CELL_J_HAT * CELL_J_HAT) * barrier_curvature(s);
     AreaHessian area;
@@ -85,20 +58,12 @@ static bool cell_hessian(const EvalPoint *at, const Element *element,
     return changed;
 }
 
-static double cell_max_step(const EvalPoint *at, const Element *element,
-                            const double P[4])
-{
-    const Cells *cells = at->term->data;
-    return area_max_step(element->v, 1 / (2 * cells->area),
-                         ELEMENT_LIMIT * element->s, P);
-}
-
 static double cell_line_remainder(const EvalPoint *at, const Element *element,
                                   const double P[4], double alpha)
 {
     const Cells *cells = at->term->data;
     double J1, J2, s = element->s / CELL_J_HAT;
-    area_expand_along(element->v, 1 / (2 * cells->area), P, &J1, &J2);
+    area_expand_along(element->v, 1 / (2 * cells->triangles.area), P, &J1, &J2);
     J1 *= alpha;
     J2 *= alpha * alpha;
     return cells->c * (barrier_slope(s) * J2 / CELL_J_HAT +
@@ -109,19 +74,19 @@ static double cell_line_remainder(const EvalPoint *at, const Element *element,
 static double cell_curvature_bound(const EvalPoint *at)
 {
     const Cells *cells = at->term->data;
-    return 2 * cells->c / CELL_J_HAT / CELL_J_HAT / cells->area;
+    return 2 * cells->c / CELL_J_HAT / CELL_J_HAT / cells->triangles.area;
 }
 
 static const ElementKind triangle = {
-    .count = cell_count,
+    .count = triangle_count,
     .get_element = cell_get_element,
-    .block_nodes = cell_block_nodes,
+    .block_nodes = triangle_block_nodes,
     .value = cell_value,
     .gradient = cell_gradient,
     .hessian = cell_hessian,
     .line_remainder = cell_line_remainder,
-    .block_count = cell_count,
-    .max_step = cell_max_step,
+    .block_count = triangle_count,
+    .max_step = triangle_max_step,
 };
 
 const TermKind cell_energy = {
@@ -137,20 +102,20 @@ const TermKind cell_energy = {
 Status cells_configure(System *system, const SquareMesh *shape,
                        double stiffness)
 {
-    size_t numbers = 3 * 4 * (size_t)shape->cells;
+    int count = 4 * shape->cells;
     Cells *cells = system_add_term(system, &cell_energy,
-                                   sizeof *cells + 2 * numbers * sizeof(int));
+                                   sizeof *cells + 2 * (size_t)count *
+                                                       sizeof *cells->spring);
     if (!cells)
         return STATUS_OUT_OF_MEMORY;
-    cells->area = 0.5 * shape->spacing * shape->spacing;
-    cells->c = cells->area * stiffness;
-    if (cells->triangles > 0)
-        return STATUS_OK;
-    cells->triangles = 4 * shape->cells;
-    cells->node = (int *)(cells + 1);
-    cells->spring = cells->node + numbers;
-    for (int t = 0; t < cells->triangles; t++)
-        square_mesh_get_triangle(shape, t, cells->node + 3 * t,
-                                 cells->spring + 3 * t);
+    Triangles *triangles = &cells->triangles;
+    *triangles = (Triangles){.count = count,
+                             .area = 0.5 * shape->spacing * shape->spacing,
+                             .node = (int(*)[3])(cells + 1)};
+    cells->c = triangles->area * stiffness;
+    cells->spring = triangles->node + count;
+    for (int t = 0; t < count; t++)
+        square_mesh_get_triangle(shape, t, triangles->node[t],
+                                 cells->spring[t]);
     return STATUS_OK;
 }

@@ -2,45 +2,25 @@
 #include "model/neo_hookean.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "base/mathematics.h"
 #include "model/area.h"
 #include "model/barrier.h"
-#include "model/elements.h"
 #include "model/mass_spring_energy.h"
-
-static int neo_hookean_count(const EvalPoint *at)
-{
-    return ((const NeoHookean *)at->term->data)->triangles;
-}
-
-static int neo_hookean_block_nodes(const EvalPoint *at, int t, int node[3])
-{
-    const NeoHookean *data = at->term->data;
-    memcpy(node, data->node[t], 3 * sizeof *node);
-    return 3;
-}
 
 /* Returns 1/l^2 with the rest length l of the legs: A0 = l^2/2. */
 static double inverse_square_leg(const NeoHookean *data)
 {
-    return 1 / (2 * data->area);
+    return 1 / (2 * data->triangles.area);
 }
 
 /* Every triangle is an element, with a = e1, b = e2, s = J. */
 static bool neo_hookean_get_element(const EvalPoint *at, int t, double way,
                                     Element *element)
 {
-    static const double legs[2][3] = {{-1, 1, 0}, {-1, 0, 1}};
     const NeoHookean *data = at->term->data;
     (void)way;
-    element->vectors = 2;
-    element->nodes = neo_hookean_block_nodes(at, t, element->node);
-    element->weight = legs;
-    element->block = t;
-    element->factor = at->weight;
-    element_vectors(element, at->x, element->v);
+    triangle_set_element(at, t, element);
     element->s = inverse_square_leg(data) * cross(element->v, element->v + 2);
     return true;
 }
@@ -64,7 +44,7 @@ static double neo_hookean_value(const EvalPoint *at, const Element *element)
     double plus[2], minus[2], L = math_log(element->s);
     area_split(element->v, plus, minus);
     double shear = 2 * inverse_square_leg(data) * squared_length(minus);
-    return data->area *
+    return data->triangles.area *
            (data->mu * (shear + compute_volume_energy(element->s)) +
             0.5 * data->lambda * L * L);
 }
@@ -102,7 +82,8 @@ static bool project_hessian(const EvalPoint *at, const Element *element,
     double bend = (data->lambda * (1 - math_log(J)) + data->mu) / (J * J);
     compute_stresses(data, J, &p, &q);
     return area_project_hessian(element->v, inverse_square_leg(data), 0.5 * p,
-                                0.5 * q, data->area * bend, projection, area);
+                                0.5 * q, data->triangles.area * bend,
+                                projection, area);
 }
 
 static bool neo_hookean_hessian(const EvalPoint *at, const Element *element,
@@ -142,16 +123,9 @@ static double neo_hookean_line_remainder(const EvalPoint *at,
     double straight =
         alpha * alpha * unit / J *
         ((J - 1) * squared_length(plus) + (J + 1) * squared_length(minus));
-    return data->area * (data->mu * (straight - curved) +
-                         0.5 * data->lambda * (2 * math_log(J) * t + L * L));
-}
-
-static double neo_hookean_max_step(const EvalPoint *at, const Element *element,
-                                   const double P[4])
-{
-    const NeoHookean *data = at->term->data;
-    return area_max_step(element->v, inverse_square_leg(data),
-                         ELEMENT_LIMIT * element->s, P);
+    return data->triangles.area *
+           (data->mu * (straight - curved) +
+            0.5 * data->lambda * (2 * math_log(J) * t + L * L));
 }
 
 /* Bounds the curvature at F = I, where the Hessian in F is
@@ -163,15 +137,15 @@ static double neo_hookean_curvature_bound(const EvalPoint *at)
 }
 
 static const ElementKind triangle = {
-    .count = neo_hookean_count,
+    .count = triangle_count,
     .get_element = neo_hookean_get_element,
-    .block_nodes = neo_hookean_block_nodes,
+    .block_nodes = triangle_block_nodes,
     .value = neo_hookean_value,
     .gradient = neo_hookean_gradient,
     .hessian = neo_hookean_hessian,
     .line_remainder = neo_hookean_line_remainder,
-    .block_count = neo_hookean_count,
-    .max_step = neo_hookean_max_step,
+    .block_count = triangle_count,
+    .max_step = triangle_max_step,
     .product = neo_hookean_product,
 };
 
@@ -182,27 +156,25 @@ static Status neo_hookean_configure(System *system, const SquareMesh *mesh,
 {
     static const int corner[2][2][3] = {{{1, 2, 0}, {3, 0, 2}},
                                         {{0, 1, 3}, {2, 3, 1}}};
-    size_t triangles = 2 * (size_t)mesh->cells;
+    size_t count = 2 * (size_t)mesh->cells;
     double young = number[1], nu = number[2];
     NeoHookean *data =
         system_add_term(system, &neo_hookean_energy,
-                        sizeof *data + triangles * sizeof *data->node);
+                        sizeof *data + count * sizeof *data->triangles.node);
     if (!data)
         return STATUS_OUT_OF_MEMORY;
     data->mu = young / (2 * (1 + nu));
     data->lambda = young * nu / ((1 + nu) * (1 - 2 * nu));
-    if (data->triangles > 0)
-        return STATUS_OK;
-    data->triangles = (int)triangles;
-    data->area = 0.5 * mesh->spacing * mesh->spacing;
-    data->node = (int(*)[3])(data + 1);
+    data->triangles = (Triangles){.count = (int)count,
+                                  .area = 0.5 * mesh->spacing * mesh->spacing,
+                                  .node = (int(*)[3])(data + 1)};
     for (int c = 0; c < mesh->cells; c++) {
         int node[4], spring[6], odd = square_mesh_triangle_is_half(mesh, 4 * c);
         square_mesh_get_cell(mesh, c, node, spring);
         system->k[spring[odd ? 4 : 5]] = 0;
         for (int t = 2 * c; t < 2 * c + 2; t++)
             for (int k = 0; k < 3; k++)
-                data->node[t][k] = node[corner[odd][t % 2][k]];
+                data->triangles.node[t][k] = node[corner[odd][t % 2][k]];
     }
     system_remove_term(system, &mass_spring_energy);
     return STATUS_OK;

@@ -60,7 +60,7 @@ static double triangle_energy_density(const void *data, double J)
         f[i + 1] += part * n[1];
     }
     return element_energy_at(&there, J) /
-           neo_hookean_of(there.eval.system)->area;
+           neo_hookean_of(there.eval.system)->triangles.area;
 }
 
 static double friction_force_ratio(const void *now, double v)

@@ -194,10 +194,11 @@ int square_fill_cells(const SquarePen *pen, bool all)
 {
     const NeoHookean *solid = neo_hookean_of(pen->system);
     int folded = 0, node[4];
-    for (int t = 0; solid && t < solid->triangles; t++) {
-        const int *n = solid->node[t], face[4] = {n[0], n[1], n[2], n[2]};
+    for (int t = 0; solid && t < solid->triangles.count; t++) {
+        const int *n = solid->triangles.node[t];
+        const int face[4] = {n[0], n[1], n[2], n[2]};
         double J = fabs(twice_signed_area(pen->x, n[0], n[1], n[2])) /
-                   (2 * solid->area);
+                   (2 * solid->triangles.area);
         Colour colour = shade_of_blue(fmin(fmax(0.6 + 0.5 * log(J), 0), 1));
         fill_face(pen, face,
                   node_is_fixed(pen, n[0])

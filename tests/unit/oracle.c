@@ -373,7 +373,7 @@ static void meeting(Spot *spot, Jet *sum, const void *data, int i)
 static bool triangle(Spot *spot, const Cells *cells, int t, Jet *J)
 {
     const double *k = spot->at->system->k;
-    const int *node = cells->node + 3 * t, *side = cells->spring + 3 * t;
+    const int *node = cells->triangles.node[t], *side = cells->spring[t];
     Jet e[2][2];
     if (k[side[0]] == 0 || k[side[1]] == 0 || k[side[2]] == 0)
         return false;
@@ -381,7 +381,7 @@ static bool triangle(Spot *spot, const Cells *cells, int t, Jet *J)
         for (int edge = 0; edge < 2; edge++)
             e[edge][axis] = between(spot, node[1 + edge], node[0], axis, false);
     *J = plus(times(e[0][0], e[1][1]), -1, times(e[0][1], e[1][0]));
-    *J = plus((Jet){0}, 1 / (2 * (Real)cells->area), *J);
+    *J = plus((Jet){0}, 1 / (2 * (Real)cells->triangles.area), *J);
     return true;
 }
 
@@ -398,10 +398,10 @@ static void cell(Spot *spot, Jet *sum, const void *data, int t)
 static void solid(Spot *spot, Jet *sum, const void *data, int t)
 {
     const NeoHookean *solid = data;
-    const int *node = solid->node[t];
+    const int *node = solid->triangles.node[t];
     Jet F[4], size = {.f = -2}, J, L;
     for (int c = 0; c < 4; c++)
-        F[c] = plus((Jet){0}, 1 / sqrtl(2 * (Real)solid->area),
+        F[c] = plus((Jet){0}, 1 / sqrtl(2 * (Real)solid->triangles.area),
                     between(spot, node[1 + c / 2], node[0], c % 2, false));
     for (int c = 0; c < 4; c++)
         size = plus(size, 1, times(F[c], F[c]));
@@ -411,9 +411,10 @@ static void solid(Spot *spot, Jet *sum, const void *data, int t)
         return;
     }
     L = chain(J, logl(J.f), 1 / J.f, -1 / (J.f * J.f));
-    book(spot, sum, solid->area * (Real)solid->mu / 2, size);
-    book(spot, sum, -solid->area * (Real)solid->mu, L);
-    book(spot, sum, solid->area * (Real)solid->lambda / 2, times(L, L));
+    book(spot, sum, solid->triangles.area * (Real)solid->mu / 2, size);
+    book(spot, sum, -solid->triangles.area * (Real)solid->mu, L);
+    book(spot, sum, solid->triangles.area * (Real)solid->lambda / 2,
+         times(L, L));
 }
 
 /* c/2 |x - o|^2: pull_energy.h */
@@ -441,9 +442,8 @@ static int count_parts(const Spot *spot, Parts parts, const void *data)
     case WALLS:
         return contact->obstacles * system->nodes;
     case CELLS:
-        return ((const Cells *)data)->triangles;
     case SOLIDS:
-        return ((const NeoHookean *)data)->triangles;
+        return ((const Triangles *)data)->count;
     default:
         return spot->outline->edges * spot->outline->points;
     }
@@ -515,17 +515,15 @@ static Frame frame_of(Spot *spot, Parts parts, const void *data, int i)
 {
     static const double edges[2][3] = {{-1, 1, 0}, {-1, 0, 1}};
     const System *system = spot->at->system;
-    const NeoHookean *solid = data;
+    const Triangles *triangles = data;
     Frame frame = {0};
     if (parts == SPRINGS)
         frame_of_two(&frame, system->e[2 * i], system->e[2 * i + 1]);
     else if (parts == WALLS)
         frame_of_two(&frame, i % system->nodes,
                      ((const Contact *)data)->obstacle[i / system->nodes].node);
-    else if (parts == CELLS)
-        frame_of_three(&frame, ((const Cells *)data)->node + 3 * i, edges);
-    else if (parts == SOLIDS)
-        frame_of_three(&frame, solid->node[i], edges);
+    else if (parts == CELLS || parts == SOLIDS)
+        frame_of_three(&frame, triangles->node[i], edges);
     else if (parts == PAIRS)
         frame_of_pair(spot, &frame, i);
     return frame;
@@ -657,10 +655,10 @@ static int nodes_of(const Spot *spot, Parts parts, const void *data, int i,
 {
     const System *system = spot->at->system;
     const Outline *outline = spot->outline;
-    const int *from = parts == SPRINGS  ? system->e + 2 * i
-                      : parts == CELLS  ? ((const Cells *)data)->node + 3 * i
-                      : parts == SOLIDS ? ((const NeoHookean *)data)->node[i]
-                                        : node;
+    const int *from = parts == SPRINGS ? system->e + 2 * i
+                      : parts == CELLS || parts == SOLIDS
+                          ? ((const Triangles *)data)->node[i]
+                          : node;
     if (parts == COORDINATES)
         node[0] = i / 2;
     else if (parts == WALLS) {
@@ -1028,14 +1026,14 @@ double smallest_cell(const System *system, const double *x)
     Spot spot = {.at = &at};
     double smallest = INFINITY;
     Jet J;
-    for (int t = 0; cells && t < cells->triangles; t++)
+    for (int t = 0; cells && t < cells->triangles.count; t++)
         if (triangle(&spot, cells, t, &J))
             smallest = fmin(smallest, (double)J.f);
-    for (int t = 0; solid && t < solid->triangles; t++) {
-        const int *node = solid->node[t];
+    for (int t = 0; solid && t < solid->triangles.count; t++) {
+        const int *node = solid->triangles.node[t];
         smallest =
             fmin(smallest, (double)(area_of(x, node[0], node[1], node[2]) /
-                                    (2 * solid->area)));
+                                    (2 * solid->triangles.area)));
     }
     return smallest;
 }

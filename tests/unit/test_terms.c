@@ -123,8 +123,8 @@ static void make_grid(const Row *row, Random *random, Case *c)
     if (row->shape == CORNER) { /* one triangle is left, without springs */
         const Cells *cells = system_find_term(&c->system, &cell_energy)->data;
         for (int s = 0; s < c->system.springs; s++)
-            if (s != cells->spring[0] && s != cells->spring[1] &&
-                s != cells->spring[2])
+            if (s != cells->spring[0][0] && s != cells->spring[0][1] &&
+                s != cells->spring[0][2])
                 c->system.k[s] = 0;
     }
 }
