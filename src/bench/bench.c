@@ -1,17 +1,28 @@
 /* bench.c - elasto-bench measures run time against error, and the time of a
  * step.
  */
-#include "bench/bench.h"
-
-#include <SDL_version.h>
+#include <SDL.h>
 #include <cholmod.h>
 #include <math.h>
+#include <setjmp.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/clock.h"
+#include "lesson/command_line.h"
 #include "scenes/small_scenes.h"
+
+/* lecture.c is included without a change.  A call of exit in lecture.c becomes
+ * a jump out of the step. */
+static jmp_buf program_ended;
+
+#define exit(code) longjmp(program_ended, code)
+#define main       lecture_main
+int main(int argc, char **argv);
+#include "lecture.c"
+#undef main
+#undef exit
 
 static int compare_doubles(const void *a, const void *b)
 {
@@ -212,6 +223,29 @@ typedef struct ProgramResults {
     double energy[STARTS]; /* energy at the end, % of the energy at the start */
     long unconverged;      /* steps of all starts that did not converge */
 } ProgramResults;
+
+/* Makes a step by step_forward of lecture.c, with the springs and masses of a
+ * system.  Returns OK, OUT_OF_MEMORY, or LINE_SEARCH_LIMIT where lecture.c ends
+ * the program; x is then the last iterate. */
+static Status lecture_step(const System *system, double h, double tol,
+                           double *x, double *v)
+{
+    Spring *e = malloc((size_t)system->springs * sizeof *e);
+    if (!e)
+        return STATUS_OUT_OF_MEMORY;
+    for (int s = 0; s < system->springs; s++)
+        e[s] = (Spring){system->e[2 * s], system->e[2 * s + 1], system->l2[s],
+                        system->k[s]};
+    Solid solid = {system->nodes, system->springs, (Vec2 *)x,
+                   (Vec2 *)v,     system->m,       e};
+    volatile Status status = STATUS_LINE_SEARCH_LIMIT;
+    if (!setjmp(program_ended)) {
+        step_forward(&solid, h, tol, 0, NULL);
+        status = STATUS_OK;
+    }
+    free(e);
+    return status;
+}
 
 /* Runs a program from one start and stores its results. */
 static Status measure_start(Program program, int segments, int start, int steps,
