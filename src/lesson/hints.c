@@ -5,8 +5,8 @@
 
 #include <ctype.h>
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
-#include <strings.h>
 
 #include "run/message.h"
 
@@ -63,61 +63,42 @@ static int count_mistakes(const char *text, const char *name)
     return best;
 }
 
-/* A word of another program, of a book or of lecture.c, and the name of an
- * option or of a value that has this meaning here. */
-static const struct Synonym {
-    const char *word, *name;
-} synonyms[] = {{"h", "timestep"},
-                {"dt", "timestep"},
-                {"k", "stiffness"},
-                {"rho", "density"},
-                {"e", "young"},
-                {"nu", "poisson"},
-                {"mu", "friction"},
-                {"eta", "damping"},
-                {"g", "gravity"},
-                {"method", "integrator"},
-                {"n_seg", "segments"},
-                {"n", "segments"},
-                {"resolution", "segments"},
-                {"side_len", "side"},
-                {"kappa", "barrier"},
-                {"dhat", "barrier"},
-                {"eps", "tolerance"},
-                {"mass", "density"},
-                {"duration", "steps"},
-                {"time", "steps"},
-                {"record", "film"},
-                {"video", "film"},
-                {"output", "states"},
-                {"o", "states"},
-                {"width", "size"},
-                {"height", "size"},
-                {"no-window", "headless"},
-                {"no-gui", "headless"},
-                {"batch", "headless"},
-                {"initial_stretch", "stretch"},
-                {"euler", "backward-euler"},
-                {"implicit", "backward-euler"},
-                {"implicit-euler", "backward-euler"},
-                {"explicit", "forward-euler"},
-                {"explicit-euler", "forward-euler"},
-                {"semi-implicit-euler", "symplectic-euler"},
-                {"leapfrog", "verlet"},
-                {"velocity-verlet", "verlet"},
-                {"cholesky", "newton"},
-                {"armijo", "backtrack"},
-                {"on", "backtrack"},
-                {"off", "none"},
-                {"psd", "clamp"},
-                {"yes", "on"},
-                {"true", "on"},
-                {"1", "on"},
-                {"no", "off"},
-                {"false", "off"},
-                {"0", "off"},
-                {"triangles", "neo-hookean"},
-                {"solid", "neo-hookean"}};
+/* A name of an option or of a value, and words of other programs, of books or of
+ * lecture.c that have this meaning there, each between two blanks. */
+static const struct Synonyms {
+    const char *name, *words;
+} synonyms[] = {
+    {"timestep", " h dt "},
+    {"stiffness", " k "},
+    {"density", " rho mass "},
+    {"young", " e "},
+    {"poisson", " nu "},
+    {"friction", " mu "},
+    {"damping", " eta "},
+    {"gravity", " g "},
+    {"integrator", " method "},
+    {"segments", " n_seg n resolution "},
+    {"side", " side_len "},
+    {"barrier", " kappa dhat "},
+    {"tolerance", " eps "},
+    {"steps", " duration time "},
+    {"film", " record video "},
+    {"states", " output o "},
+    {"size", " width height "},
+    {"headless", " no-window no-gui batch "},
+    {"stretch", " initial_stretch "},
+    {"backward-euler", " euler implicit implicit-euler "},
+    {"forward-euler", " explicit explicit-euler "},
+    {"symplectic-euler", " semi-implicit-euler "},
+    {"verlet", " leapfrog velocity-verlet "},
+    {"newton", " cholesky "},
+    {"backtrack", " armijo on "},
+    {"none", " off "},
+    {"clamp", " psd "},
+    {"on", " yes true 1 "},
+    {"off", " no false 0 "},
+    {"neo-hookean", " triangles solid "},
+};
 
 /* A text of 3 to 4 letters may have one mistake behind its first letter, of 5
  * to 7 letters two mistakes anywhere. */
@@ -125,6 +106,7 @@ Phrase suggest_name(const char *text, const char *dashes, Names names)
 {
     Phrase hint = {""};
     const char *name, *meant = NULL;
+    char word[NAME_LETTERS + 3];
     int letters = (int)strlen(text);
     int fewest = letters > 2 ? (letters + 1) / 3 + 1 : 1;
     bool is_comparable = letters > 1 && letters <= NAME_LETTERS;
@@ -136,8 +118,9 @@ Phrase suggest_name(const char *text, const char *dashes, Names names)
             meant = name;
         }
     }
+    snprintf(word, sizeof word, " %s ", text);
     for (size_t i = 0; i < sizeof synonyms / sizeof *synonyms; i++)
-        if (strcasecmp(text, synonyms[i].word) == 0 &&
+        if (strcasestr(synonyms[i].words, word) &&
             names_find(names, synonyms[i].name) >= 0)
             meant = synonyms[i].name;
     if (meant)
