@@ -21,20 +21,10 @@
 typedef void Function(void);
 extern Function *const student[];
 
-enum {
-    /* the order of student.c */
-    TASK_inertia_val,
-    TASK_inertia_grad,
-    TASK_inertia_hess,
-    TASK_make_psd,
-    TASK_spring_val,
-    TASK_spring_grad,
-    TASK_spring_hess,
-    TASK_line_search,
-    TASK_residual,
-    TASK_step_forward,
-    TASK_explicit_euler
-};
+/* FUNCTIONS is F(name) for each function of tasks.txt, in order (check.sh). */
+#define F(name) TASK_##name,
+enum { FUNCTIONS };
+#undef F
 
 /* A function of lecture.c with a frequent mistake, a row of mistakes.txt. */
 typedef struct Mistake {

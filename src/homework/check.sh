@@ -15,6 +15,8 @@ pattern=-ftrivial-auto-var-init=pattern
 echo 'int main(void) { return 0; }' >"$work/try.c"
 ${CC:-cc} $pattern "$work/try.c" -o "$work/try" 2>/dev/null || pattern=
 
+functions=$(awk 'BEGIN { RS = "" } { printf "F(%s) ", $1 }' "$here/tasks.txt")
+
 # Writes the functions of lecture.c with a mistake of mistakes.txt each, and the
 # list of these functions.
 write_mistakes() {
@@ -36,7 +38,7 @@ write_mistakes() {
 write_mistakes >"$work/mistakes.h"
 # shellcheck disable=SC2086
 ${CC:-cc} -std=gnu11 -w -O1 -I"$here/.." \
-    -DMISTAKES="\"$work/mistakes.h\"" $DEP_CFLAGS \
+    -DMISTAKES="\"$work/mistakes.h\"" -DFUNCTIONS="$functions" $DEP_CFLAGS \
     -c "$here/check.c" -o "$work/check.o" || exit 1
 
 # check FILE OBJECT [NAME]: checks one file; NAME: as a line of the table.  The
@@ -49,6 +51,7 @@ check() {
         problem='there is no such file'
     elif LC_ALL=C ${CC:-cc} -std=gnu11 -Wuninitialized -Wmaybe-uninitialized \
         -Werror=return-type -g1 -Og $pattern -DHOMEWORK="\"$name\"" \
+        -DFUNCTIONS="$functions" \
         -fsanitize=address,undefined -fno-sanitize-recover=all $DEP_CFLAGS \
         -c "$here/student.c" -o "$object.o" 2>"$object.log" &&
         ${CC:-cc} -fsanitize=address,undefined "$work/check.o" "$object.o" \
