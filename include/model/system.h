@@ -49,7 +49,7 @@ struct System {
 };
 
 /* Allocates the arrays, filled with 0, and sets order[i] = i.  The list has the
- * springs' term if springs > 0.  Returns OK, INVALID_INPUT or OUT_OF_MEMORY. */
+ * springs' term if springs > 0.  Returns OK or OUT_OF_MEMORY. */
 Status system_create(int nodes, int springs, System *system);
 
 /* Whether spring s broke or was cut before the start. */
@@ -82,10 +82,8 @@ void system_remove_term(System *system, const TermKind *kind);
 /* Adds `energy`, J, to the loss of this kind's column of the ledger. */
 void system_book_loss(System *system, const TermKind *kind, double energy);
 
-/* Checks the system at x: every number is finite and in its range, every spring
- * joins two different nodes, every bound of a term is finite, and x [2n] m, in,
- * is finite and feasible for all terms.  Returns OK or INVALID_INPUT. */
-Status system_check(const System *system, const double *x);
+/* Whether x [2n] m, in, is finite and feasible for all terms. */
+bool system_allows(const System *system, const double *x);
 
 /* Returns the smallest max_step of all terms, or only of internal ones, along p
  * [2n] m, in. */

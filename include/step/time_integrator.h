@@ -88,8 +88,8 @@ bool integrator_method_refuses(const IntegratorMethod *method,
 /* Allocates the run of a method on a system, and copies the start.
  *   settings  of Newton, with h; explicit methods use only h
  *   x, v      [2n] in, positions and velocities at time 0
- * Returns OK, OUT_OF_MEMORY, INVALID_INPUT (system_check, or the system has
- * a term that the method cannot serve). */
+ * Returns OK, OUT_OF_MEMORY, INVALID_INPUT (a term does not allow x, or the
+ * method cannot serve a term). */
 Status time_integrator_create(const IntegratorMethod *method, System *system,
                               const NewtonSettings *settings, const double *x,
                               const double *v, TimeIntegrator *run);

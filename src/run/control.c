@@ -267,14 +267,13 @@ Status simulation_place_node(Simulation *simulation, int node, double x,
     memcpy(before, run->x, run->size * sizeof *before);
     run->x[2 * node] = x;
     run->x[2 * node + 1] = y;
-    Status status = system_check(run->system, run->x);
+    bool allowed = system_allows(run->system, run->x);
     for (size_t i = 0; i < run->size; i++)
         p[i] = run->x[i] - before[i];
-    if (!status && !system_path_is_free(run->system, before, p))
-        status = STATUS_INVALID_INPUT;
-    if (status || !moves) {
+    allowed = allowed && system_path_is_free(run->system, before, p);
+    if (!allowed || !moves) {
         memcpy(run->x, before, run->size * sizeof *before);
-        return status;
+        return allowed ? STATUS_OK : STATUS_INVALID_INPUT;
     }
     stop_node(run, node);
     book_external_work(simulation, dissipated);

@@ -3,7 +3,6 @@
  */
 #include "step/time_integrator.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -36,9 +35,7 @@ Status time_integrator_create(const IntegratorMethod *method, System *system,
     size_t size = 2 * (size_t)system->nodes;
     *run = (TimeIntegrator){
         .method = method, .system = system, .size = size, .h = settings->h};
-    if (system_check(system, x) || !all_finite(v, size) ||
-        !isfinite(settings->h) || !(settings->h > 0) ||
-        !(settings->tolerance > 0) ||
+    if (!system_allows(system, x) ||
         integrator_method_refuses(method, system) ||
         (system->pin_v && !method->ends_at_minimiser))
         return STATUS_INVALID_INPUT;
