@@ -34,9 +34,7 @@ void triangle_set_element(const EvalPoint *at, int t, Element *element)
     element->weight = edges;
     element->block = t;
     element->factor = at->weight;
-    for (int i = 0; i < 4; i++)
-        element->v[i] = at->x[2 * element->node[1 + i / 2] + i % 2] -
-                        at->x[2 * element->node[0] + i % 2];
+    triangle_edges(at->term->data, t, at->x, element->v);
 }
 
 /* The alpha is the smallest positive root of most + alpha J1 + alpha^2 J2. */

@@ -14,14 +14,18 @@ static bool cell_get_element(const EvalPoint *at, int t, double way,
                              Element *element)
 {
     const Cells *cells = at->term->data;
-    const double *e = element->v, *k = at->system->k;
+    const double *k = at->system->k;
     const int *side = cells->spring[t];
-    triangle_set_element(at, t, element);
+    double e[4], twice = 2 * cells->triangles.area;
+    triangle_edges(&cells->triangles, t, at->x, e);
     double sides = fabs(e[0]) + fabs(e[1]) + fabs(e[2]) + fabs(e[3]);
-    double twice = 2 * cells->triangles.area;
-    element->s = cross(e, e + 2) / twice;
-    return !(element->s >= CELL_J_HAT + 1 / twice * way * (sides + way)) &&
-           k[side[0]] > 0 && k[side[1]] > 0 && k[side[2]] > 0;
+    double J = cross(e, e + 2) / twice;
+    if (J >= CELL_J_HAT + 1 / twice * way * (sides + way) ||
+        !(k[side[0]] > 0 && k[side[1]] > 0 && k[side[2]] > 0))
+        return false;
+    triangle_set_element(at, t, element);
+    element->s = J;
+    return true;
 }
 
 static double cell_value(const EvalPoint *at, const Element *element)
