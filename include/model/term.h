@@ -82,8 +82,8 @@ struct TermKind {
      * The functions from value to is_feasible are then elements.c's. */
     const ElementKind *element;
 
-    /* Returns P(x), J, not multiplied by weight.  NULL: the term has no energy
-     * and none of the functions up to is_feasible. */
+    /* Returns P(x) >= 0, J, not multiplied by weight.  NULL: the term has no
+     * energy and none of the functions up to is_feasible. */
     double (*value)(const EvalPoint *at);
 
     /* Adds weight grad P(x) to g [2n].  Explicit integrators call it with

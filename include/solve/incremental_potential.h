@@ -28,7 +28,8 @@ typedef struct Iterate {
     double *p; /* m, search direction; 0 for pinned nodes */
 } Iterate;
 
-/* E(x), J s^2.  u [2n] m, in: x - x_n; x [2n] m, in: x_n + u. */
+/* Returns E(x) >= 0, J s^2, a sum without cancellation: the rounding error of E
+ * is a small part of E.  u [2n] m, in: x - x_n; x [2n] m, in: x_n + u. */
 double incremental_potential_value(const IncrementalPotential *E,
                                    const double *u, const double *x);
 
@@ -36,11 +37,6 @@ double incremental_potential_value(const IncrementalPotential *E,
 void incremental_potential_gradient(const IncrementalPotential *E,
                                     const double *u, const double *x,
                                     double *g);
-
-/* The size of E without cancellation, inertia plus w |P(x)|, J s^2.  Rounding
- * errors of E are in proportion to it. */
-double incremental_potential_scale(const IncrementalPotential *E,
-                                   const double *u, const double *x);
 
 /* Makes the Hessian's pattern: triplets, first 2n diagonal entries of the mass
  * matrix, then the entries of each term; rows in elimination order if the

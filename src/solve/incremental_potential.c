@@ -29,18 +29,6 @@ double incremental_potential_value(const IncrementalPotential *E,
            E->weight * P;
 }
 
-double incremental_potential_scale(const IncrementalPotential *E,
-                                   const double *u, const double *x)
-{
-    EvalPoint at = eval_point_of(E, u, x);
-    double P = 0;
-    for (const TermKind *kind; (kind = eval_point_next_term(&at));)
-        if (kind->value)
-            P += fabs(kind->value(&at));
-    return inertia_energy_value(E->system->nodes, u, E->u_tilde, E->system->m) +
-           E->weight * P;
-}
-
 void incremental_potential_gradient(const IncrementalPotential *E,
                                     const double *u, const double *x, double *g)
 {

@@ -19,12 +19,12 @@ enum { CIRCLING_ITERATIONS = 500 };
 static const double STIFF_MASSES = 1e5, INEXACT_MASSES = 1e10,
                     HIDDEN_MASSES = 1e16;
 
-/* E may exceed its start by this part of its size, since E is rounded. */
+/* E may exceed its start by this part of it, since E is rounded. */
 static const double MARGIN = 1e-12;
 
-/* E contradicts a change along a line if it is higher by more than AGREED of
- * its size and by more than BLURS times the effect of rounded coordinates.
- * (Samples of this effect differ by large factors.) */
+/* E contradicts a change along a line if E is higher by more than AGREED of E
+ * and by more than BLURS times the effect of rounded coordinates.  (Samples of
+ * this effect differ by large factors.) */
 static const double AGREED = 1e-10, BLURS = 100;
 
 void rounding_start(Newton *newton)
@@ -57,14 +57,13 @@ void rounding_start(Newton *newton)
         return;
     rounding->start_energy = incremental_potential_value(&at->E, at->u, at->x);
     rounding->energy_limit =
-        rounding->start_energy +
-        MARGIN * incremental_potential_scale(&at->E, at->u, at->x);
+        rounding->start_energy + MARGIN * rounding->start_energy;
 }
 
 bool is_below_roundoff(const Newton *newton, double change)
 {
     const Iterate *at = &newton->at;
-    double E = incremental_potential_scale(&at->E, at->u, at->x);
+    double E = incremental_potential_value(&at->E, at->u, at->x);
     return isfinite(E) && fabs(change) <= 4 * DBL_EPSILON * E;
 }
 
@@ -96,14 +95,12 @@ bool rounding_confirms_change(Newton *newton)
         rounding->E = incremental_potential_value(&at->E, at->u, at->x);
     double E = rounding->E_trial = incremental_potential_value(&at->E, u, x);
     double above = E - rounding->E - newton->record.change;
-    if (above <= AGREED * (fabs(rounding->E) + fabs(E)))
+    double agreed = AGREED * (rounding->E + E);
+    if (above <= agreed)
         return true;
-    double size = incremental_potential_scale(&at->E, at->u, at->x) +
-                  incremental_potential_scale(&at->E, u, x);
-    return !(above > AGREED * size +
-                         BLURS * (sample_coordinate_rounding(newton, u, x, E) +
-                                  sample_coordinate_rounding(
-                                      newton, at->u, at->x, rounding->E)));
+    double blur = sample_coordinate_rounding(newton, u, x, E) +
+                  sample_coordinate_rounding(newton, at->u, at->x, rounding->E);
+    return !(above > agreed + BLURS * blur);
 }
 
 bool energy_is_within_limit(const Newton *newton, const double *u,
