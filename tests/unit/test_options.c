@@ -63,28 +63,6 @@ TEST(numbers_have_ranges)
             check_refused(row->name, bad[k], " from ");
     }
     CHECK(numbers > 15);
-    char message[512];
-    Options solid = line_options("return"); /* a start that makes no sense */
-    CHECK_STATUS(
-        options_set(&solid, option_find("stretch"), "0", 0, MESSAGE(message)),
-        STATUS_INVALID_INPUT);
-    CHECK(strstr(message, "would be turned over") != NULL);
-}
-
-/* What is not given has a value, too.  (Numbers that are given: lines.txt.) */
-TEST(values_are_read)
-{
-    Options o = line_options(""); /* of the integrators: the scene's choice */
-    CHECK(o.scene == scenes && o.integrator == -1 && o.steps == -1);
-    CHECK(!o.frames && !o.page && o.panes == 1);
-    CHECK(line_options("-h -V").help && line_options("-V").version);
-    assert_string_equal(line_options("--lecture").page->name, "opening");
-    assert_string_equal(line_options("--lecture 2").page->name, "solid");
-    /* what is given stands instead of the scene's own */
-    CHECK(line_options("drop").grounds == 3);
-    CHECK(line_options("drop --ground 0,1,0,-2").grounds == 1);
-    /* the scene stands anywhere */
-    CHECK(line_options("--segments 3 6").scene == scene_find("hang"));
 }
 
 /* Whether a part of a row is about an option, not about the message. */
@@ -217,7 +195,7 @@ TEST(texts_become_one_line)
     }
 }
 
-/* Rows of 80 with every option. */
+/* Rows of 80 with every scene and option. */
 TEST(help_fits_a_terminal)
 {
     char line[128], text[8192] = "";
@@ -233,6 +211,11 @@ TEST(help_fits_a_terminal)
                  row->placeholder ? " " : "",
                  row->placeholder ? row->placeholder : "");
         CHECK(strstr(help, row->name[0] ? line : row->help) != NULL);
+    }
+    for (const Scene *scene = scenes; scene->name; scene++) {
+        snprintf(line, sizeof line, " %-15s  %s\n", scene->name,
+                 scene->sentence);
+        CHECK(strstr(help, line) != NULL);
     }
     for (const char *end; *help; help = end + 1) {
         end = strchr(help, '\n');

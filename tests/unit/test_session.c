@@ -82,6 +82,7 @@ static Box column;
 static struct {
     size_t start; /* in `written` */
     double x, y;  /* pixels, where the text stands */
+    Colour colour;
 } texts[1024];
 static int text_count;
 
@@ -95,6 +96,7 @@ int __wrap_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
     texts[text_count].start = used;
     texts[text_count].x = x;
     texts[text_count].y = y + 0.5 * style->size;
+    texts[text_count].colour = style->colour;
     text_count += text_count < 1023;
     snprintf(written + used, sizeof written - used, "%s\n", markup);
     if (box_contains(column, x, y)) /* key and meaning are two texts */
@@ -162,6 +164,20 @@ static void check_text_near(const char *line)
     find_text(strchr(line, ' ') + 1, &distance);
     if (distance > atof(line))
         fail_msg("%g pixels away: %s", distance, line);
+}
+
+/* Checks a line "COLOUR WORDS". */
+static void check_text_colour(const char *line)
+{
+    double distance;
+    char *end;
+    const char *words = strchr(line, ' ') + 1;
+    Colour wanted = 0xff000000u | (Colour)strtoul(line, &end, 16);
+    if (end + 1 != words)
+        wanted = colour_find_name(line, strcspn(line, " "));
+    Colour now = texts[find_text(words, &distance)].colour;
+    if (now != wanted)
+        fail_msg("%06x: %s", now & 0xffffff, line);
 }
 
 static void finish_session(void)
@@ -956,6 +972,8 @@ static void session_line(const char *line)
         count_texts(rest);
     else if (strcmp(verb, "near") == 0)
         check_text_near(rest);
+    else if (strcmp(verb, "colour") == 0)
+        check_text_colour(rest);
     else if (strstr("reads lacks list", verb))
         read_words(verb, rest);
     else if (strstr("mark same other", verb))
