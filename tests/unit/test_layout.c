@@ -242,6 +242,7 @@ TEST(zoom_keeps_the_point_under_the_mouse)
 
 static Text *text;
 static Canvas canvas;
+static const TextStyle style = {FACE_REGULAR, 20, 0xff000000, false, 0};
 
 static int open_texts(void **unused)
 {
@@ -283,11 +284,11 @@ TEST(markup_has_its_widths)
         {"x^{", 1, 1, false},          {"{x}", 1, 1, false},
         {"{x}", 2.01, 9, true},
     };
-    TextStyle style = {FACE_REGULAR, 20, 0xff000000, false, 0};
     double x = text_extent(text, &style, "x").width;
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        style.plain = rows[i].plain;
-        double width = text_extent(text, &style, rows[i].markup).width;
+        TextStyle same = style;
+        same.plain = rows[i].plain;
+        double width = text_extent(text, &same, rows[i].markup).width;
         CHECK(width >= rows[i].least * x && width <= rows[i].most * x);
     }
 }
@@ -309,7 +310,6 @@ TEST(formulas_have_their_sizes)
         {"matrix{;;&&&&&&&&&&&&&&;&}", "", 0, 99, 0, 9},
         {"matrix{frac{_{#p{^{_{", "", 0, 99, 0, 9},
     };
-    TextStyle style = {FACE_REGULAR, 20, 0xff000000, false, 0};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         TextExtent a = text_extent(text, &style, rows[i].markup);
         TextExtent b = text_extent(text, &style, rows[i].other);
@@ -337,7 +337,6 @@ TEST(parts_of_formulas_stand_apart)
                 {"frac{\u2212 over \u2212}", 3},
                 {"x^{x}", 1},
                 {"frac{x over x} frac{x over x}", 3}};
-    TextStyle style = {FACE_REGULAR, 20, 0xff000000, false, 0};
     for (size_t i = 0; i < sizeof rows / sizeof *rows && text; i++) {
         int bands = 0;
         canvas_clear(&canvas, 0xffffffff);
@@ -361,7 +360,6 @@ TEST(braces_of_markup_are_no_values)
 /* The slides' letters have their colours: orange keeps its red. */
 TEST(letters_have_colours)
 {
-    TextStyle style = {FACE_REGULAR, 20, 0xff000000, false, 0};
     canvas_clear(&canvas, 0xffffffff);
     text_draw(text, &canvas, &style, 0, 0, ALIGN_LEFT, "{p}");
     if (text)
@@ -372,7 +370,6 @@ TEST(letters_have_colours)
 TEST(marks_stand_above_letters)
 {
     static const char *const pairs[][2] = {{"x", "x\u0303"}, {"E", "E\u0303"}};
-    TextStyle style = {FACE_REGULAR, 20, 0xff000000, false, 0};
     for (int k = 0; k < 2 && text; k++) {
         int plain[60], letter = 0, low = 59; /* rows */
         for (int mark = 0; mark < 2; mark++) {
@@ -393,19 +390,19 @@ TEST(marks_stand_above_letters)
 TEST(texts_are_clipped)
 {
     for (double size = 4; size < 500; size *= 3) {
-        TextStyle style = {FACE_BOLD, size, 0xff000000, false, 0};
+        TextStyle bold = {FACE_BOLD, size, 0xff000000, false, 0};
         for (int y = -80; y <= 60; y += 20)
             for (int x = -300; x <= 120; x += 30) {
-                text_draw(text, &canvas, &style, x, y, (Align)((x + 300) % 3),
+                text_draw(text, &canvas, &bold, x, y, (Align)((x + 300) % 3),
                           "wrong \xff\xc3 \xe2\x82 ^{_{}}}{ \xf5");
-                text_draw(text, &canvas, &style, x, y, ALIGN_RIGHT, "");
+                text_draw(text, &canvas, &bold, x, y, ALIGN_RIGHT, "");
             }
         for (double far = 1e5; far < 1e300; far *= 1e5) {
-            double width = text_extent(text, &style, "x").width;
+            double width = text_extent(text, &bold, "x").width;
             CHECK(width ==
-                  text_draw(text, &canvas, &style, far, -far, ALIGN_LEFT, "x"));
-            CHECK(width == text_draw(text, &canvas, &style, -far, NAN,
-                                     ALIGN_RIGHT, "x"));
+                  text_draw(text, &canvas, &bold, far, -far, ALIGN_LEFT, "x"));
+            CHECK(width ==
+                  text_draw(text, &canvas, &bold, -far, NAN, ALIGN_RIGHT, "x"));
         }
     }
 }
@@ -416,7 +413,6 @@ TEST(without_a_font_nothing_fails)
     const char *was = getenv("ELASTO_FONT");
     char *kept = was ? strdup(was) : NULL;
     Text *none = (Text *)1;
-    TextStyle style = {FACE_REGULAR, 20, 0xff000000, false, 0};
     canvas_clear(&canvas, 0xffffffff);
     setenv("ELASTO_FONT", "", 1);
     CHECK_OK(text_create(&none));

@@ -297,14 +297,11 @@ TEST(words_keep_off_lines_and_words)
         }
         int ink = count_pixels(&paper.canvas, COLOUR_P, &left);
         for (int i = 0; i < 5; i++) {
-            plot_label(&plot, 1, i ? middle : far, COLOUR_TEXT,
-                       "words #force{too}");
+            plot_label(&plot, 1, i ? middle : far, COLOUR_TEXT, "words");
             int letters = count_pixels(&paper.canvas, COLOUR_TEXT, &left);
             one = i == 1 ? letters : one;
             CHECK(letters == i * one && (i == 0) == (letters == 0));
             CHECK(i != 1 || (left > 200) == !lines);
-            int coloured = count_pixels(&paper.canvas, COLOUR_FORCE, &left);
-            CHECK((coloured > 0) == (letters > 0));
         }
         CHECK(count_pixels(&paper.canvas, COLOUR_P, &left) == ink);
         paper_free(&paper);

@@ -929,13 +929,24 @@ static void keep_value(const char *line)
 
 static void session_line(const char *line)
 {
+    static const struct {
+        const char *verb;
+        void (*act)(const char *rest);
+    } acts[] = {{"begin", begin_session},  {"size", resize_window},
+                {"value", check_value},    {"keeps", keep_value},
+                {"replays", replay},       {"tables", check_tables},
+                {"row", check_row},        {"times", count_texts},
+                {"near", check_text_near}, {"colour", check_text_colour}};
     char verb[16] = "", rest[128] = "";
     sscanf(line, "%15s %127[^\n]", verb, rest);
     if (getenv("SHOW"))
         fprintf(stderr, "%s\n", line);
-    if (strcmp(verb, "begin") == 0)
-        begin_session(rest);
-    else if (strcmp(verb, "key") == 0)
+    for (size_t i = 0; i < sizeof acts / sizeof *acts; i++)
+        if (strcmp(acts[i].verb, verb) == 0) {
+            acts[i].act(rest);
+            return;
+        }
+    if (strcmp(verb, "key") == 0)
         for (char *word = strtok(rest, " "); word; word = strtok(NULL, " "))
             press_key(word);
     else if (strcmp(verb, "type") == 0)
@@ -945,35 +956,17 @@ static void session_line(const char *line)
         show_result(obey(rest));
     else if (strcmp(verb, "run") == 0)
         run_until(atol(rest));
-    else if (strcmp(verb, "size") == 0)
-        resize_window(rest);
     else if (strcmp(verb, "rest") == 0)
         run_until_rest();
     else if (strcmp(verb, "go") == 0)
         for (long left = atol(rest); left > 0; left--)
             show_result(player_make_step(&player));
-    else if (strcmp(verb, "value") == 0)
-        check_value(rest);
-    else if (strcmp(verb, "keeps") == 0)
-        keep_value(rest);
     else if (strcmp(verb, "half") == 0)
         begin_step();
     else if (strcmp(verb, "whole") == 0)
         show_result(player_continue(&player));
     else if (strcmp(verb, "asks") == 0)
         player.given.asks = player.screen.changed = true;
-    else if (strcmp(verb, "replays") == 0)
-        replay(rest);
-    else if (strcmp(verb, "tables") == 0)
-        check_tables(rest);
-    else if (strcmp(verb, "row") == 0)
-        check_row(rest);
-    else if (strcmp(verb, "times") == 0)
-        count_texts(rest);
-    else if (strcmp(verb, "near") == 0)
-        check_text_near(rest);
-    else if (strcmp(verb, "colour") == 0)
-        check_text_colour(rest);
     else if (strstr("reads lacks list", verb))
         read_words(verb, rest);
     else if (strstr("mark same other", verb))
@@ -1331,9 +1324,15 @@ static void each_page_is_tried_and_held(void **unused)
 
 int main(int argc, char **argv)
 {
-    struct CMUnitTest tests[SESSIONS + SCENES + 5];
+    struct CMUnitTest tests[5 + SESSIONS + SCENES] = {
+        cmocka_unit_test_teardown(grips_go_where_they_are_dragged, end_session),
+        cmocka_unit_test_teardown(random_keys_stay_in_their_field, end_session),
+        cmocka_unit_test_teardown(random_hands_are_written_down, end_session),
+        cmocka_unit_test_teardown(
+            pages_are_the_same_when_they_are_entered_again, end_session),
+        cmocka_unit_test(each_page_is_tried_and_held)};
     char before[4096];
-    int count = 0;
+    int count = 5;
     read_sessions("tests/data/sessions.txt");
     read_sessions("tests/data/claims.txt");
     assert_true(getcwd(before, sizeof before) && mkdtemp(folder));
@@ -1347,16 +1346,6 @@ int main(int argc, char **argv)
         tests[count++] =
             (struct CMUnitTest){rows[i].scene, a_hand_on_this_scene, NULL,
                                 end_session, (void *)&rows[i]};
-    tests[count++] = (struct CMUnitTest)cmocka_unit_test_teardown(
-        grips_go_where_they_are_dragged, end_session);
-    tests[count++] = (struct CMUnitTest)cmocka_unit_test_teardown(
-        random_keys_stay_in_their_field, end_session);
-    tests[count++] = (struct CMUnitTest)cmocka_unit_test_teardown(
-        random_hands_are_written_down, end_session);
-    tests[count++] = (struct CMUnitTest)cmocka_unit_test_teardown(
-        pages_are_the_same_when_they_are_entered_again, end_session);
-    tests[count++] =
-        (struct CMUnitTest)cmocka_unit_test(each_page_is_tried_and_held);
     assert_int_equal(chdir(folder), 0);
     if (argc > 1)
         cmocka_set_test_filter(argv[1]);
