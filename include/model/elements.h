@@ -144,7 +144,13 @@ int elements_hessian(const EvalPoint *at, Projection projection,
                      const int *slot, const double *q, double *out);
 double elements_line_remainder(const EvalPoint *at, const double *p,
                                double alpha);
+
+/* Returns the largest alpha > 0 along p that keeps s of each element positive;
+ * infinite if it is above 1. */
 double elements_max_step(const EvalPoint *at, const double *p);
+
+/* Whether P exists at x: s of each element is positive.  Tested for starts and,
+ * after rounding, for iterates. */
 bool elements_are_feasible(const EvalPoint *at);
 
 /* The TermKind of a term with elements begins with these functions. */
@@ -152,7 +158,6 @@ bool elements_are_feasible(const EvalPoint *at);
     .element = &(kind), .value = elements_value,                               \
     .gradient = elements_gradient, .entries = elements_entries,                \
     .pattern = elements_pattern, .hessian = elements_hessian,                  \
-    .line_remainder = elements_line_remainder, .max_step = elements_max_step,  \
-    .is_feasible = elements_are_feasible
+    .line_remainder = elements_line_remainder
 
 #endif

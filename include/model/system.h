@@ -82,11 +82,11 @@ void system_remove_term(System *system, const TermKind *kind);
 /* Adds `energy`, J, to the loss of this kind's column of the ledger. */
 void system_book_loss(System *system, const TermKind *kind, double energy);
 
-/* Whether x [2n] m, in, is finite and feasible for all terms. */
-bool system_allows(const System *system, const double *x);
+/* Whether the point is feasible for all terms (elements_are_feasible). */
+bool system_allows(EvalPoint at);
 
-/* Returns the smallest max_step of all terms, or only of internal ones, along p
- * [2n] m, in. */
+/* Returns the smallest elements_max_step of all terms, or only of internal
+ * ones, along p [2n] m, in. */
 double system_max_step(EvalPoint at, const double *p, bool internal);
 
 /* Whether all nodes can move straight from x to x + p so that no body passes

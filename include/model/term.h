@@ -79,11 +79,13 @@ struct TermKind {
     } place;
 
     /* Kind of the elements, if the term is a sum over elements (elements.h).
-     * The functions from value to is_feasible are then elements.c's. */
+     * The functions from value to line_remainder are then elements.c's.  P may
+     * exist only where distances and areas of the elements are positive; P of
+     * other kinds exists everywhere. */
     const ElementKind *element;
 
     /* Returns P(x) >= 0, J, not multiplied by weight.  NULL: the term has no
-     * energy and none of the functions up to is_feasible. */
+     * energy and none of the functions up to line_remainder. */
     double (*value)(const EvalPoint *at);
 
     /* Adds weight grad P(x) to g [2n].  Explicit integrators call it with
@@ -122,15 +124,6 @@ struct TermKind {
      * polynomial. */
     double (*line_remainder)(const EvalPoint *at, const double *p,
                              double alpha);
-
-    /* Returns the largest alpha > 0 along p that keeps every distance and area
-     * positive.  The line search starts at the smallest one of all terms, at
-     * most 1.  NULL: infinite. */
-    double (*max_step)(const EvalPoint *at, const double *p);
-
-    /* Returns whether P exists at x: every distance and area is positive.
-     * Tested for starts and, after rounding, for iterates.  NULL: always. */
-    bool (*is_feasible)(const EvalPoint *at);
 
     /* Freezes what stays constant during the step from x and v, for example the
      * normal forces of friction.  Calls system_mark_changed if it changed

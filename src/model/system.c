@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "model/damping.h"
+#include "model/elements.h"
 #include "model/mass_spring_energy.h"
 
 Status system_create(int nodes, int springs, System *system)
@@ -127,21 +128,20 @@ const TermKind *eval_point_next_term(EvalPoint *at)
     return at->term ? at->term->kind : NULL;
 }
 
-bool system_allows(const System *system, const double *x)
+bool system_allows(EvalPoint at)
 {
-    EvalPoint at = eval_point_at(system, x, NULL, x);
-    bool valid = all_finite(x, 2 * (size_t)system->nodes);
-    for (const TermKind *kind; valid && (kind = eval_point_next_term(&at));)
-        valid = !kind->is_feasible || kind->is_feasible(&at);
-    return valid;
+    for (const TermKind *kind; (kind = eval_point_next_term(&at));)
+        if (kind->element && !elements_are_feasible(&at))
+            return false;
+    return true;
 }
 
 double system_max_step(EvalPoint at, const double *p, bool internal)
 {
     double reach = INFINITY;
     for (const TermKind *kind; (kind = eval_point_next_term(&at));)
-        if (kind->max_step && (kind->internal || !internal))
-            reach = fmin(reach, kind->max_step(&at, p));
+        if (kind->element && (kind->internal || !internal))
+            reach = fmin(reach, elements_max_step(&at, p));
     return reach;
 }
 

@@ -171,11 +171,7 @@ double incremental_potential_max_step(const Iterate *at)
 bool incremental_potential_allows(const IncrementalPotential *E,
                                   const double *u, const double *x)
 {
-    EvalPoint at = eval_point_of(E, u, x);
-    for (const TermKind *kind; (kind = eval_point_next_term(&at));)
-        if (kind->is_feasible && !kind->is_feasible(&at))
-            return false;
-    return true;
+    return system_allows(eval_point_of(E, u, x));
 }
 
 void incremental_potential_absorb_pulls(const Iterate *iterate, double *m,

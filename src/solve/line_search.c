@@ -41,7 +41,7 @@ static double step_difference(const void *function, double alpha)
         u[i] = at->u[i] + alpha * at->p[i];
         x[i] = at->E.x_n[i] + u[i];
     }
-    /* Rounding may make a point infeasible that max_step allows. */
+    /* Rounding may make a point infeasible that the largest step allows. */
     bool allowed = incremental_potential_allows(&at->E, u, x) &&
                    rounding_confirms_change(newton);
     return !allowed ? NAN : searches ? change : 0;

@@ -239,8 +239,8 @@ static void make_place(const Row *row, Random *random, Case *c)
         }
         for (int t = 0; t < c->system.terms; t++) {
             c->at.term = &c->system.term[t];
-            if (c->at.term->kind->is_feasible)
-                good = good && c->at.term->kind->is_feasible(&c->at) &&
+            if (c->at.term->kind->element)
+                good = good && elements_are_feasible(&c->at) &&
                        exact_crossings(&c->system, c->x) == 0;
         }
     }
@@ -384,8 +384,8 @@ static void derivatives(Case *c, const TermKind *kind)
 static void line(Case *c, const TermKind *kind, Random *random)
 {
     double q[3] = {0}, g[SIZE] = {0}, reach = INFINITY;
-    if (kind->max_step)
-        reach = kind->max_step(&c->at, c->p);
+    if (kind->element)
+        reach = elements_max_step(&c->at, c->p);
     double most = fmin(reach, row->far);
     if (random_below(random, 2))
         most *= random_logarithmic(random, 1e-6, 1);
@@ -429,7 +429,7 @@ static double part_left(const Case *c, const double *x)
 static void limit(Case *c, const TermKind *kind)
 {
     double x[SIZE],
-        alpha = kind->max_step ? kind->max_step(&c->at, c->p) : INFINITY;
+        alpha = kind->element ? elements_max_step(&c->at, c->p) : INFINITY;
     Case other = *c;
     if (!isfinite(alpha))
         return;
@@ -437,7 +437,7 @@ static void limit(Case *c, const TermKind *kind)
         for (int i = 0; i < c->size; i++)
             x[i] = c->x[i] + alpha * k / 20 * c->p[i];
         other.at.x = x;
-        CHECK(kind->is_feasible(&other.at) &&
+        CHECK(elements_are_feasible(&other.at) &&
               exact_crossings(&c->system, x) == 0);
     }
     long crossings = 0;
