@@ -31,6 +31,14 @@ typedef struct SquareMesh {
     int outline;    /* outer edges of all bodies */
 } SquareMesh;
 
+/* Returns twice the signed area of the triangle a b p, m^2: positive if p is
+ * left of the line from a to b. */
+static inline double twice_signed_area(const double *a, const double *b,
+                                       const double *p)
+{
+    return (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
+}
+
 /* Sides of a body; square_mesh_get_sides adds them up. */
 enum { MESH_LEFT = 1, MESH_RIGHT = 2, MESH_BOTTOM = 4, MESH_TOP = 8 };
 

@@ -88,12 +88,6 @@ void square_mesh_get_triangle(const SquareMesh *shape, int t, int node[3],
     side[2] = spring[before];
 }
 
-/* Returns twice the area of the triangle abp, m^2; negative if clockwise. */
-static double twice_area(const double *a, const double *b, const double *p)
-{
-    return (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
-}
-
 int square_mesh_find_cell(const SquareMesh *shape, const double *x,
                           const double *at, int cell, int end)
 {
@@ -102,10 +96,10 @@ int square_mesh_find_cell(const SquareMesh *shape, const double *x,
         square_mesh_get_triangle(shape, t, node, side);
         const double *a = x + 2 * node[0], *b = x + 2 * node[1];
         const double *c = x + 2 * node[2];
-        double turn = twice_area(a, b, c) < 0 ? -1 : 1;
-        if (twice_area(a, b, c) != 0 && turn * twice_area(a, b, at) >= 0 &&
-            turn * twice_area(b, c, at) >= 0 &&
-            turn * twice_area(c, a, at) >= 0)
+        double whole = twice_signed_area(a, b, c), turn = whole < 0 ? -1 : 1;
+        if (whole != 0 && turn * twice_signed_area(a, b, at) >= 0 &&
+            turn * twice_signed_area(b, c, at) >= 0 &&
+            turn * twice_signed_area(c, a, at) >= 0)
             return t / 4;
     }
     return -1;

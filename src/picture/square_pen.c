@@ -137,20 +137,14 @@ void square_draw_springs(const SquarePen *pen)
 
 /* ---- cells -------------------------------------------------------------- */
 
-/* Returns twice the signed area of the triangle a b c, m^2, which is negative
- * if the triangle has turned over. */
-static double twice_signed_area(const double *x, int a, int b, int c)
-{
-    const double *p = x + 2 * a, *q = x + 2 * b, *r = x + 2 * c;
-    return (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
-}
-
 /* Whether one of the two triangles of a face has turned over.  The nodes are
  * anticlockwise at rest. */
 static bool face_is_folded(const double *x, const int node[4])
 {
-    return twice_signed_area(x, node[0], node[1], node[2]) < 0 ||
-           twice_signed_area(x, node[0], node[2], node[3]) < 0;
+    return twice_signed_area(x + 2 * node[0], x + 2 * node[1],
+                             x + 2 * node[2]) < 0 ||
+           twice_signed_area(x + 2 * node[0], x + 2 * node[2],
+                             x + 2 * node[3]) < 0;
 }
 
 /* Whether all springs of a cell are unbroken.
@@ -197,7 +191,8 @@ int square_fill_cells(const SquarePen *pen, bool all)
     for (int t = 0; solid && t < solid->triangles.count; t++) {
         const int *n = solid->triangles.node[t];
         const int face[4] = {n[0], n[1], n[2], n[2]};
-        double J = fabs(twice_signed_area(pen->x, n[0], n[1], n[2])) /
+        double J = fabs(twice_signed_area(pen->x + 2 * n[0], pen->x + 2 * n[1],
+                                          pen->x + 2 * n[2])) /
                    (2 * solid->triangles.area);
         Colour colour = shade_of_blue(fmin(fmax(0.6 + 0.5 * log(J), 0), 1));
         fill_face(pen, face,

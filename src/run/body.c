@@ -542,14 +542,6 @@ double simulation_find_free_way(const Simulation *simulation,
     return free;
 }
 
-/* Twice the signed area of the triangle a b p: positive if p is left of the
- * line from a to b. */
-static double find_orientation(const double *a, const double *b,
-                               const double *p)
-{
-    return (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
-}
-
 /* Whether two edges, a pair of nodes each, have a common point. */
 static bool edges_cross(const double *x, const int one[2], const int other[2])
 {
@@ -559,8 +551,8 @@ static bool edges_cross(const double *x, const int one[2], const int other[2])
         if (fmax(a[k], b[k]) < fmin(c[k], d[k]) ||
             fmax(c[k], d[k]) < fmin(a[k], b[k]))
             return false;
-    return find_orientation(a, b, c) * find_orientation(a, b, d) <= 0 &&
-           find_orientation(c, d, a) * find_orientation(c, d, b) <= 0;
+    return twice_signed_area(a, b, c) * twice_signed_area(a, b, d) <= 0 &&
+           twice_signed_area(c, d, a) * twice_signed_area(c, d, b) <= 0;
 }
 
 /* Checks that no body is inside another one.  The outlines do not cross, so one
