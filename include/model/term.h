@@ -143,12 +143,12 @@ struct TermKind {
 
     bool diagonal; /* P is a sum of c/2 |x_i - o|^2 over nodes i, c > 0,
                       so its Hessian is a diagonal matrix */
-    bool internal; /* has forces that add up to 0 and do not move the centre of
-                      mass */
+    bool external; /* has forces that do not add up to 0 and so move the centre
+                      of mass */
     bool depends_on_start;    /* P depends on x_n too, so that a turn of all
                                  nodes changes P */
-    bool backward_euler_only; /* refused by all other integrators, since
-                                 x_(n+1) must be the minimiser itself */
+    bool any_integrator; /* works with every integrator; other terms only with
+                            backward Euler, whose x_(n+1) is the minimiser */
 };
 
 struct Term {

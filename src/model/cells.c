@@ -99,8 +99,6 @@ const TermKind cell_energy = {
     .energy = "contact",
     .place = PLACE_CELLS,
     .curvature_bound = cell_curvature_bound,
-    .internal = true,
-    .backward_euler_only = true,
 };
 
 Status cells_configure(System *system, const SquareMesh *shape,

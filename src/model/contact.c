@@ -232,7 +232,7 @@ const TermKind contact_energy = {
     .energy = "contact",
     .place = PLACE_CONTACT,
     .curvature_bound = contact_curvature_bound,
-    .backward_euler_only = true,
+    .external = true,
 };
 
 Status contact_configure(System *system, const Barrier *barrier, int obstacles,

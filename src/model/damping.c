@@ -74,6 +74,4 @@ const TermKind damping = {
     .begin_step = damping_begin_step,
     .end_step = damping_end_step,
     .curvature_bound = damping_curvature_bound,
-    .internal = true,
-    .backward_euler_only = true,
 };

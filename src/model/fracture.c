@@ -95,5 +95,5 @@ const TermKind fracture = {
     .loss = "fracture",
     .place = PLACE_FRACTURE,
     .end_step = fracture_end_step,
-    .internal = true,
+    .any_integrator = true,
 };

@@ -238,7 +238,7 @@ const TermKind friction_energy = {
     .begin_step = friction_begin_step,
     .end_step = friction_end_step,
     .depends_on_start = true,
-    .backward_euler_only = true,
+    .external = true,
 };
 
 const TermKind self_friction_energy = {
@@ -247,9 +247,7 @@ const TermKind self_friction_energy = {
     .place = PLACE_FRICTION,
     .begin_step = friction_begin_step,
     .end_step = friction_end_step,
-    .internal = true,
     .depends_on_start = true,
-    .backward_euler_only = true,
 };
 
 double friction_work_of_obstacles(const System *system, const double *u)

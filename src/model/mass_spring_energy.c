@@ -95,5 +95,5 @@ const TermKind mass_spring_energy = {
     .hessian = mass_spring_hessian,
     .line_polynomial = mass_spring_line_polynomial,
     .curvature_bound = mass_spring_curvature_bound,
-    .internal = true,
+    .any_integrator = true,
 };

@@ -186,6 +186,4 @@ const TermKind neo_hookean_energy = {
     .configure = neo_hookean_configure,
     .energy = "elastic",
     .curvature_bound = neo_hookean_curvature_bound,
-    .internal = true,
-    .backward_euler_only = true,
 };

@@ -249,6 +249,4 @@ const TermKind plastic_energy = {
     .line_remainder = plastic_line_remainder,
     .end_step = plastic_end_step,
     .curvature_bound = mass_spring_curvature_bound,
-    .internal = true,
-    .backward_euler_only = true,
 };

@@ -70,7 +70,8 @@ static double pull_curvature_bound(const EvalPoint *at)
     .value = pull_value, .gradient = pull_gradient, .entries = pull_entries,   \
     .pattern = pull_pattern, .hessian = pull_hessian,                          \
     .line_polynomial = pull_line_polynomial,                                   \
-    .curvature_bound = pull_curvature_bound, .diagonal = true
+    .curvature_bound = pull_curvature_bound, .diagonal = true,                 \
+    .external = true, .any_integrator = true
 
 const TermKind central_field = {PULL, .energy = "elastic"};
 const TermKind hand_energy = {PULL, .place = PLACE_HAND};

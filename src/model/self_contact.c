@@ -380,8 +380,6 @@ const TermKind self_contact_energy = {
     .grow = self_contact_grow,
     .curvature_bound = pair_curvature_bound,
     .free = self_contact_free,
-    .internal = true,
-    .backward_euler_only = true,
 };
 
 SelfContact *self_contact_of(const System *system)

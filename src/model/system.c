@@ -140,7 +140,7 @@ double system_max_step(EvalPoint at, const double *p, bool internal)
 {
     double reach = INFINITY;
     for (const TermKind *kind; (kind = eval_point_next_term(&at));)
-        if (kind->element && (kind->internal || !internal))
+        if (kind->element && !(kind->external && internal))
             reach = fmin(reach, elements_max_step(&at, p));
     return reach;
 }
@@ -194,7 +194,7 @@ static bool terms_are_internal(const System *system, bool turn)
 {
     for (int t = 0; t < system->terms; t++) {
         const TermKind *kind = system->term[t].kind;
-        if (!kind->internal || (turn && kind->depends_on_start))
+        if (kind->external || (turn && kind->depends_on_start))
             return false;
     }
     return true;

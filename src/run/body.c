@@ -368,7 +368,7 @@ Status body_check_method(const Options *options, Message message)
     const IntegratorMethod *method = options_method(options);
     const char *term = options->scene->body.moving_pins ? "moving pins" : NULL;
     for (const OptionRow *row = option_rows; row->name; row++)
-        if (!term && row->term && row->term->backward_euler_only &&
+        if (!term && row->term && !row->term->any_integrator &&
             option_is_on(row, options))
             term = row->term->name;
     return !term || method->ends_at_minimiser

@@ -38,13 +38,6 @@ static bool obstacle_moves(const Contact *contact, int k)
     return !stopped && (v[0] != 0 || v[1] != 0);
 }
 
-/* Whether a hand moves an obstacle in the rest of this step. */
-static bool hand_moves_obstacle(const Contact *contact)
-{
-    return contact && contact->push.on &&
-           obstacle_moves(contact, contact->push.obstacle);
-}
-
 /* Shortens the way of an obstacle that would pass its stop, to end there. */
 static void stop_obstacle(Obstacle *obstacle, double h)
 {
@@ -175,7 +168,8 @@ void prescribed_start(TimeIntegrator *run)
 {
     Contact *contact = contact_of(run->system);
     double part = 0;
-    if (hand_moves_obstacle(contact)) {
+    if (contact && contact->push.on &&
+        obstacle_moves(contact, contact->push.obstacle)) {
         part = move_farthest(
             run, fmin(run->remaining_part, push_max_step(contact, run->h)),
             HAND_HALVINGS, HAND_PARTS);
@@ -233,7 +227,7 @@ bool prescribed_end_part(TimeIntegrator *run, Status *status)
     return false;
 }
 
-double prescribed_work(const TimeIntegrator *run, double weight)
+double prescribed_work(const TimeIntegrator *run)
 {
     const System *system = run->system;
     const Contact *contact = contact_of(system);
@@ -241,7 +235,7 @@ double prescribed_work(const TimeIntegrator *run, double weight)
     const double *u = newton->at.u, *x = newton->at.x;
     EvalPoint at = eval_point_at(system, newton->at.E.x_n, u, x);
     double *g = run->new_x, pins = 0, sum = 0;
-    at.weight = weight;
+    at.weight = newton->at.E.weight;
     if (system->pin_v) {
         memset(g, 0, run->size * sizeof *g);
         inertia_energy_gradient(system->nodes, u, newton->u_tilde, system->m,
@@ -251,7 +245,7 @@ double prescribed_work(const TimeIntegrator *run, double weight)
                 kind->gradient(&at, g);
         for (int i = 0; i < 2 * system->nodes; i++)
             if (system->pinned[i / 2])
-                pins += g[i] * u[i] / weight;
+                pins += g[i] * u[i] / at.weight;
     }
     at.term = system_find_term(system, &contact_energy);
     if (at.term)

@@ -29,8 +29,7 @@ bool prescribed_end_part(TimeIntegrator *run, Status *status);
 /* Returns the work of the prescribed motion in a step, J.  The pins' work is
  * their reaction, the gradient of E there, times their way.  The obstacles'
  * work is the force on the nodes, normal and of friction, times the obstacle's
- * way.
- *   weight  s^2, factor of P in E */
-double prescribed_work(const TimeIntegrator *run, double weight);
+ * way. */
+double prescribed_work(const TimeIntegrator *run);
 
 #endif

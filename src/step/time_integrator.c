@@ -22,7 +22,7 @@ bool integrator_method_refuses(const IntegratorMethod *method,
 {
     for (int t = 0; t < system->terms; t++) {
         const TermKind *kind = system->term[t].kind;
-        if (kind->backward_euler_only && !method->ends_at_minimiser)
+        if (!kind->any_integrator && !method->ends_at_minimiser)
             return true;
     }
     return false;
@@ -158,7 +158,7 @@ static Status end_step(TimeIntegrator *run, Status status)
     run->steps++;
     count_step(&run->clock, run->h);
     if (run->moves)
-        run->work += prescribed_work(run, run->newton->at.E.weight);
+        run->work += prescribed_work(run);
     end_terms(run);
     return run->status;
 }

@@ -347,7 +347,7 @@ static void derivatives(Case *c, const TermKind *kind)
     noise.pq += entries_noise(c, kind);
     times_hessian(c, kind, PROJECTION_NONE, c->q, Hq);
     times_hessian(c, kind, PROJECTION_NONE, c->p, Hp);
-    if (!(system_term_data(&c->system, &damping) && kind->internal))
+    if (!(system_term_data(&c->system, &damping) && !kind->external))
         near("value", c->at.weight * kind->value(&c->at), formula.f, noise.f);
     near("gradient", dot(c, g, c->p), formula.p, noise.p);
     near("Hessian", dot(c, Hq, c->p), formula.pq, noise.pq);
@@ -365,7 +365,7 @@ static void derivatives(Case *c, const TermKind *kind)
         near("curvature", fabs(Hq[i]), 0,
              c->at.weight * kind->curvature_bound(&c->at) * fabs(c->q[i]) *
                  (1 + 4 * DBL_EPSILON));
-    if (!kind->internal)
+    if (kind->external)
         return;
     Real sum[3] = {0}, size = 0;
     for (int i = 0; i < c->size; i++) {
