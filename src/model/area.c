@@ -34,7 +34,8 @@ void triangle_set_element(const EvalPoint *at, int t, Element *element)
     element->weight = edges;
     element->block = t;
     element->factor = at->weight;
-    triangle_edges(at->term->data, t, at->x, element->v);
+    const int *node = element->node;
+    subtract_node(at->x, node[1], node[2], node[0], element->v);
 }
 
 /* The alpha is the smallest positive root of most + alpha J1 + alpha^2 J2. */

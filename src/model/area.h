@@ -37,15 +37,14 @@ static inline void area_split(const double f[4], double plus[2],
 void area_expand_along(const double f[4], double unit, const double P[4],
                        double *J1, double *J2);
 
-/* Writes the edges x_b - x_a and x_c - x_a of triangle t.  e [4] out. */
-static inline void triangle_edges(const Triangles *triangles, int t,
-                                  const double *x, double e[4])
+/* Writes the vectors x_i - x_0 and x_j - x_0 of three nodes.  e [4] out. */
+static inline void subtract_node(const double *x, int i, int j, int node_0,
+                                 double e[4])
 {
-    const int *node = triangles->node[t];
-    const double *x_a = x + 2 * node[0];
+    const double *x_0 = x + 2 * node_0;
     for (int c = 0; c < 2; c++) {
-        e[c] = x[2 * node[1] + c] - x_a[c];
-        e[2 + c] = x[2 * node[2] + c] - x_a[c];
+        e[c] = x[2 * i + c] - x_0[c];
+        e[2 + c] = x[2 * j + c] - x_0[c];
     }
 }
 
@@ -56,8 +55,8 @@ int triangle_block_nodes(const EvalPoint *at, int t, int node[3]);
 double triangle_max_step(const EvalPoint *at, const Element *element,
                          const double P[4]);
 
-/* Makes triangle t an element, whose a and b are its edges; s is left to the
- * caller. */
+/* Makes triangle t an element, with a = x_b - x_a and b = x_c - x_a; s is left
+ * to the caller. */
 void triangle_set_element(const EvalPoint *at, int t, Element *element);
 
 /* A Hessian H by its eigenspaces.  H is on_plus in the space of f+, on_minus in

@@ -15,9 +15,9 @@ static bool cell_get_element(const EvalPoint *at, int t, double way,
 {
     const Cells *cells = at->term->data;
     const double *k = at->system->k;
-    const int *side = cells->spring[t];
+    const int *node = cells->triangles.node[t], *side = cells->spring[t];
     double e[4], twice = 2 * cells->triangles.area;
-    triangle_edges(&cells->triangles, t, at->x, e);
+    subtract_node(at->x, node[1], node[2], node[0], e);
     double sides = fabs(e[0]) + fabs(e[1]) + fabs(e[2]) + fabs(e[3]);
     double J = cross(e, e + 2) / twice;
     if (J >= CELL_J_HAT + 1 / twice * way * (sides + way) ||

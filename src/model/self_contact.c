@@ -187,7 +187,8 @@ static bool pair_get_element(const EvalPoint *at, int i, double way,
         element->weight = differences;
         element->factor = at->weight;
         element->partner = edge;
-        element_vectors(element, at->x, element->v);
+        subtract_node(at->x, element->node[0], element->node[2],
+                      element->node[1], element->v);
         point_edge_distance(self, element);
         if (!boundary->has_motion && element->s >= 1)
             continue;
