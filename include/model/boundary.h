@@ -70,9 +70,9 @@ void boundary_update(Boundary *boundary, const System *system, const double *x,
                      const double *p, double alpha, double margin);
 
 /* Returns the next edge that point i, 0 ... points-1, may meet.
- *   place  in/out, 0 before the first edge and after the last one
+ *   cursor  in/out, 0 before the first edge and after the last one
  * Returns the spring of the edge; -1 after the last edge. */
 int boundary_next_edge(const Boundary *boundary, const System *system, int i,
-                       int *place);
+                       int *cursor);
 
 #endif

@@ -28,9 +28,9 @@ typedef struct Element {
     int node[3];               /* [nodes] */
     const double (*weight)[3]; /* [vectors] weights of nodes in a and b */
     int block;      /* block of the matrix with its entries; -1: none yet */
-    int partner;    /* contact: its obstacle; self-contact: its edge */
-    int next_place; /* > 0: the next call of get_element has the same i and
-                       continues here */
+    int partner; /* obstacle (contact) or spring of the edge (self-contact) */
+    int cursor;  /* > 0: place in a search that the next call of get_element
+                    continues, with the same i */
     double factor;  /* factor on gradient and Hessian: 1, or EvalPoint.weight
                        if the kind's functions do not multiply by it */
     double v[4];    /* m, the vectors a and b, if the kind uses them */
@@ -126,7 +126,7 @@ struct ElementKind {
 typedef struct ElementIterator {
     const EvalPoint *at;
     const ElementKind *kind;
-    double way;      /* m, bound on the change of a and of b on the way */
+    double way; /* m, upper bound of the changes of a and of b by alpha p */
     int i, count;    /* present element, number of elements */
     Element element; /* present element, out */
 } ElementIterator;

@@ -40,8 +40,7 @@ struct System {
     int segments; /* segments a side if the system is the mesh of square_mesh.h;
                      else 0 */
     unsigned version; /* rises with every change of numbers or terms */
-    unsigned
-        pattern; /* rises when the places of the Hessian's entries change */
+    unsigned pattern; /* rises when the pattern of the Hessian changes */
     int terms;
     Term term[SYSTEM_MAX_TERMS]; /* terms in the order of TermKind.place */
     Loss lost[SYSTEM_MAX_TERMS]; /* energy lost by column, up to a NULL name; a
@@ -85,8 +84,8 @@ void system_book_loss(System *system, const TermKind *kind, double energy);
 /* Whether the point is feasible for all terms (elements_are_feasible). */
 bool system_allows(EvalPoint at);
 
-/* Returns the smallest elements_max_step of all terms, or only of internal
- * ones, along p [2n] m, in. */
+/* Returns the smallest elements_max_step of all terms along p [2n] m, in;
+ * `internal`: without the external terms. */
 double system_max_step(EvalPoint at, const double *p, bool internal);
 
 /* Whether all nodes can move straight from x to x + p so that no body passes
@@ -112,11 +111,11 @@ void system_clear_pinned(const System *system, double *g);
  *   a  [2n] m/s^2, out */
 void system_acceleration(const System *system, const double *x, double *a);
 
-/* Whether the centre of mass falls freely: no pins, all terms are internal. */
+/* Whether the centre of mass falls freely: no pins, no external terms. */
 bool system_falls_freely(const System *system);
 
-/* Whether P stays the same when all nodes turn about the pivot: all terms are
- * internal, none depends on x_n, and at most one node is pinned.
+/* Whether P stays the same when all nodes turn about the pivot: no term is
+ * external or depends on x_n, and at most one node is pinned.
  *   pivot  out, the pinned node; -1: none, bodies turn about the centre of mass
  */
 bool system_turns_freely(const System *system, int *pivot);

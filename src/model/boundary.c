@@ -156,11 +156,11 @@ static int find_first_edge(const Boundary *boundary, double left)
 
 /* Does boundary_next_edge's work by a search through the boxes. */
 static int search_next_edge(const Boundary *boundary, const System *system,
-                            int i, int *place)
+                            int i, int *cursor)
 {
     int node = boundary->point[i];
     const Box2 *own = &boundary->point_box[node];
-    int k = *place > 0 ? *place : find_first_edge(boundary, own->low[0]);
+    int k = *cursor > 0 ? *cursor : find_first_edge(boundary, own->low[0]);
     for (; k < boundary->edges && boundary->edge_box[k].low[0] <= own->high[0];
          k++) {
         const Box2 *box = &boundary->edge_box[k];
@@ -168,10 +168,10 @@ static int search_next_edge(const Boundary *boundary, const System *system,
         if (box->low[1] > own->high[1] || box->high[1] < own->low[1] ||
             box->high[0] < own->low[0] || end[0] == node || end[1] == node)
             continue;
-        *place = k + 1;
+        *cursor = k + 1;
         return box->edge;
     }
-    *place = 0;
+    *cursor = 0;
     return -1;
 }
 
@@ -179,7 +179,7 @@ void boundary_update(Boundary *boundary, const System *system, const double *x,
                      const double *p, double alpha, double margin)
 {
     size_t bytes = 2 * (size_t)boundary->shape.nodes * sizeof *x;
-    int room = NEAR_PER_NODE * boundary->shape.nodes, count = 0, place = 0,
+    int room = NEAR_PER_NODE * boundary->shape.nodes, count = 0, cursor = 0,
         edge;
     if (boundary->version != system->version)
         find_boundary(boundary, system);
@@ -198,7 +198,7 @@ void boundary_update(Boundary *boundary, const System *system, const double *x,
     bound_motions(boundary, system);
     boundary->lists_near = true;
     for (int i = 0; i < boundary->points && boundary->lists_near; i++) {
-        while ((edge = search_next_edge(boundary, system, i, &place)) >= 0 &&
+        while ((edge = search_next_edge(boundary, system, i, &cursor)) >= 0 &&
                count < room)
             boundary->near[count++] = edge;
         boundary->near_list_end[i] = count;
@@ -207,12 +207,12 @@ void boundary_update(Boundary *boundary, const System *system, const double *x,
 }
 
 int boundary_next_edge(const Boundary *boundary, const System *system, int i,
-                       int *place)
+                       int *cursor)
 {
     if (!boundary->lists_near)
-        return search_next_edge(boundary, system, i, place);
+        return search_next_edge(boundary, system, i, cursor);
     int first = i > 0 ? boundary->near_list_end[i - 1] : 0;
-    int k = *place > 0 ? *place : first;
-    *place = k < boundary->near_list_end[i] ? k + 1 : 0;
-    return *place > 0 ? boundary->near[k] : -1;
+    int k = *cursor > 0 ? *cursor : first;
+    *cursor = k < boundary->near_list_end[i] ? k + 1 : 0;
+    return *cursor > 0 ? boundary->near[k] : -1;
 }

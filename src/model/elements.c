@@ -22,7 +22,7 @@ ElementIterator elements_begin(const EvalPoint *at, const double *p,
 
 bool elements_next(ElementIterator *walk)
 {
-    while (walk->element.next_place > 0 || ++walk->i < walk->count)
+    while (walk->element.cursor > 0 || ++walk->i < walk->count)
         if (walk->kind->get_element(walk->at, walk->i, walk->way,
                                     &walk->element))
             return true;

@@ -111,7 +111,7 @@ static Status friction_begin_step(const TermStep *step)
         contact.element.r = walk.kind->friction_limit(
             &at, &walk.element, contact.element.v, &contact.travel);
         contact.element.factor = 1;
-        contact.element.next_place = 0;
+        contact.element.cursor = 0;
         contact.travel *= step->h;
         if (!(contact.element.r > 0))
             continue;

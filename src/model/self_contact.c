@@ -61,13 +61,13 @@ static Status self_contact_begin_step(const TermStep *step)
     System *system = step->system;
     SelfContact *self = step->term->data;
     Boundary *boundary = &self->boundary;
-    int old = self->pairs, edge, place = 0;
+    int old = self->pairs, edge, cursor = 0;
     bool grown = old > self->sorted;
     Status status = STATUS_OK;
     boundary_update(boundary, system, step->x, step->v, step->h, self->d_hat);
     for (int i = 0; i < boundary->points && !status; i++)
         while (!status &&
-               (edge = boundary_next_edge(boundary, system, i, &place)) >= 0)
+               (edge = boundary_next_edge(boundary, system, i, &cursor)) >= 0)
             status = add_pair(self, (SelfPair){boundary->point[i], edge});
     int count = self->pairs - old;
     SelfPair *fresh = self->pair + old;
@@ -180,7 +180,7 @@ static bool pair_get_element(const EvalPoint *at, int i, double way,
     Boundary *boundary = &self->boundary;
     int edge;
     while ((edge = boundary_next_edge(boundary, at->system, i,
-                                      &element->next_place)) >= 0) {
+                                      &element->cursor)) >= 0) {
         const SelfPair pair = {boundary->point[i], edge};
         element->vectors = 2;
         element->nodes = get_pair_nodes(at->system, pair, element->node);
