@@ -1,8 +1,6 @@
 /* main.c - main() of elasto on a computer: streams, signals, window. */
-#include <fcntl.h>
 #include <signal.h>
 #include <stdlib.h>
-#include <unistd.h>
 
 #include "base/clock.h"
 #include "play/player.h"
@@ -44,16 +42,8 @@ static void handle_signals(void)
     sigaction(SIGXFSZ, &action, NULL);
 }
 
-/* A file that the program opens must not become a standard stream that was
- * closed.  Closed streams are therefore opened on /dev/null, for reading only,
- * so that writing to them still fails. */
 int main(int argc, char **argv)
 {
-    int file = 0;
-    while (file >= 0 && file <= STDERR_FILENO)
-        file = open("/dev/null", O_RDONLY);
-    if (file > STDERR_FILENO)
-        close(file);
     handle_signals();
     int code = program_begin(argc, argv, &main_stop, &main_player);
     if (code == PROGRAM_PLAYS)

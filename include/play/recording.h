@@ -15,8 +15,7 @@
  * With several panes states, log and springs have a column with the number of
  * the pane, from 1, and count the steps of all panes together.  If a user goes
  * back and changes a step, its new rows follow the old ones: the last rows of a
- * step count.  A number that is changed after a step also changes the energies
- * of this step.
+ * step count.  The energies of a step are those before the user changes a number.
  *
  * The program ffmpeg makes films of frames from a pipe; the end of the name
  * chooses the format: .mp4, .webm, .gif or .apng.  A film has all frames that
@@ -93,9 +92,8 @@ Status recording_write_frame(Recording *recording, const Canvas *canvas,
                              long step, int times);
 
 /* Writes the states, springs and energies of all panes at a step.
- *   energies_only  in, only the energies are written
- *   simulation     [count] in, simulation of each pane */
-Status recording_write_states(Recording *recording, bool energies_only,
+ *   simulation  [count] in, simulation of each pane */
+Status recording_write_states(Recording *recording,
                               const Simulation *const *simulation, int count,
                               long step);
 

@@ -1,6 +1,4 @@
-/* message.h - buffers for messages, and texts from outside made safe to print
- * in one line.
- */
+/* message.h - buffers for messages of one line. */
 #ifndef ELASTO_MESSAGE_H
 #define ELASTO_MESSAGE_H
 
@@ -8,9 +6,8 @@
 
 #include "base/status.h"
 
-/* Makes a text safe to print.  Control characters, characters that change the
- * direction of writing, and bytes that are not UTF-8 become '?', so that the
- * text stays one line and contains no command for a terminal. */
+/* Replaces the control characters of ASCII by '?', so that a text from outside
+ * stays one line. */
 void make_one_line(char *text);
 
 /* Appends to a text, as far as it fits.

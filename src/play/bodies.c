@@ -1,6 +1,8 @@
 /* bodies.c - pins, pulls and places nodes; pushes and moves obstacles and
  * handles.
  */
+#include <string.h>
+
 #include "play/playing.h"
 #include "run/scene.h"
 #include "scenes/small_scenes.h"
@@ -25,39 +27,30 @@ Status obey_pin(Player *player, const Command *command)
     return status;
 }
 
-/* Takes hold of a node or an obstacle at its place.
- *   kind  in, COMMAND_GRAB or COMMAND_PUSH */
-static Status take_hold(Player *player, CommandKind kind, long number,
-                        const double at[2])
+/* Takes hold of a node or an obstacle at its place. */
+Status obey_hold(Player *player, const Command *command)
 {
-    const Command change = {
-        .kind = kind, .number = number, .x = at[0], .y = at[1]};
+    const Simulation *simulation = player_simulation(player);
+    bool pulls = command->kind == COMMAND_GRAB;
+    double place[2];
+    if (!simulation_is_draggable(simulation))
+        return player_refuse(player, pulls ? "nothing to take hold of here"
+                                           : "nothing to push here");
+    if (pulls)
+        memcpy(place, simulation->run[0].x + 2 * command->number, sizeof place);
+    else
+        simulation_find_obstacle(simulation, 0, (int)command->number, place);
+    const Command change = {.kind = command->kind,
+                            .number = command->number,
+                            .x = place[0],
+                            .y = place[1]};
     Status status = edit_all_panes(player, &change);
     player->hands.holds = player->hands.holds || !status;
     if (!status && player_is_stopped(player))
         player_note(player,
                     "paused: the hand %s as soon as time goes on (Space, N)",
-                    kind == COMMAND_GRAB ? "pulls" : "pushes");
+                    pulls ? "pulls" : "pushes");
     return status;
-}
-
-Status obey_grab(Player *player, const Command *command)
-{
-    const Simulation *simulation = player_simulation(player);
-    if (!simulation_is_draggable(simulation))
-        return player_refuse(player, "nothing to take hold of here");
-    return take_hold(player, COMMAND_GRAB, command->number,
-                     simulation->run[0].x + 2 * command->number);
-}
-
-Status obey_push(Player *player, const Command *command)
-{
-    const Simulation *simulation = player_simulation(player);
-    double at[2];
-    if (!simulation_is_draggable(simulation))
-        return player_refuse(player, "nothing to push here");
-    simulation_find_obstacle(simulation, 0, (int)command->number, at);
-    return take_hold(player, COMMAND_PUSH, command->number, at);
 }
 
 Status obey_place(Player *player, const Command *command)

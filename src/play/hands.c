@@ -65,18 +65,11 @@ static Status obey(Player *player, CommandKind kind, long number)
     return obey_at(player, kind, number, (const double[2]){0, 0});
 }
 
-static Status obey_value(Player *player, const OptionRow *row, double value)
-{
-    const Command command = make_set_command(row, value);
-    return player_obey(player, &command);
-}
-
 /* Changes a number by some notches. */
 static Status raise_number(Player *player, const OptionRow *row, int notches)
 {
-    double value;
-    Status status = player_turn_wheel(player, row, notches, &value);
-    return status ? status : obey_value(player, row, value);
+    Status status = player_enqueue_notches(player, row, notches);
+    return status ? status : player_obey_queue(player, true);
 }
 
 /* ---- the keyboard -------------------------------------------------------- */
@@ -130,7 +123,8 @@ static Status enter_typed(Player *player)
             memcpy(made.text, player->hands.typed, sizeof player->hands.typed);
         status = player_obey(player, &made);
     } else {
-        status = player_answer_question(player, player->hands.typed);
+        status = player_reveal_answer(player, player->hands.typed);
+        status = status ? status : player_obey_queue(player, false);
     }
     if (!status)
         player_deselect(player);
@@ -161,8 +155,9 @@ static Status drag_number(Player *player, const MouseTarget *target)
         notches += 1e-9; /* keeps option_turn_wheel from rounding */
     if (!edge)
         wanted = option_turn_wheel(row, &mouse->options, notches);
+    const Command set = make_set_command(row, wanted);
     return now.number[row->slot] == wanted ? STATUS_OK
-                                           : obey_value(player, row, wanted);
+                                           : player_obey(player, &set);
 }
 
 /* Opens the scene `square` with h, k and stretch of a cell of the map, by
@@ -170,20 +165,15 @@ static Status drag_number(Player *player, const MouseTarget *target)
 static Status open_cell(Player *player, long cell)
 {
     const Options map = player_simulation(player)->options;
-    const struct {
-        const char *name;
-        double value;
-    } number[] = {
-        {"segments", map.segments},
-        {"stretch", map.stretch},
-        {"timestep", envelope_timestep((int)(cell % ENVELOPE_COLUMNS))},
-        {"stiffness", envelope_stiffness((int)(cell / ENVELOPE_COLUMNS))}};
-    Status status = player_obey_lines(player, "scene square");
-    for (size_t i = 0; i < sizeof number / sizeof *number && !status; i++)
-        status =
-            obey_value(player, option_find(number[i].name), number[i].value);
-    if (!status)
-        status = player_obey_lines(player, "pause;restart");
+    player_enqueue_lines(player, "scene square");
+    player_enqueue_set(player, option_find("segments"), map.segments);
+    player_enqueue_set(player, option_find("stretch"), map.stretch);
+    player_enqueue_set(player, option_find("timestep"),
+                       envelope_timestep((int)(cell % ENVELOPE_COLUMNS)));
+    player_enqueue_set(player, option_find("stiffness"),
+                       envelope_stiffness((int)(cell / ENVELOPE_COLUMNS)));
+    player_enqueue_lines(player, "pause;restart");
+    Status status = player_obey_queue(player, true);
     player_note(player, "this cell as a scene; Ctrl+Z leads back to the map%s",
                 map.page ? ", Page Down goes on" : "");
     return status;
@@ -480,7 +470,7 @@ static Status release_button(Player *player)
             player_enqueue(
                 player,
                 &(Command){.kind = COMMAND_PIN, .number = node, .joins = true});
-        return player_obey_queue(player, false);
+        return player_show_refusal(player, player_obey_queue(player, false));
     }
     if (drag == COMMAND_SET && mouse->moved)
         player_deselect(player); /* after a click the number stays selected */
@@ -540,7 +530,8 @@ Status player_obey_input(Player *player, const Input *input)
     if (press && mouse->drag != COMMAND_NONE)
         status = release_button(player); /* a second button ends the drag */
     if (!status)
-        status = player_obey_queue(player, press && player->hands.holds);
+        status = player_show_refusal(
+            player, player_obey_queue(player, press && player->hands.holds));
     if (status)
         return status;
     bool key = input->kind == INPUT_KEY && !input->repeats &&

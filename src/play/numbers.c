@@ -175,13 +175,12 @@ Status obey_set(Player *player, const Command *command)
     return player_edit(player, &change, from, to, false);
 }
 
-Status player_turn_wheel(Player *player, const OptionRow *row, int notches,
-                         double *value)
+Status player_enqueue_notches(Player *player, const OptionRow *row, int notches)
 {
     const Options now = player_shown_options(player);
     if (row->count > 1)
         return player_refuse(player, "several numbers: type them");
-    *value = option_turn_wheel(row, &now, notches);
+    player_enqueue_set(player, row, option_turn_wheel(row, &now, notches));
     return STATUS_OK;
 }
 
@@ -195,13 +194,8 @@ Status obey_raise(Player *player, const Command *command)
         return player_refuse(player, "there is no number to change here");
     player->hands.selected =
         player->hands.selected ? player->hands.selected : number[0];
-    double value;
-    int notches = command->kind == COMMAND_RAISE ? 1 : -1;
-    Status status =
-        player_turn_wheel(player, player->hands.selected, notches, &value);
-    if (!status)
-        player_enqueue_set(player, player->hands.selected, value);
-    return status;
+    return player_enqueue_notches(player, player->hands.selected,
+                                  command->kind == COMMAND_RAISE ? 1 : -1);
 }
 
 /* Sets an option to its value on the page, the command line or in the scene. */

@@ -53,19 +53,16 @@ static long count_targets(const Player *player, int pane, CommandKind kind)
 /* Refuses a command whose number names no node, obstacle, ... in some pane. */
 static Status check_target(Player *player, const Command *command)
 {
-    long count = LONG_MAX;
     for (int p = 0; p < past_panes(&player->past); p++) {
-        long parts = count_targets(player, p, command->kind);
-        count = parts < count ? parts : count;
+        long count = count_targets(player, p, command->kind);
+        if (command->number >= count)
+            return player_refuse(
+                player,
+                count > 0 ? "%s: there is no number %ld; they are 0 to %ld"
+                          : "%s: this scene has none",
+                command_rows[command->kind].word, command->number, count - 1);
     }
-    if (command->number < count)
-        return STATUS_OK;
-    return player_refuse(player,
-                         count > 0 ? "%s: there is no number %ld; they are 0 "
-                                     "to %ld"
-                                   : "%s: this scene has none",
-                         command_rows[command->kind].word, command->number,
-                         count - 1);
+    return STATUS_OK;
 }
 
 /* Returns the command that a key stands for now, with which a script leads to
@@ -81,18 +78,6 @@ static Command resolve_command(const Player *player, const Command *asked)
         meant =
             (Command){.kind = COMMAND_HANDLE, .x = 0.8 * x[0], .y = 0.8 * x[1]};
     return meant;
-}
-
-/* If a page waits for a guess, "next" and "play" show its answer and make no
- * step.  Returns whether the answer was shown. */
-static bool reveal_answer_first(Player *player, const Command *command,
-                                Status *status)
-{
-    if (!player_hides_answer(player) ||
-        (command->kind != COMMAND_NEXT && command->kind != COMMAND_PLAY))
-        return false;
-    *status = player_reveal_answer(player, NULL);
-    return true;
 }
 
 /* Whether a step with the hand at its present place is due or being made. */
@@ -115,8 +100,7 @@ static void store_own_option(Player *player, const Command *command)
                     player_active_options(player), own);
 }
 
-/* Obeys the queue like player_obey_queue, without showing INVALID_INPUT. */
-static Status obey_queue(Player *player, bool now)
+Status player_obey_queue(Player *player, bool now)
 {
     Queue queue = player->commands.queue;
     const bool obeys_page = player->tour.obeys_page;
@@ -151,29 +135,6 @@ static Status obey_queue(Player *player, bool now)
     return STATUS_OK;
 }
 
-Status player_obey_queue(Player *player, bool now)
-{
-    return player_show_refusal(player, obey_queue(player, now));
-}
-
-Status player_obey_page(Player *player)
-{
-    Status status = player_enqueue_page(player);
-    return status ? status : obey_queue(player, false);
-}
-
-Status player_answer_question(Player *player, const char *typed)
-{
-    Status status = player_reveal_answer(player, typed);
-    return status ? status : obey_queue(player, false);
-}
-
-Status player_obey_lines(Player *player, const char *lines)
-{
-    Status status = player_enqueue_lines(player, lines);
-    return status ? status : obey_queue(player, false);
-}
-
 /* Abandons the step that is being made, and obeys the commands that waited for
  * its end. */
 static Status abandon_step(Player *player)
@@ -181,7 +142,8 @@ static Status abandon_step(Player *player)
     int gesture = player->commands.gesture;
     past_choose_step(&player->past, player->past.step, false);
     player->time.after = AFTER_NOTHING;
-    Status status = player_obey_queue(player, true);
+    Status status =
+        player_show_refusal(player, player_obey_queue(player, true));
     player->commands.gesture = gesture;
     return status;
 }
@@ -233,8 +195,11 @@ Status player_obey(Player *player, const Command *command)
     begin_command(player, &meant);
     if (waits_for_step(player, &meant))
         return STATUS_OK;
-    if (reveal_answer_first(player, &meant, &status))
-        return status ? status : obey_queue(player, false);
+    if (player_hides_answer(player) &&
+        (meant.kind == COMMAND_NEXT || meant.kind == COMMAND_PLAY)) {
+        status = player_reveal_answer(player, NULL); /* instead of a step */
+        return status ? status : player_obey_queue(player, false);
+    }
     if (past_works(past) && !(flags & KEEPS_STEP)) {
         stops = meant.kind == COMMAND_ESCAPE;
         status = abandon_step(player);
@@ -260,13 +225,15 @@ Status player_obey(Player *player, const Command *command)
                "%ssteps %ld ... %ld: Ctrl+Z leads back",
                player->note[0] ? "; " : "", step + 1, newest);
     status = player_tolerate_failure(player, status);
-    return status ? status : obey_queue(player, false);
+    return status ? status : player_obey_queue(player, false);
 }
 
 Status player_continue(Player *player)
 {
     Status status = player_work(player);
-    return status ? status : player_obey_queue(player, false);
+    return status ? status
+                  : player_show_refusal(player,
+                                        player_obey_queue(player, false));
 }
 
 Status player_make_step(Player *player)

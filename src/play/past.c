@@ -457,32 +457,25 @@ static Status pane_run_seek(Past *past, int pane, long goal)
 
 /* ---- steps --------------------------------------------------------------- */
 
-/* Drops the entry of the step that was being made; a control that was copied
- * from the branch below stays. */
-static void drop_new_entry(Past *past, int pane)
-{
-    const Branch *branch = present_branch(past);
-    Entry *entry = find_entry(past, pane, past_newest(past) + 1);
-    drop_state(past, entry);
-    if (branch->count >= branch->copied)
-        drop_entry(past, entry);
-}
-
 /* Ends the present work at the last whole step.  A run of a pane that has left
  * this step must load its state again. */
 static void abandon_work(Past *past)
 {
     if (past->work == WORK_DONE)
         return;
+    long new = past_newest(past) + 1;
     for (int p = 0; p < past_panes(past); p++) {
         PaneRun *run = &past->pane[p];
         if (run->iterating || run->substeps > 0 ||
-            run->step > past_newest(past))
+            run->step >= new)
             run->has_state = false;
         run->iterating = false;
         run->substeps = 0;
-        if (past_makes(past))
-            drop_new_entry(past, p);
+        if (!past_makes(past))
+            continue;
+        drop_state(past, find_entry(past, p, new));
+        if (present_branch(past)->count >= present_branch(past)->copied)
+            drop_entry(past, find_entry(past, p, new)); /* was not copied */
     }
     past->work = WORK_DONE;
 }
@@ -742,15 +735,12 @@ void past_sample_line_energy(Past *past, int place)
 
 /* ---- edits --------------------------------------------------------------- */
 
-/* Marks rows of tables as invalid.  These are the rows of later steps, the
- * energies of this step and, if the state has changed, all rows of this step.
- */
+/* Marks the rows of later steps in the tables as invalid and, if the state of
+ * this step has changed, also its own rows. */
 static void invalidate_tables(Past *past, long step, bool changed)
 {
     if (past->written > step - changed)
         past->written = step - changed;
-    if (past->booked > step - 1)
-        past->booked = step - 1;
 }
 
 /* Brings the simulations of all panes to the step that is shown. */
@@ -939,7 +929,6 @@ void past_create(bool stores_states, bool panes_fail_alone, Past *past)
                    .stores_states = stores_states,
                    .panes_fail_alone = panes_fail_alone,
                    .written = -1,
-                   .booked = -1,
                    .limit = PAST_BYTES,
                    .line_pane = -1};
 }

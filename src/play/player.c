@@ -246,10 +246,11 @@ Status player_create(const Options *options, int count, char *const *words,
     if (!status && player_is_stopped(player))
         status = script_add(&player->commands.journal, 0, &pause, 0);
     bool nodes = !status && player_simulation(player)->mesh.nodes > 0;
-    if (!status && player->given.asks && options->page)
-        status = player_obey_page(player);
-    else if (!status && player->given.asks &&
-             simulation_is_draggable(player_simulation(player)))
+    if (!status && player->given.asks && options->page) {
+        status = player_enqueue_page(player);
+        status = status ? status : player_obey_queue(player, false);
+    } else if (!status && player->given.asks &&
+               simulation_is_draggable(player_simulation(player)))
         player_note(player,
                     "pull at a %s with the mouse%s; G: scenes; Page "
                     "Down: the guided tour",

@@ -167,9 +167,9 @@ int player_list_options(const Player *player, bool all,
 /* Returns why a number has no effect now, or NULL. */
 const char *player_idle_reason(const Player *player, const OptionRow *row);
 
-/* Computes the value of a number after some notches of the wheel. */
-Status player_turn_wheel(Player *player, const OptionRow *row, int notches,
-                         double *value);
+/* Puts the value of a number after some notches of the wheel into the queue. */
+Status player_enqueue_notches(Player *player, const OptionRow *row,
+                              int notches);
 
 /* ---- frame.c ------------------------------------------------------------- */
 
@@ -193,16 +193,6 @@ typedef Status CommandFunction(Player *player, const Command *command);
 #undef ROW
 
 /* ---- obey.c -------------------------------------------------------------- */
-
-/* Obeys the opening commands of the page. */
-Status player_obey_page(Player *player);
-
-/* Obeys lines of a script, separated by ;.  `lines` may be NULL. */
-Status player_obey_lines(Player *player, const char *lines);
-
-/* Shows the answer of the page (player_reveal_answer), and obeys the page's
- * commands for it. */
-Status player_answer_question(Player *player, const char *typed);
 
 /* Obeys the commands in the queue, up to the first that must wait: for the end
  * of a step, or a release for a step with the hand at its last place.

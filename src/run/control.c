@@ -14,44 +14,28 @@
 #include "model/pull_energy.h"
 #include "run/body.h"
 
-/* Creates a control for a system with this number of nodes; the mouse holds
- * nothing.  NULL: no memory. */
-static Control *create_control(int nodes)
-{
-    Control *control = calloc(1, sizeof *control + (size_t)nodes);
-    if (control)
-        *control =
-            (Control){.users = 1, .nodes = nodes, .hand = -1, .push = -1};
-    return control;
-}
-
 Control *control_from_simulation(const Simulation *simulation)
 {
     const System *system = &simulation->system;
-    const Pull *hand = system_term_data(system, &hand_energy);
-    Control *control = create_control(system->nodes);
+    Control *control = malloc(sizeof *control + (size_t)system->nodes);
     if (!control)
         return NULL;
-    control->options = simulation->options;
-    if (hand) {
-        control->hand = hand->node;
-        memcpy(control->at, hand->mouse, sizeof control->at);
-    }
-    const Contact *contact = contact_of(system);
-    if (contact && contact->push.on) {
-        control->push = contact->push.obstacle;
-        memcpy(control->at, contact->push.target, sizeof control->at);
-    }
+    *control = (Control){.users = 1,
+                         .options = simulation->options,
+                         .hand = -1,
+                         .push = -1,
+                         .nodes = system->nodes};
     memcpy(control->pinned, system->pinned, (size_t)system->nodes);
     return control;
 }
 
 Control *control_copy(const Control *from)
 {
-    Control *control = create_control(from->nodes);
+    size_t size = sizeof *from + (size_t)from->nodes;
+    Control *control = malloc(size);
     if (!control)
         return NULL;
-    memcpy(control, from, sizeof *from + (size_t)from->nodes);
+    memcpy(control, from, size);
     control->users = 1;
     return control;
 }

@@ -150,7 +150,9 @@ EMSCRIPTEN_KEEPALIVE void web_obey(const char *lines)
         return;
     player->commands.gesture = player->hands.mouse.gesture =
         ++player->commands.gestures;
-    player_show_refusal(player, player_obey_lines(player, lines));
+    Status status = player_enqueue_lines(player, lines);
+    player_show_refusal(player,
+                        status ? status : player_obey_queue(player, false));
     player->screen.changed = true;
 }
 
@@ -159,9 +161,11 @@ EMSCRIPTEN_KEEPALIVE void web_obey(const char *lines)
 EMSCRIPTEN_KEEPALIVE void web_answer(const char *guess)
 {
     Player *player = &session->player;
-    if (plays && player_hides_answer(player))
-        player_show_refusal(
-            player, player_answer_question(player, *guess ? guess : NULL));
+    if (plays && player_hides_answer(player)) {
+        Status status = player_reveal_answer(player, *guess ? guess : NULL);
+        player_show_refusal(player,
+                            status ? status : player_obey_queue(player, false));
+    }
     player->screen.changed = true;
 }
 
