@@ -203,9 +203,13 @@ EMSCRIPTEN_KEEPALIVE void web_print_page(int page)
         status = player_create(&options, 1, NULL, &never, player);
     player->screen.draws = true;
     if (!status)
-        status = player_obey_page(player);
+        status = player_enqueue_page(player);
     if (!status)
-        status = player_obey_lines(player, row->tell);
+        status = player_obey_queue(player, false);
+    if (!status)
+        status = player_enqueue_lines(player, row->tell);
+    if (!status)
+        status = player_obey_queue(player, false);
     for (int i = 0; i < row->lines && !status; i++)
         status = player_obey(player, &next);
     if (!status && !row->lines)
