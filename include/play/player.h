@@ -13,7 +13,6 @@
 #define ELASTO_PLAYER_H
 
 #include <signal.h>
-#include <stdio.h>
 
 #include "play/past.h"
 #include "play/command.h"

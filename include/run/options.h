@@ -9,7 +9,6 @@
 #define ELASTO_OPTIONS_H
 
 #include <stddef.h>
-#include <stdio.h>
 
 #include "model/square_mesh.h"
 #include "step/time_integrator.h"

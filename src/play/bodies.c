@@ -4,8 +4,6 @@
 #include <string.h>
 
 #include "play/playing.h"
-#include "run/scene.h"
-#include "scenes/small_scenes.h"
 
 /* Edits all panes from the present step on. */
 static Status edit_all_panes(Player *player, const Command *change)

@@ -7,7 +7,6 @@
 #include "base/clock.h"
 #include "picture/picture.h"
 #include "play/playing.h"
-#include "run/scene.h"
 
 static const double LONG_WORK = 0.3;  /* s, longer work is reported */
 static const double SMALL_LETTER = 9; /* pixels, smallest letters in files */

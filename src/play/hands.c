@@ -9,7 +9,6 @@
 #include "base/mathematics.h"
 #include "picture/picture.h"
 #include "play/playing.h"
-#include "run/scene.h"
 
 enum {
     CLICK_ROOM = 4,   /* pixels that the mouse may move during a click */

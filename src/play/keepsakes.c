@@ -7,7 +7,6 @@
 
 #include "picture/picture.h"
 #include "play/playing.h"
-#include "run/scene.h"
 
 enum { NOTE_LINE = 100 }; /* bytes, longest command line that the note shows */
 

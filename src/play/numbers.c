@@ -3,7 +3,6 @@
 #include <string.h>
 
 #include "play/playing.h"
-#include "run/scene.h"
 
 /* ---- the row ------------------------------------------------------------- */
 

@@ -1,13 +1,9 @@
 /* obey.c - obeys a command and those in the queue; writes the journal. */
 #include <limits.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "picture/picture.h"
 #include "play/playing.h"
-#include "lesson/pages.h"
-#include "run/scene.h"
-#include "scenes/small_scenes.h"
 
 static CommandFunction *const functions[COMMAND_KINDS] = {
 #define ROW(kind, function, ...) [COMMAND_##kind] = function,

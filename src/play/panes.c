@@ -1,6 +1,5 @@
 /* panes.c - changes the method of a pane; adds and closes panes. */
 #include "play/playing.h"
-#include "run/scene.h"
 
 /* Returns the next method for a pane that key M can choose, all terms allow and
  * no pane has.  NULL: no method is left, and the command is refused. */

@@ -8,7 +8,6 @@
 #include "base/clock.h"
 #include "picture/picture.h"
 #include "play/playing.h"
-#include "run/scene.h"
 
 enum {
     FRAME_SIZE = 900,       /* pixels of a frame without a window */

@@ -12,7 +12,6 @@
 
 #include "base/clock.h"
 #include "model/contact.h"
-#include "picture/frame_content.h"
 #include "lesson/command_line.h"
 #include "run/message.h"
 #include "lesson/pages.h"

@@ -5,7 +5,6 @@
 #include "base/clock.h"
 #include "picture/picture.h"
 #include "play/playing.h"
-#include "run/scene.h"
 
 /* Whether the session has edits, or a run of a minute, that could be lost. */
 static bool could_lose_work(const Player *player)

@@ -6,10 +6,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "picture/layout.h"
 #include "play/playing.h"
 #include "lesson/pages.h"
-#include "scenes/scenes.h"
 
 enum {
     SLOW_NODES = 50000, /* most nodes that are factorised within SLICE */

@@ -11,7 +11,6 @@
 #include "play/playing.h"
 #include "run/body.h"
 #include "lesson/pages.h"
-#include "run/scene.h"
 #include "scenes/small_scenes.h"
 
 /* Begins another scene.  The scene begins paused if the last one was paused, or

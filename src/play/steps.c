@@ -10,7 +10,6 @@
 #include "base/clock.h"
 #include "picture/picture.h"
 #include "play/playing.h"
-#include "run/scene.h"
 
 /* ---- tables -------------------------------------------------------------- */
 

@@ -5,7 +5,6 @@
 #include <emscripten.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "play/recording.h"
 #include "play/view.h"
