@@ -53,6 +53,10 @@ Status output_report_failure(const Output *output, const char *why);
 /* Returns the text of a status; for FILE_FAILED the text of errno. */
 const char *output_reason(Status status);
 
+/* Prints a formatted text as one line (make_one_line). */
+void print_line(FILE *file, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+
 /* Whether a name means standard output. */
 bool output_is_standard(const char *name);
 

@@ -188,11 +188,6 @@ Status past_iterate(Past *past);
 /* Repeats past_iterate while it returns RUNNING; returns its last status. */
 Status past_finish_work(Past *past);
 
-/* Prepares to make the shown step once more (past_iterate) if E along p is to
- * be drawn at a place of its trace, but was not sampled there.
- *   place  index of the place; -1: the end of the step */
-void past_sample_line_energy(Past *past, int place);
-
 /* Undoes one gesture (-1) or redoes one (1); past_iterate then shows the step.
  * Returns the edit that was undone or redone, or NULL. */
 const Command *past_undo(Past *past, int way);
@@ -212,12 +207,9 @@ const Control *past_control(const Past *past, int pane);
 /* Returns the control with which the run was started. */
 const Control *past_start_control(const Past *past, int pane);
 
-/* Whether the shown state was set by a start or a drag, not made by a step. */
-bool past_is_state_set(const Past *past);
-
-/* Returns the last step that a pane has made, if a failure has ended the pane
- * before `step`; else -1. */
-long past_find_end_step(const Past *past, int pane, long step);
+/* Returns the last step up to `step` that a pane has made: an earlier one if a
+ * failure has ended the pane before. */
+long past_find_made_step(const Past *past, int pane, long step);
 
 /* Returns the last step up to `step` whose extent is at most PAST_EXPLODED. */
 long past_find_drawable_step(const Past *past, int pane, long step);

@@ -199,8 +199,8 @@ static void format_pane_value(const Player *player, int pane,
                               const OptionRow *row, char value[VALUE_SIZE])
 {
     const Past *past = &player->past;
-    long last = past_find_end_step(past, pane, past->step);
-    const Entry *entry = past_entry(past, pane, last < 0 ? past->step : last);
+    const Entry *entry = past_entry(
+        past, pane, past_find_made_step(past, pane, past->step));
     player_format_value(row, &entry->control->options,
                         &past->pane[pane].simulation, value, VALUE_SIZE);
 }
@@ -222,7 +222,7 @@ static bool is_usual_value(const Player *player, const OptionRow *row,
 void player_label(const Player *player, int pane, char label[LABEL_SIZE])
 {
     const Past *past = &player->past;
-    long last = past_find_end_step(past, pane, past->step);
+    long last = past_find_made_step(past, pane, past->step);
     char value[VALUE_SIZE];
     label[0] = '\0';
     for (int all = 0; all < 2 && !label[0]; all++)
@@ -237,7 +237,7 @@ void player_label(const Player *player, int pane, char label[LABEL_SIZE])
                 append(label, LABEL_SIZE, "%s ", row->label);
             append(label, LABEL_SIZE, "%s", value);
         }
-    if (last < 0)
+    if (last == past->step)
         return;
     append(label, LABEL_SIZE, "%sended at step %ld", label[0] ? ", " : "",
            last);
@@ -287,7 +287,7 @@ static void fill_time(const Player *player, FrameContent *content)
     double time = 0, longest = -1; /* s, time of the pane with the longest h */
     for (int p = 0; p < past_panes(past); p++) {
         const Simulation *now = &past->pane[p].simulation;
-        bool goes = past_find_end_step(past, p, past->step) < 0;
+        bool goes = past_find_made_step(past, p, past->step) == past->step;
         double h = goes ? now->options.timestep : 0;
         time = h > longest ? simulation_time(now) : time;
         longest = fmax(longest, h);

@@ -159,8 +159,10 @@ Status obey_set(Player *player, const Command *command)
         return status;
     Command change = *command;
     change.x = options[player->active].number[row->slot];
-    bool again = (!past_is_state_set(&player->past) ||
-                  player_active_run(player)->failed) &&
+    const State *state =
+        past_entry(&player->past, 0, player->past.step)->state;
+    bool is_set = state && state->is_set; /* by a start or a drag */
+    bool again = (!is_set || player_active_run(player)->failed) &&
                  (row->effect == EFFECT_AGAIN ||
                   (player_active_options(player)->law &&
                    player->past.step > 0 && player_is_stopped(player)) ||

@@ -3,9 +3,12 @@
 #include "play/output.h"
 
 #include <errno.h>
+#include <stdarg.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+#include "run/message.h"
 
 bool output_is_standard(const char *name)
 {
@@ -16,6 +19,17 @@ const char *output_reason(Status status)
 {
     return status != STATUS_FILE_FAILED ? status_text(status)
                                         : strerror(errno ? errno : EIO);
+}
+
+void print_line(FILE *file, const char *format, ...)
+{
+    char line[1024];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(line, sizeof line, format, arguments);
+    va_end(arguments);
+    make_one_line(line);
+    fprintf(file, "%s\n", line);
 }
 
 Status output_report(char *message, const char *name, Status status,

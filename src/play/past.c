@@ -83,12 +83,11 @@ static bool pane_has_ended(const Entry *entry)
     return entry->substeps == 0 && entry_is_failure(entry);
 }
 
-long past_find_end_step(const Past *past, int pane, long step)
+long past_find_made_step(const Past *past, int pane, long step)
 {
-    long last = step;
-    while (last > 0 && pane_has_ended(past_entry(past, pane, last)))
-        last--;
-    return last < step ? last : -1;
+    while (step > 0 && pane_has_ended(past_entry(past, pane, step)))
+        step--;
+    return step;
 }
 
 long past_find_drawable_step(const Past *past, int pane, long step)
@@ -197,22 +196,14 @@ static bool thin_states(Past *past)
     return true;
 }
 
-bool past_is_state_set(const Past *past)
-{
-    const State *state = find_entry(past, 0, past->step)->state;
-    return state && state->is_set;
-}
-
 /* Samples at most HISTORY_POINTS steps of a long run, the newest one among
  * them. */
 void past_fill_history(const Past *past, int pane, History *history)
 {
-    long last = past_newest(past), stride = 1;
-    while (last / stride > HISTORY_POINTS - 2)
+    long newest = past_newest(past), stride = 1;
+    long last = past_find_made_step(past, pane, newest);
+    while (newest / stride > HISTORY_POINTS - 2)
         stride *= 2;
-    long ended = past_find_end_step(past, pane, last);
-    if (ended >= 0)
-        last = ended;
     history->series = history->count = 0;
     for (long step = 0; step < last + stride; step += stride) {
         const Sample *sample =
@@ -721,16 +712,6 @@ void past_choose_step(Past *past, long step, bool again)
     for (int p = 0; p < past_panes(past); p++)
         step_trace_clear(&past->pane[p].trace);
     leave_all_steps(past);
-}
-
-void past_sample_line_energy(Past *past, int place)
-{
-    bool whole = past->work == WORK_DONE && past->line_pane >= 0;
-    for (int p = 0; p < past_panes(past); p++)
-        whole = whole && !past->pane[p].failed;
-    if (whole && past->pane[past->line_pane].known &&
-        step_trace_lacks_samples(&past->pane[past->line_pane].trace, place))
-        past_choose_step(past, past->step, true);
 }
 
 /* ---- edits --------------------------------------------------------------- */

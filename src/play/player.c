@@ -75,9 +75,8 @@ static Status obey_script(Player *player)
         if (status == STATUS_INVALID_INPUT) {
             char line[128];
             command_format(command, line, sizeof line);
-            make_one_line(line);
-            fprintf(stderr, "script: step %ld: '%s': %s\n", player->past.step,
-                    line, player->message);
+            print_line(stderr, "script: step %ld: '%s': %s", player->past.step,
+                       line, player->message);
             player->message[0] = '\0';
             player->commands.refused = true;
             status = STATUS_OK;
@@ -186,7 +185,6 @@ Status player_run(Player *player)
 static void open_view(Player *player)
 {
     Options *options = &player->given.options[0];
-    char line[640];
     const int size[] = {(int)options->size[0], (int)options->size[1]};
     if (!options->headless)
         player->screen.window =
@@ -194,13 +192,11 @@ static void open_view(Player *player)
     if (!options->headless && !player->screen.window) {
         if (!options->frames && !options->film)
             options->frames = "frames";
-        snprintf(
-            line, sizeof line, "no screen: %.300s; the frames go to %.300s%s",
+        print_line(
+            stderr, "no screen: %.300s; the frames go to %.300s%s",
             window_failure(), options->frames ? options->frames : options->film,
             options->frames ? "/" : "");
         window_close();
-        make_one_line(line);
-        fprintf(stderr, "%s\n", line);
     }
     if (!player->screen.window && !options->script) {
         options->steps = options->steps < 0 ? WINDOWLESS_STEPS : options->steps;

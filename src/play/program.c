@@ -5,7 +5,6 @@
 
 #include <errno.h>
 #include <poll.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
@@ -17,19 +16,9 @@
 #include "lesson/pages.h"
 #include "scenes/scenes.h"
 
-/* Prints a failure as one line.  Returns the exit code. */
-__attribute__((format(printf, 2, 3))) static int
-print_error(int code, const char *format, ...)
-{
-    char line[1024];
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(line, sizeof line, format, arguments);
-    va_end(arguments);
-    make_one_line(line);
-    fprintf(stderr, "elasto: %s\n", line);
-    return code;
-}
+/* Prints a failure as one line.  The value is the exit code. */
+#define print_error(code, format, ...)                                         \
+    (print_line(stderr, "elasto: " format, __VA_ARGS__), (int)(code))
 
 /* Whether the reader of standard output has closed it, as head(1) does. */
 static bool reader_is_gone(void)
@@ -116,17 +105,8 @@ static int report_failure(const Player *player, Status status)
 /* ---- summary ------------------------------------------------------------- */
 
 /* Prints a quantity of the summary, with its name in the first column. */
-__attribute__((format(printf, 3, 4))) static void
-print_quantity(FILE *file, const char *name, const char *format, ...)
-{
-    char line[512];
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(line, sizeof line, format, arguments);
-    va_end(arguments);
-    make_one_line(line);
-    fprintf(file, "%-20s%s\n", name, line);
-}
+#define print_quantity(file, name, format, ...)                                \
+    print_line(file, "%-20s" format, name, __VA_ARGS__)
 
 /* Prints the solver of the last step, the reason if it was not multigrid, and
  * counts of Newton's work. */
@@ -221,7 +201,7 @@ static void print_summary(FILE *file, const Player *player)
 /* Reports frames of an earlier, longer run that are still in the folder. */
 static void print_old_frames(const Recording *recording)
 {
-    char folder[256], range[48] = "";
+    char range[48] = "";
     long count = 0, first = 0, last = 0;
     for (long step = 0; recording->old && step < FRAMES_MOST; step++)
         if (recording->old[step]) {
@@ -231,13 +211,11 @@ static void print_old_frames(const Recording *recording)
     if (count == 0) /* also without --frames */
         return;
     bool several = count > 1;
-    snprintf(folder, sizeof folder, "%s", recording->folder);
-    make_one_line(folder);
     if (several)
         snprintf(range, sizeof range, " ... frame_%06ld.png", last);
-    fprintf(stderr, "%s/: %ld %s of an earlier run %s: frame_%06ld.png%s\n",
-            folder, count, several ? "frames" : "frame",
-            several ? "stay" : "stays", first, range);
+    print_line(stderr, "%s/: %ld %s of an earlier run %s: frame_%06ld.png%s",
+               recording->folder, count, several ? "frames" : "frame",
+               several ? "stay" : "stays", first, range);
 }
 
 /* ---- the end ------------------------------------------------------------- */

@@ -108,9 +108,16 @@ void player_sample_line_energy(Player *player)
     bool is_drawn = player->screen.draws && !player->screen.bare && has_cards &&
                     cards_need_line_energy(player_simulation(player),
                                            player->screen.toggled_cards);
-    player->past.line_pane = is_drawn ? player->active : -1;
-    past_sample_line_energy(&player->past,
-                            player->view_of_pane[player->active].place);
+    Past *past = &player->past;
+    const PaneRun *run = player_active_run(player);
+    past->line_pane = is_drawn ? player->active : -1;
+    bool lacks = is_drawn && run->known && !past_works(past) &&
+                 step_trace_lacks_samples(
+                     &run->trace, player->view_of_pane[player->active].place);
+    for (int p = 0; p < past_panes(past); p++)
+        lacks = lacks && !past->pane[p].failed;
+    if (lacks)
+        past_choose_step(past, past->step, true);
 }
 
 int player_initial_speed(const Player *player, const Options *options)

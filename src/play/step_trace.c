@@ -79,30 +79,23 @@ static bool reserve_round(StepTrace *trace)
 
 /* ---- rounds -------------------------------------------------------------- */
 
-/* Samples E along p unless the polynomial is all of E along p. */
-static void sample_line_energy(Round *round, const Iterate *at)
-{
-    const LineEnergy along = {
-        .polynomial = round->polynomial, .at = at, .has_remainder = true};
-    round->sampled = round->has_remainder && round->x;
-    for (int i = 0; i < ROUND_VALUES && round->sampled; i++)
-        round->value[i] = line_energy_difference(
-            &along, i * round->first_trial / ROUND_PARTS);
-}
-
-/* Stores E along p of the newest round. */
+/* Stores E along p of the newest round; samples E unless the polynomial is all
+ * of it. */
 static void store_line_energy(StepTrace *trace, const Iterate *at)
 {
     Round *round = &trace->round[trace->records.count];
     const NewtonRecord *record = &trace->records.row[trace->records.count];
-    LineEnergy along = incremental_potential_prepare_line(at);
+    const LineEnergy along = incremental_potential_prepare_line(at);
     bool ended = record->status != STATUS_RUNNING;
+    bool samples = trace->samples_all ||
+                   (ended && (trace->samples_last || record->alpha == 0));
     round->first_trial = incremental_potential_max_step(at);
     round->polynomial = along.polynomial;
     round->has_remainder = along.has_remainder;
-    if (trace->samples_all ||
-        (ended && (trace->samples_last || record->alpha == 0)))
-        sample_line_energy(round, at);
+    round->sampled = along.has_remainder && samples;
+    for (int i = 0; i < ROUND_VALUES && round->sampled; i++)
+        round->value[i] = line_energy_difference(
+            &along, i * round->first_trial / ROUND_PARTS);
 }
 
 bool step_trace_lacks_samples(const StepTrace *trace, int place)

@@ -187,7 +187,7 @@ static void report_rest(Player *player)
     int folded = 0;
     for (int p = 0; p < past_panes(past); p++) {
         Pane pane = {.simulation = &past->pane[p].simulation};
-        if (past_find_end_step(past, p, past->step) < 0)
+        if (past_find_made_step(past, p, past->step) == past->step)
             folded += pane_count_folded_cells(&pane);
     }
     player_note(player,
@@ -236,7 +236,7 @@ static void detect_rest(Player *player)
     for (int p = 0; p < past_panes(past); p++) {
         const PaneRun *run = &past->pane[p];
         const Simulation *simulation = &run->simulation;
-        if (past_find_end_step(past, p, past->step) >= 0)
+        if (past_find_made_step(past, p, past->step) < past->step)
             continue;
         going++;
         ended = ended && (simulation->done || run->failed);

@@ -140,9 +140,9 @@ TEST(a_pane_that_has_ended_comes_back)
             CHECK(!few || hash[step] == hash_now());
             hash[step] = hash_now();
         }
-        CHECK(past_find_end_step(&past, 0, STEPS) == 11 &&
+        CHECK(past_find_made_step(&past, 0, STEPS) == 11 &&
               past.bytes <= past.limit &&
-              past_find_end_step(&past, 1, STEPS) < 0);
+              past_find_made_step(&past, 1, STEPS) == STEPS);
         for (int i = 0; i < 50; i++) {
             long step = random_below(&random, STEPS + 1);
             CHECK(show(step) == hash[step]);
