@@ -154,7 +154,7 @@ typedef struct Mouse {
     int index; /* index of what is dragged, by `drag`; -1: edge of the square */
     double from[2];  /* pixels, start of the drag, or of its last pan */
     bool moved;      /* the mouse has moved farther than a click may */
-    double grip[2];  /* m, from the mouse to the dragged point */
+    double grip[2];  /* m, from the mouse to the dragged obstacle */
     bool repins;     /* the dragged node is pinned again after the drag */
     bool was_wheel;  /* the last input was a turn of the wheel */
     int gesture;     /* id of the last key, click or turn of the wheel */

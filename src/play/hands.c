@@ -302,8 +302,6 @@ static Status go_on_dragging(Player *player)
     case COMMAND_PLACE:
     case COMMAND_START:
     case COMMAND_HANDLE:
-        target.at[0] += mouse->grip[0];
-        target.at[1] += mouse->grip[1];
         return obey_at(player, mouse->drag, mouse->index, target.at);
     case COMMAND_SET:
         return drag_number(player, &target);
@@ -430,7 +428,6 @@ static Status press_button(Player *player, const Input *input)
     int near = target.pick.nearest_node;
     mouse->from[0] = mouse->x;
     mouse->from[1] = mouse->y;
-    mouse->grip[0] = mouse->grip[1] = 0;
     mouse->moved = false;
     player->note[0] = '\0';
     if (input->button == BUTTON_LEFT)

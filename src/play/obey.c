@@ -76,14 +76,6 @@ static Command resolve_command(const Player *player, const Command *asked)
     return meant;
 }
 
-/* Whether a step with the hand at its present place is due or being made. */
-static bool is_pull_due(const Player *player)
-{
-    return past_makes(&player->past) ||
-           (!player_is_stopped(player) &&
-            player->past.step <= player->hands.pulled);
-}
-
 /* Stores the option that a command of a page has set as the page's own. */
 static void store_own_option(Player *player, const Command *command)
 {
@@ -98,6 +90,7 @@ static void store_own_option(Player *player, const Command *command)
 
 Status player_obey_queue(Player *player, bool now)
 {
+    const Past *past = &player->past;
     Queue queue = player->commands.queue;
     const bool obeys_page = player->tour.obeys_page;
     Status status = STATUS_OK;
@@ -105,8 +98,10 @@ Status player_obey_queue(Player *player, bool now)
     player->commands.queue = (Queue){.count = 0};
     for (; i < queue.count && !status; i++) {
         const Command *command = &queue.command[i];
-        bool pulls = command->kind == COMMAND_RELEASE && is_pull_due(player);
-        if (!now && (past_works(&player->past) || pulls))
+        bool pulls = command->kind == COMMAND_RELEASE &&
+                     !player_is_stopped(player) &&
+                     past->step <= player->hands.pulled;
+        if (!now && (past_works(past) || pulls))
             break;
         player->tour.obeys_page = obeys_page || queue.of_page;
         status = player_obey(player, command);

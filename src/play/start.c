@@ -2,7 +2,6 @@
  * answers of pages; cells of the envelope.
  */
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -163,18 +162,6 @@ bool player_hides_answer(const Player *player)
            player->given.asks && !player->tour.obeys_page;
 }
 
-/* Writes the verdict on a guess for the page's card, and counts the guess. */
-static void judge_guess(Player *player, bool right, const char *format, ...)
-{
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(player->tour.verdict, sizeof player->tour.verdict, format,
-              arguments);
-    va_end(arguments);
-    player->tour.guesses++;
-    player->tour.right_guesses += right;
-}
-
 /* A guess may be wrong by two percent, since it is calculated on paper. */
 Status player_reveal_answer(Player *player, const char *typed)
 {
@@ -190,14 +177,18 @@ Status player_reveal_answer(Player *player, const char *typed)
         return player_refuse(player, "a number is wanted: 0.25 or 1/4");
     bool right = fabs(guess - truth) <= 0.02 * fabs(truth);
     Number number = format_digits(truth, 5);
+    bool judged = typed && page->answer && !isnan(truth);
     player->tour.revealed = page;
+    player->tour.guesses += judged;
+    player->tour.right_guesses += judged && right;
     player->tour.verdict[0] = '\0';
     if (typed && !page->answer)
         snprintf(player->tour.verdict, sizeof player->tour.verdict,
                  "Your answer: %s.", typed);
-    else if (typed && !isnan(truth))
-        judge_guess(player, right, right ? "%s is right." : "%s? It is %s.",
-                    typed, number.text);
+    else if (judged)
+        snprintf(player->tour.verdict, sizeof player->tour.verdict, "%s%s%s.",
+                 typed, right ? " is right" : "? It is ",
+                 right ? "" : number.text);
     if (page->answer && !isnan(truth))
         snprintf(player->commands.queue.note, SENTENCE_SIZE, "%s%sit is %s",
                  typed ? typed : "",
@@ -267,9 +258,12 @@ Status obey_predict(Player *player, const Command *command)
     double way = math_hypot(guess->end[0] - at[0], guess->end[1] - at[1]);
     bool right = guess->distance <= 0.1 * way;
     Status status = player_reveal_answer(player, NULL);
-    judge_guess(player, right,
-                right ? "Your click is right." : "Your click is %s off.",
-                format_number(guess->distance).text);
+    player->tour.guesses++;
+    player->tour.right_guesses += right;
+    snprintf(player->tour.verdict, sizeof player->tour.verdict,
+             "Your click is %s%s.",
+             right ? "right" : format_number(guess->distance).text,
+             right ? "" : " off");
     return status;
 }
 
