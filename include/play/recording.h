@@ -2,24 +2,15 @@
  *
  * Frames are FOLDER/frame_000000.png, ..., numbered by their steps; frames of
  * an earlier run that this one does not reach stay there.
- * Tables (output.h) begin at step 0:
- *   states    step,time,node,x,y,vx,vy of each node at each step; nodes of
- *             run 1 are numbered after those of run 0
- *   log       a row for each Newton iteration (newton.h)
- *   energies  the energies of each run at each step (simulation.h); runs of
- *             all panes are numbered from 0
- *   springs   step,time,spring,i,j,whole,rest,strain,plastic,flowed of each
- *             spring at each step: i, j are nodes as in `states`, `whole` is 1
- *             unless the spring is broken, `rest` its rest length, m, `strain`
- *             |d|^2/rest^2 - 1; the others are ep and kappa of plasticity.h
- * With several panes states, log and springs have a column with the number of
- * the pane, from 1, and count the steps of all panes together.  If a user goes
- * back and changes a step, its new rows follow the old ones: the last rows of a
- * step count.  The energies of a step are those before the user changes a number.
+ * Tables (output.h) begin at step 0; README.md of play explains their columns.
+ * Nodes and springs of run 1 are numbered after those of run 0, and runs of all
+ * panes from 0.  If a user goes back and changes a step, its new rows follow
+ * the old ones: the last rows of a step count.  The energies of a step are
+ * those before a number is changed.
  *
- * The program ffmpeg makes films of frames from a pipe; the end of the name
- * chooses the format: .mp4, .webm, .gif or .apng.  A film has all frames that
- * were added, 60 a second; .gif has 50, as it counts hundredths of a second.
+ * The program ffmpeg makes films of frames from a pipe.  A film has all frames
+ * that were added, 60 a second; .gif has 50, as it counts hundredths of a
+ * second.
  */
 #ifndef ELASTO_RECORDING_H
 #define ELASTO_RECORDING_H

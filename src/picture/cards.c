@@ -2,6 +2,7 @@
 #include "picture/cards.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "picture/colour_map.h"

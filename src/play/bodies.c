@@ -5,7 +5,6 @@
 
 #include "play/playing.h"
 
-/* Edits all panes from the present step on. */
 static Status edit_all_panes(Player *player, const Command *change)
 {
     return player_edit(player, change, 0, past_panes(&player->past), false);
@@ -66,7 +65,6 @@ Status obey_place(Player *player, const Command *command)
     return edit_all_panes(player, command);
 }
 
-/* Moves a ground or a ball to a place where all panes have room. */
 Status obey_obstacle(Player *player, const Command *command)
 {
     Options moved = *player_active_options(player);

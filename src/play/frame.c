@@ -145,7 +145,6 @@ static void add_chip(Frame *frame, CommandKind kind, int state, bool lit)
         (Chip){key, text, lit};
 }
 
-/* Adds the chips of the keys that are useful now. */
 static void fill_chips(const Player *player, Frame *frame)
 {
     const Simulation *simulation = player_simulation(player);
@@ -199,8 +198,8 @@ static void format_pane_value(const Player *player, int pane,
                               const OptionRow *row, char value[VALUE_SIZE])
 {
     const Past *past = &player->past;
-    const Entry *entry = past_entry(
-        past, pane, past_find_made_step(past, pane, past->step));
+    const Entry *entry =
+        past_entry(past, pane, past_find_made_step(past, pane, past->step));
     player_format_value(row, &entry->control->options,
                         &past->pane[pane].simulation, value, VALUE_SIZE);
 }
@@ -246,7 +245,6 @@ void player_label(const Player *player, int pane, char label[LABEL_SIZE])
         append(label, LABEL_SIZE, " (drawn: %ld)", seen);
 }
 
-/* Fills the data from which the picture of a pane is drawn. */
 static void fill_pane(const Player *player, int p, Frame *frame)
 {
     const PaneRun *run = &player->past.pane[p];

@@ -55,7 +55,6 @@ const char *player_idle_reason(const Player *player, const OptionRow *row)
                             : NULL;
 }
 
-/* Adds a number to the row and selects it. */
 Status obey_add(Player *player, const Command *command)
 {
     const OptionRow *row = find_command_option(command);
@@ -72,7 +71,6 @@ Status obey_add(Player *player, const Command *command)
     return STATUS_OK;
 }
 
-/* Selects the next number of the row, or none after the last one. */
 Status obey_select(Player *player, const Command *command)
 {
     const OptionRow *number[OPTIONS_MAX_ROWS];
@@ -159,8 +157,7 @@ Status obey_set(Player *player, const Command *command)
         return status;
     Command change = *command;
     change.x = options[player->active].number[row->slot];
-    const State *state =
-        past_entry(&player->past, 0, player->past.step)->state;
+    const State *state = past_entry(&player->past, 0, player->past.step)->state;
     bool is_set = state && state->is_set; /* by a start or a drag */
     bool again = (!is_set || player_active_run(player)->failed) &&
                  (row->effect == EFFECT_AGAIN ||
@@ -185,9 +182,6 @@ Status player_enqueue_notches(Player *player, const OptionRow *row, int notches)
     return STATUS_OK;
 }
 
-/* Raises or lowers the selected number, or the first one, by a turn of the
- * wheel.
- */
 Status obey_raise(Player *player, const Command *command)
 {
     const OptionRow *number[OPTIONS_MAX_ROWS];
@@ -215,8 +209,6 @@ Status obey_default(Player *player, const Command *command)
     return status;
 }
 
-/* Switches line search or projection off, or on again as on the command line.
- */
 Status obey_switch(Player *player, const Command *command)
 {
     bool search = command->kind == COMMAND_SEARCH;

@@ -222,9 +222,9 @@ Status player_obey(Player *player, const Command *command)
 Status player_continue(Player *player)
 {
     Status status = player_work(player);
-    return status ? status
-                  : player_show_refusal(player,
-                                        player_obey_queue(player, false));
+    return status
+               ? status
+               : player_show_refusal(player, player_obey_queue(player, false));
 }
 
 Status player_make_step(Player *player)

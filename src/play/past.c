@@ -70,7 +70,6 @@ const Control *past_start_control(const Past *past, int pane)
     return branch->entry[pane].control;
 }
 
-/* Whether a pane has failed at the step of an entry. */
 static bool entry_is_failure(const Entry *entry)
 {
     return status_is_failure(entry->outcome.status);
@@ -152,7 +151,6 @@ static Status reserve_entry(Past *past, Branch *branch)
     return STATUS_OK;
 }
 
-/* Drops the branches from this index on. */
 static void drop_branches(Past *past, int from)
 {
     while (past->branches > from) {
@@ -361,7 +359,6 @@ static void pane_run_free(PaneRun *run)
     pane_run_forget_step(run);
 }
 
-/* Creates a simulation at its step 0. */
 static Status pane_run_create(PaneRun *run, const Options *options)
 {
     pane_run_free(run);
@@ -457,8 +454,7 @@ static void abandon_work(Past *past)
     long new = past_newest(past) + 1;
     for (int p = 0; p < past_panes(past); p++) {
         PaneRun *run = &past->pane[p];
-        if (run->iterating || run->substeps > 0 ||
-            run->step >= new)
+        if (run->iterating || run->substeps > 0 || run->step >= new)
             run->has_state = false;
         run->iterating = false;
         run->substeps = 0;
@@ -822,7 +818,6 @@ static const Control *make_edited_control(const Control *from,
     return control;
 }
 
-/* Edits an entry of the present branch. */
 static Status edit_entry(Past *past, int pane, const Command *edit,
                          Entry *entry)
 {

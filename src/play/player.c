@@ -60,7 +60,6 @@ bool player_ended(const Player *player)
            (!player->screen.window && player_is_stopped(player));
 }
 
-/* Obeys all lines of the script that are due. */
 static Status obey_script(Player *player)
 {
     Status status = STATUS_OK;
@@ -192,10 +191,10 @@ static void open_view(Player *player)
     if (!options->headless && !player->screen.window) {
         if (!options->frames && !options->film)
             options->frames = "frames";
-        print_line(
-            stderr, "no screen: %.300s; the frames go to %.300s%s",
-            window_failure(), options->frames ? options->frames : options->film,
-            options->frames ? "/" : "");
+        print_line(stderr, "no screen: %.300s; the frames go to %.300s%s",
+                   window_failure(),
+                   options->frames ? options->frames : options->film,
+                   options->frames ? "/" : "");
         window_close();
     }
     if (!player->screen.window && !options->script) {

@@ -59,7 +59,6 @@ static int print_information(const Options *options)
     return check_standard_output();
 }
 
-/* Returns advice for the user after a failure. */
 static const char *find_advice(const Player *player, Status status)
 {
     bool time = player->given.options[0].scene->needs & NEEDS_TIME;

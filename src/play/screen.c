@@ -49,7 +49,6 @@ Status obey_screen(Player *player, const Command *command)
     return STATUS_OK;
 }
 
-/* Shows a list or the page's code in the column, or the cards again. */
 Status obey_column(Player *player, const Command *command)
 {
     Column column = command->kind == COMMAND_KEYS      ? COLUMN_KEYS
@@ -108,7 +107,6 @@ Status obey_escape(Player *player, const Command *command)
     return STATUS_OK;
 }
 
-/* Zooms around a point, m, moves the picture, m, or fits the whole scene. */
 Status obey_camera(Player *player, const Command *command)
 {
     const Paper *paper = player_prepare_paper(player);
@@ -134,7 +132,6 @@ Status obey_camera(Player *player, const Command *command)
     return STATUS_OK;
 }
 
-/* Closes or opens a card; enlarges an open card, or gives it its size back. */
 Status obey_card(Player *player, const Command *command)
 {
     int card = (int)command->number;

@@ -183,12 +183,10 @@ Status player_reveal_answer(Player *player, const char *typed)
     player->tour.right_guesses += judged && right;
     player->tour.verdict[0] = '\0';
     if (typed && !page->answer)
-        snprintf(player->tour.verdict, sizeof player->tour.verdict,
-                 "Your answer: %s.", typed);
+        append(player->tour.verdict, VALUE_SIZE, "Your answer: %s.", typed);
     else if (judged)
-        snprintf(player->tour.verdict, sizeof player->tour.verdict, "%s%s%s.",
-                 typed, right ? " is right" : "? It is ",
-                 right ? "" : number.text);
+        append(player->tour.verdict, VALUE_SIZE, "%s%s%s.", typed,
+               right ? " is right" : "? It is ", right ? "" : number.text);
     if (page->answer && !isnan(truth))
         snprintf(player->commands.queue.note, SENTENCE_SIZE, "%s%sit is %s",
                  typed ? typed : "",
@@ -260,10 +258,9 @@ Status obey_predict(Player *player, const Command *command)
     Status status = player_reveal_answer(player, NULL);
     player->tour.guesses++;
     player->tour.right_guesses += right;
-    snprintf(player->tour.verdict, sizeof player->tour.verdict,
-             "Your click is %s%s.",
-             right ? "right" : format_number(guess->distance).text,
-             right ? "" : " off");
+    append(player->tour.verdict, VALUE_SIZE, "Your click is %s%s.",
+           right ? "right" : format_number(guess->distance).text,
+           right ? "" : " off");
     return status;
 }
 

@@ -105,7 +105,6 @@ void player_forget_step(Player *player)
     }
 }
 
-/* Forgets what the hand holds, and drops the commands in the queue. */
 static void drop_hand_and_queue(Player *player)
 {
     player->hands.holds = false;
@@ -506,7 +505,6 @@ Status obey_next(Player *player, const Command *command)
     return player_seek(player, player->past.step + 1, after);
 }
 
-/* Whether the steps of any pane consist of Newton's updates. */
 static bool panes_have_updates(const Player *player)
 {
     bool any = false;
@@ -536,7 +534,6 @@ Status obey_back(Player *player, const Command *command)
     return player_seek(player, step - 1, AFTER_SHOW_LAST);
 }
 
-/* Changes the unit of "next" and "back": steps, updates, lines, steps again. */
 Status obey_finer(Player *player, const Command *command)
 {
     static const char *const paces[] = {
@@ -597,7 +594,6 @@ static void describe_edit(const Player *player, const Command *edit, char *line,
     }
 }
 
-/* Undoes the last gesture, or redoes it, and reports the edit. */
 Status obey_undo(Player *player, const Command *command)
 {
     Past *past = &player->past;

@@ -204,7 +204,6 @@ static InputKind read_window_event(const SDL_WindowEvent *event)
     }
 }
 
-/* Translates an event, and adds the position of the mouse. */
 static Input read_event(const SDL_Event *event)
 {
     Input input = {.kind = INPUT_NONE};

@@ -454,7 +454,6 @@ static Status check_gaps_and_cells(const Options *options, const System *system,
     return STATUS_OK;
 }
 
-/* Checks the numbers of the obstacles. */
 static Status check_obstacles(const Options *options, Message message)
 {
     const double *ceiling = options->ceiling;

@@ -163,7 +163,6 @@ static Status apply_options(Simulation *simulation, const Options *options)
     return status;
 }
 
-/* Sets the velocity of a node to 0. */
 static void stop_node(TimeIntegrator *run, int node)
 {
     run->v[2 * node] = run->v[2 * node + 1] = 0;

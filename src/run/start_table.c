@@ -73,7 +73,6 @@ static char *take_field(char **rest)
     return field;
 }
 
-/* Finds the wanted columns by the names in the first line. */
 static void read_names(TableReader *reader)
 {
     char shown[40];

@@ -48,7 +48,6 @@ static void visit_system(Cursor *cursor, System *system)
                     (size_t)contact->obstacles * sizeof *contact->obstacle);
 }
 
-/* Visits the data of a small scene. */
 static void visit_exhibit(Cursor *cursor, Simulation *simulation)
 {
     const Scene *scene = simulation->scene;

@@ -76,7 +76,8 @@ TEST(a_page_keeps_its_answer_until_the_guess)
         assert_int_equal(count_lines("asks"), page->ask != NULL);
         if (page->ask)
             assert_int_equal(count_lines("look") + count_lines("try"), 0);
-        CHECK_OK(player_answer_question(&player, NULL));
+        CHECK_OK(player_reveal_answer(&player, NULL));
+        CHECK_OK(player_obey_queue(&player, false));
         write_document();
         check_lines();
         assert_int_equal(count_lines("asks"), 0);

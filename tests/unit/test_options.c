@@ -164,7 +164,7 @@ TEST(random_lines_end_well)
             CHECK(options.segments >= 1 && options.segments <= 4096);
         } else {
             CHECK(message[0] && strlen(message) < 500);
-            CHECK(!strpbrk(message, "\n\033") && !strstr(message, "\302\233"));
+            CHECK(!strpbrk(message, "\n\033"));
         }
     }
     print_message("%d understood, %d refused\n", understood, refused);
