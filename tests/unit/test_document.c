@@ -116,7 +116,8 @@ TEST(a_table_is_text_after_the_guess)
     write_document();
     assert_int_equal(count_lines("cells"), 0);
     assert_non_null(strstr(text, "prints\tcovered\t"));
-    CHECK_OK(player_answer_question(&player, NULL));
+    CHECK_OK(player_reveal_answer(&player, NULL));
+    CHECK_OK(player_obey_queue(&player, false));
     CHECK_OK(player_make_step(&player));
     write_document();
     assert_true(count_lines("cells") > 4); /* heads, updates, the end */
