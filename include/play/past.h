@@ -129,6 +129,8 @@ typedef struct Past {
     bool panes_fail_alone; /* a pane that fails ends alone; the others go on */
     long written; /* last step whose rows in the tables are valid; -1: none.
                      Edits lower it, the player writes rows and raises it */
+    long booked;  /* last step whose energies in the tables are valid: an edit
+                     after a step changes them, too */
     size_t bytes, limit; /* memory of states and samples, and its limit */
     int line_pane;       /* pane in which E along p is drawn; -1: none */
     Work work;           /* stage of the work that leads to `aim` */

@@ -5,8 +5,8 @@
  * Tables (output.h) begin at step 0; README.md of play explains their columns.
  * Nodes and springs of run 1 are numbered after those of run 0, and runs of all
  * panes from 0.  If a user goes back and changes a step, its new rows follow
- * the old ones: the last rows of a step count.  The energies of a step are
- * those before a number is changed.
+ * the old ones: the last rows of a step count.  A number that is changed after
+ * a step also changes the energies of this step.
  *
  * The program ffmpeg makes films of frames from a pipe.  A film has all frames
  * that were added, 60 a second; .gif has 50, as it counts hundredths of a
@@ -83,8 +83,9 @@ Status recording_write_frame(Recording *recording, const Canvas *canvas,
                              long step, int times);
 
 /* Writes the states, springs and energies of all panes at a step.
- *   simulation  [count] in, simulation of each pane */
-Status recording_write_states(Recording *recording,
+ *   energies_only  in, only the energies are written
+ *   simulation     [count] in, simulation of each pane */
+Status recording_write_states(Recording *recording, bool energies_only,
                               const Simulation *const *simulation, int count,
                               long step);
 

@@ -712,12 +712,15 @@ void past_choose_step(Past *past, long step, bool again)
 
 /* ---- edits --------------------------------------------------------------- */
 
-/* Marks the rows of later steps in the tables as invalid and, if the state of
- * this step has changed, also its own rows. */
+/* Marks rows of tables as invalid.  These are the rows of later steps, the
+ * energies of this step and, if the state has changed, all rows of this step.
+ */
 static void invalidate_tables(Past *past, long step, bool changed)
 {
     if (past->written > step - changed)
         past->written = step - changed;
+    if (past->booked > step - 1)
+        past->booked = step - 1;
 }
 
 /* Brings the simulations of all panes to the step that is shown. */
@@ -905,6 +908,7 @@ void past_create(bool stores_states, bool panes_fail_alone, Past *past)
                    .stores_states = stores_states,
                    .panes_fail_alone = panes_fail_alone,
                    .written = -1,
+                   .booked = -1,
                    .limit = PAST_BYTES,
                    .line_pane = -1};
 }

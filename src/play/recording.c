@@ -218,7 +218,7 @@ Status recording_write_frame(Recording *recording, const Canvas *canvas,
     return png_file_write(name, recording->message, canvas);
 }
 
-Status recording_write_states(Recording *recording,
+Status recording_write_states(Recording *recording, bool energies_only,
                               const Simulation *const *simulation, int count,
                               long step)
 {
@@ -232,7 +232,8 @@ Status recording_write_states(Recording *recording,
             at.run_index = r;
             at.pane = i + 1;
             for (int t = 0; t < RECORDING_TABLES; t++)
-                if (kinds[t].write_rows && recording->table[t].output.file)
+                if (kinds[t].write_rows && recording->table[t].output.file &&
+                    (!energies_only || t == RECORDING_ENERGIES))
                     kinds[t].write_rows(&recording->table[t], &at);
             at.runs++;
             at.nodes += at.run->system->nodes;

@@ -35,14 +35,15 @@ static Status record_iterations(Player *player, long step)
 }
 
 /* Writes the shown step to the tables if it is the next one to be written and
- * all panes have its records. */
+ * all panes have its records.  Writes only the energies if only these are
+ * missing. */
 static Status record_step(Player *player)
 {
     Past *past = &player->past;
     const Simulation *simulation[OPTIONS_MAX_PANES];
     int panes = past_panes(past);
     long step = past->step;
-    bool due = step == past->written + 1;
+    bool due = step == past->booked + 1, again = step <= past->written;
     for (int p = 0; p < panes; p++) {
         const PaneRun *run = &past->pane[p];
         simulation[p] = &run->simulation;
@@ -51,11 +52,14 @@ static Status record_step(Player *player)
     }
     if (!due)
         return STATUS_OK;
-    past->written = step;
-    Status status = step > 0 ? record_iterations(player, step) : STATUS_OK;
+    Status status =
+        step > 0 && !again ? record_iterations(player, step) : STATUS_OK;
+    past->booked = step;
+    if (!again)
+        past->written = step;
     return status ? status
-                  : recording_write_states(&player->recording, simulation,
-                                           panes, step);
+                  : recording_write_states(&player->recording, again,
+                                           simulation, panes, step);
 }
 
 Status player_write_remaining(Player *player)
@@ -70,14 +74,14 @@ Status player_write_remaining(Player *player)
         status = record_iterations(player, shown + 1);
     if (!past->stores_states || !player->recording.tables)
         return status;
-    while (past->written < past_newest(past) && !status &&
+    while (past->booked < past_newest(past) && !status &&
            !*player->given.stop) {
-        long next = past->written + 1;
+        long next = past->booked + 1;
         past_choose_step(past, next, again);
         status = past_finish_work(past);
         if (!status_is_failure(status))
             status = record_step(player);
-        again = past->written < next;
+        again = past->booked < next;
     }
     past_choose_step(past, shown, false);
     past_finish_work(past);
