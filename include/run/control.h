@@ -21,9 +21,9 @@ typedef struct Control {
     unsigned char pinned[]; /* [nodes] 1: pinned, 0: free */
 } Control;
 
-/* Return a new control: that of a simulation in which the mouse holds nothing,
- * or a copy.  The caller may change it until control_retain adds a second user.
- * NULL: no memory. */
+/* Return a new control, either of a simulation in which the mouse holds nothing
+ * or as a copy.  The caller may change it until control_retain adds a second
+ * user.  NULL: no memory. */
 Control *control_from_simulation(const Simulation *simulation);
 Control *control_copy(const Control *from);
 

@@ -712,9 +712,8 @@ void past_choose_step(Past *past, long step, bool again)
 
 /* ---- edits --------------------------------------------------------------- */
 
-/* Marks rows of tables as invalid.  These are the rows of later steps, the
- * energies of this step and, if the state has changed, all rows of this step.
- */
+/* Marks the rows of later steps in the tables as invalid, the energies of this
+ * step and, if the state has changed, all rows of this step. */
 static void invalidate_tables(Past *past, long step, bool changed)
 {
     if (past->written > step - changed)
