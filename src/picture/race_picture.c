@@ -131,11 +131,6 @@ void race_add_values(const Simulation *simulation, LiveValues *values)
         values_add(values, names[i][1], best ? 1e3 * best->seconds : NAN);
         values_add_flag(values, i ? "" : "no explicit", !best && all);
     }
-    bool failed = false; /* a run of the table failed */
-    for (int i = RACE_SHOWN_ROW * RACE_METHODS; i < race->count; i++)
-        failed = failed || (isnan(race->point[i].error) &&
-                            i < (RACE_SHOWN_ROW + HALVED + 1) * RACE_METHODS);
-    values_add_flag(values, "failed run", failed);
     values_add_flag(values, all ? "all runs" : "some runs",
                     !simulation->status);
     values_add_flag(
@@ -180,7 +175,8 @@ bool race_fill_row(const FrameContent *content, int row, CardTableRow *cells)
     snprintf(cell[0], CARD_CELL, "%s", shown->label);
     if (race->count > point - race->point) {
         format_cell(cell[1], "", point->error, 2, "");
-        snprintf(cell[6], CARD_CELL, "explodes");
+        if (isnan(point->energy_after_second))
+            snprintf(cell[6], CARD_CELL, "explodes");
         format_cell(cell[6], "\u00d7 ", point->energy_after_second, 2, "");
         format_cell(cell[8], "", 1e3 * point->seconds, 2, " ms");
     }

@@ -374,7 +374,8 @@ static Status press_left_button(Player *player, const MouseTarget *target,
     bool ground =
         target->pick.kind == PICK_NONE || target->pick.kind == PICK_SPRING;
     const char *key;
-    bool body = player_simulation(player)->scene->needs & NEEDS_BODY;
+    const Scene *scene = player_simulation(player)->scene;
+    bool body = (scene->needs & NEEDS_BODY) && !scene->step;
     Status status = STATUS_OK;
     player_deselect(player);
     switch (target->hit.zone) {

@@ -231,7 +231,7 @@ const Scene scenes[] = {
      .body.aspect = 0.1875, .body.cell_stiffness = 0.3,
      .body.obstacle = make_bend_ball},
     {"race", "Run time and error", "run time against error, measured now",
-     PICTURE_RACE, NEEDS_MESH | NEEDS_SPRINGS | NEEDS_MINIMUM,
+     PICTURE_RACE, NEEDS_MESH | NEEDS_SPRINGS | NEEDS_MINIMUM | NEEDS_BODY,
      /* motion without chaos; a tolerance below the error of every time step */
      "--stretch 1.1 --tolerance 1e-8", create_race, .step_name = "run",
      .step = step_race, .switch_labels = {"error over h"},

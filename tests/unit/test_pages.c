@@ -172,19 +172,19 @@ TEST(the_race_measures_errors_and_energies)
         CHECK(isnan(point->energy_after_second) == (i == 0));
         Simulation *again =
             simulate("square --stretch 1.1 --tolerance 1e-8 --timestep 0.004 "
-                     "--integrator %s",
+                     "--gravity 9.81 --pin 4 --integrator %s",
                      point->method->name);
         double start = simulation_energies(again, 0).total;
-        if (i > 0)
+        if (i > 0) {
+            Energies end = simulation_energies(make_steps(again, 250), 0);
             CHECK_NEAR(point->energy_after_second,
-                       simulation_energies(make_steps(again, 250), 0).total /
-                           start,
-                       1e-6);
+                       (end.total - end.gravity) / start, 1e-6);
+        }
     }
-    CHECK(race->point[VERLET].error < 0.01 && !race->point[VERLET].stable);
+    CHECK(!race->point[VERLET].stable);
     CHECK_NEAR(race_find_stable_h(race, VERLET), 0.004, 1e-15);
     CHECK(isnan(race_find_stable_h(race, 0)));
-    race = run_race("--stiffness 1e9 --stretch 1.01");
+    race = run_race("--stiffness 1e9 --stretch 1");
     for (int i = 0; i < race->count; i++) {
         const RacePoint *point = &race->point[i];
         CHECK(point->method->implicit ? point->error < 0.01
