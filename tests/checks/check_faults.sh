@@ -172,6 +172,9 @@ screens() {
             echo "$setting: frames"
         check_pictures
     done
+    rm -r frames
+    "$elasto" --steps 2 --quiet --film a.apng 2>error
+    [ ! -e frames ] || echo 'a film has pictures, too'
 }
 verdict screens_may_be_missing "$(screens)"
 
