@@ -520,12 +520,12 @@ static void collect_parts(void)
         fact("label %d\t%s", p, text_or(content->pane[p].label));
         fact("line %d %d", p, trace ? (int)trace->line : 0);
     }
-    for (int i = 0; i < content->settings.count; i++)
-        fact("number %s %s", content->settings.item[i].name,
-             content->settings.item[i].value);
-    for (int i = 0; i < content->settings.count; i++)
-        snprintf(order + strlen(order), sizeof order - strlen(order), "%s ",
-                 content->settings.item[i].name);
+    for (int i = 0; i < content->settings.count; i++) {
+        const Setting *setting = &content->settings.item[i];
+        fact("number %s %s", setting->name, setting->value);
+        fact("changed %s %d", setting->name, setting->changed);
+        append(order, sizeof order, "%s ", setting->name);
+    }
     fact("order\t%s", order);
     for (int i = 0; i < content->chips.count; i++) {
         fact("chip %s %s", content->chips.item[i].key,
