@@ -26,6 +26,7 @@ typedef struct Sparse {
     int *start;    /* [size+1] column c is start[c] ... start[c+1]-1 */
     int *row;      /* [entries] row of each entry, ascending in each column */
     double *value; /* [entries+1] value[entries] sums the dropped entries */
+    int *slot;     /* [triplets] place of each triplet in value */
 } Sparse;
 
 /* Allocates `capacity` triplets.  Returns OK, TOO_LARGE or OUT_OF_MEMORY. */
@@ -40,10 +41,9 @@ void triplets_add(Triplets *triplets, int row, int column);
 /* Builds A, in which triplets with the same row and column share one entry.
  *   triplets  in
  *   A         out; free it with sparse_free, also after a failure
- *   slot      [count] out, place of each triplet in A->value
  * Two counting sorts take the time O(size + count).  Returns OK or
  * OUT_OF_MEMORY. */
-Status sparse_create(const Triplets *triplets, Sparse *A, int *slot);
+Status sparse_create(const Triplets *triplets, Sparse *A);
 void sparse_free(Sparse *A);
 
 /* y = A x with both triangles of A.  x [size] in, y [size] out. */

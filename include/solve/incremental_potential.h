@@ -40,24 +40,20 @@ void incremental_potential_gradient(const IncrementalPotential *E,
 
 /* Makes the Hessian's pattern: triplets, first 2n diagonal entries of the mass
  * matrix, then the entries of each term; rows in elimination order if the
- * system has one.
- *   A     out; free it with sparse_free, also after a failure
- *   slot  out, [count] place of each triplet in A; the caller frees it. Entries
- *         of pinned nodes, except their masses on the diagonal, go to the last
- *         value of A, which is unused
+ * system has one.  The slots of pinned nodes, except their masses on the
+ * diagonal, lead to the last value of A, which is unused.
+ *   A  out; free it with sparse_free, also after a failure
  * Returns OK, TOO_LARGE, OUT_OF_MEMORY. */
-Status incremental_potential_pattern(const System *system, Sparse *A,
-                                     int **slot);
+Status incremental_potential_pattern(const System *system, Sparse *A);
 
 /* Whether the Hessian at u, x has entries that the pattern lacks; the pattern
  * must then be made again.  *grown out.  Returns OK, OUT_OF_MEMORY. */
 Status incremental_potential_grow(const Iterate *iterate, bool *grown);
 
-/* Writes the projected Hessian of E at u, x to A.
- *   slot  [count] in, from incremental_potential_pattern
+/* Writes the projected Hessian of E at u, x to A, which has the pattern.
  * Returns how many blocks of terms the projection changed. */
 int incremental_potential_hessian(const Iterate *at, Projection projection,
-                                  const int *slot, Sparse *A);
+                                  Sparse *A);
 
 /* Multiplies the (projected) Hessian of E at u, x by q, without a matrix.
  *   q  [2n] in, 0 for pinned nodes

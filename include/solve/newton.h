@@ -96,7 +96,6 @@ typedef struct SearchDirection {
     CholeskyKind factor_kind; /* kind of factor that cholesky holds */
     unsigned pattern;        /* System.pattern at the symbolic analysis */
     Sparse A;                /* Hessian, one triangle, in elimination order */
-    int *slot;               /* place of each triplet in A */
     Cholesky *cholesky;      /* factor of A; NULL: not created yet */
     double shift;            /* kg, added to the diagonal before factoring */
     double way_since_factor; /* m, upper bound of a node's displacement since A

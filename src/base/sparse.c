@@ -50,15 +50,18 @@ static void counting_sort(int count, int size, const int *key, const int *in,
     }
 }
 
-Status sparse_create(const Triplets *triplets, Sparse *A, int *slot)
+Status sparse_create(const Triplets *triplets, Sparse *A)
 {
     const int *row = triplets->row, *column = triplets->column;
     int count = triplets->count, size = triplets->size;
     size_t bytes = ((size_t)count + 1) * sizeof(int);
     size_t starts = ((size_t)size + 1) * sizeof *A->start;
-    *A = (Sparse){.size = size, .start = malloc(starts), .row = malloc(bytes)};
+    *A = (Sparse){.size = size,
+                  .start = malloc(starts),
+                  .row = malloc(bytes),
+                  .slot = malloc(bytes)};
     int *by_row = malloc(bytes), *sorted = malloc(bytes);
-    if (A->start && A->row && by_row && sorted) {
+    if (A->start && A->row && A->slot && by_row && sorted) {
         counting_sort(count, size, row, NULL, A->start, by_row);
         counting_sort(count, size, column, by_row, A->start, sorted);
         memset(A->start, 0, starts);
@@ -68,7 +71,7 @@ Status sparse_create(const Triplets *triplets, Sparse *A, int *slot)
                 A->row[A->entries++] = row[t];
                 A->start[column[t] + 1]++;
             }
-            slot[t] = A->entries - 1;
+            A->slot[t] = A->entries - 1;
         }
         for (int c = 0; c < size; c++)
             A->start[c + 1] += A->start[c];
@@ -84,6 +87,7 @@ void sparse_free(Sparse *A)
     free(A->start);
     free(A->row);
     free(A->value);
+    free(A->slot);
     *A = (Sparse){0};
 }
 

@@ -23,8 +23,6 @@ void direction_free_matrix(SearchDirection *direction)
     cholesky_free(direction->cholesky);
     direction->cholesky = NULL;
     sparse_free(&direction->A);
-    free(direction->slot);
-    direction->slot = NULL;
 }
 
 /* Assembles A, the Hessian at x.  The pattern and the symbolic analysis are
@@ -49,8 +47,7 @@ static Status assemble_hessian(Newton *newton, Projection projection,
         direction_free_matrix(direction);
         direction->pattern = system->pattern;
         direction->factor_kind = kind;
-        status = incremental_potential_pattern(system, &direction->A,
-                                               &direction->slot);
+        status = incremental_potential_pattern(system, &direction->A);
         if (!status)
             status = cholesky_create(&direction->A, kind, &direction->cholesky);
     }
@@ -58,7 +55,7 @@ static Status assemble_hessian(Newton *newton, Projection projection,
         projection == PROJECTION_ON_DEMAND ? PROJECTION_NONE : projection;
     if (!status)
         *projected = incremental_potential_hessian(
-            &newton->at, direction->projection, direction->slot, &direction->A);
+            &newton->at, direction->projection, &direction->A);
     return status;
 }
 
@@ -68,7 +65,7 @@ static double largest_diagonal(const Newton *newton)
     const SearchDirection *direction = &newton->direction;
     double largest = 0;
     for (int t = 0; t < 2 * newton->system->nodes; t++)
-        largest = fmax(largest, direction->A.value[direction->slot[t]]);
+        largest = fmax(largest, direction->A.value[direction->A.slot[t]]);
     return largest;
 }
 
@@ -89,7 +86,8 @@ static Status factor_hessian(Newton *newton)
         double shift = tries > 0 ? 100 * direction->shift
                                  : 1e-15 * largest_diagonal(newton);
         for (int t = 0; t < 2 * newton->system->nodes; t++)
-            direction->A.value[direction->slot[t]] += shift - direction->shift;
+            direction->A.value[direction->A.slot[t]] +=
+                shift - direction->shift;
         direction->shift = shift;
     }
 }

@@ -43,15 +43,13 @@ void incremental_potential_gradient(const IncrementalPotential *E,
     system_clear_pinned(system, g);
 }
 
-Status incremental_potential_pattern(const System *system, Sparse *A,
-                                     int **slot)
+Status incremental_potential_pattern(const System *system, Sparse *A)
 {
     EvalPoint at = eval_point_at(system, NULL, NULL, NULL);
     Triplets triplets;
     int masses = 2 * system->nodes;
     long long count = masses;
     *A = (Sparse){0};
-    *slot = NULL;
     for (const TermKind *kind; (kind = eval_point_next_term(&at));)
         count += kind->entries ? kind->entries(&at) : 0;
     Status status = triplets_create(masses, count, &triplets);
@@ -60,20 +58,17 @@ Status incremental_potential_pattern(const System *system, Sparse *A,
     for (const TermKind *kind; !status && (kind = eval_point_next_term(&at));)
         if (kind->pattern)
             kind->pattern(&at, &triplets);
-    if (!status) {
-        *slot = malloc((size_t)triplets.count * sizeof **slot);
-        status =
-            *slot ? sparse_create(&triplets, A, *slot) : STATUS_OUT_OF_MEMORY;
-    }
+    if (!status)
+        status = sparse_create(&triplets, A);
     /* Entries of terms in rows or columns of pinned nodes are dropped, into the
      * last value of A.  A column begins with its diagonal entry, which is 1
      * here in a pinned column. */
     for (int t = 0; t < triplets.count && !status; t++)
         if (t < masses)
-            A->value[(*slot)[t]] = system->pinned[t / 2];
+            A->value[A->slot[t]] = system->pinned[t / 2];
         else if (A->value[A->start[triplets.row[t]]] != 0 ||
                  A->value[A->start[triplets.column[t]]] != 0)
-            (*slot)[t] = A->entries;
+            A->slot[t] = A->entries;
     triplets_free(&triplets);
     return status;
 }
@@ -107,12 +102,12 @@ Status incremental_potential_grow(const Iterate *iterate, bool *grown)
 }
 
 int incremental_potential_hessian(const Iterate *at, Projection projection,
-                                  const int *slot, Sparse *A)
+                                  Sparse *A)
 {
     const System *system = at->E.system;
     memset(A->value, 0, ((size_t)A->entries + 1) * sizeof *A->value);
-    inertia_energy_hessian(system->nodes, system->m, slot, A->value);
-    return add_hessians(at, projection, slot + 2 * system->nodes, NULL,
+    inertia_energy_hessian(system->nodes, system->m, A->slot, A->value);
+    return add_hessians(at, projection, A->slot + 2 * system->nodes, NULL,
                         A->value);
 }
 

@@ -17,7 +17,6 @@ enum { GRID = 7, SIZE = GRID * GRID, ENTRIES = 3 * SIZE };
 typedef struct Problem {
     Triplets triplets;
     Sparse A;
-    int slot[ENTRIES];
     Cholesky *cholesky;
 } Problem;
 
@@ -31,7 +30,7 @@ static void problem_create(CholeskyKind kind, Problem *problem)
         if (i >= GRID)
             triplets_add(&problem->triplets, i, i - GRID);
     }
-    CHECK_OK(sparse_create(&problem->triplets, &problem->A, problem->slot));
+    CHECK_OK(sparse_create(&problem->triplets, &problem->A));
     CHECK_OK(cholesky_create(&problem->A, kind, &problem->cholesky));
 }
 

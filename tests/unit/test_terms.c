@@ -461,13 +461,12 @@ static void projection(Case *c, Random *random)
     Iterate iterate = {.E = E, .u = c->u, .x = c->x};
     static double plain[SIZE * SIZE], H[SIZE * SIZE];
     static Real g[SIZE], exact_plain[SIZE * SIZE], exact_H[SIZE * SIZE];
-    int n = c->size, *slot;
+    int n = c->size;
     Sparse A;
     bool grown;
     CHECK_OK(incremental_potential_grow(&iterate, &grown));
-    CHECK_OK(incremental_potential_pattern(&c->system, &A, &slot));
-    CHECK(incremental_potential_hessian(&iterate, PROJECTION_NONE, slot, &A) ==
-          0);
+    CHECK_OK(incremental_potential_pattern(&c->system, &A));
+    CHECK(incremental_potential_hessian(&iterate, PROJECTION_NONE, &A) == 0);
     dense_from_sparse(&A, plain);
     double Hq[SIZE], scale = 0;
     incremental_potential_product(&iterate, PROJECTION_NONE, c->q, Hq);
@@ -483,7 +482,7 @@ static void projection(Case *c, Random *random)
     const Projection projections[2] = {PROJECTION_CLAMP, PROJECTION_ABS};
     for (int f = 0; f < 2; f++) {
         Projection projection = projections[f];
-        incremental_potential_hessian(&iterate, projection, slot, &A);
+        incremental_potential_hessian(&iterate, projection, &A);
         dense_from_sparse(&A, H);
         for (int trial = 0; trial < 20; trial++) {
             double y[SIZE], value = 0;
@@ -503,7 +502,6 @@ static void projection(Case *c, Random *random)
         near("projection", more, expected, 1e-14L * n * scale);
     }
     sparse_free(&A);
-    free(slot);
 }
 
 /* Inertia and all terms together: E of a step, its first and second
