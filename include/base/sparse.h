@@ -15,9 +15,9 @@
 
 typedef struct Triplets {
     int size;    /* rows = columns of the matrix */
-    int count;   /* number of triplets */
-    int *row;    /* [capacity] row of each triplet, >= column */
-    int *column; /* [capacity] column of each triplet */
+    long long count; /* number of triplets */
+    int *row; /* [count] row of each triplet, >= column; NULL: only counted */
+    int *column; /* [count] column of each triplet */
 } Triplets;
 
 typedef struct Sparse {
@@ -29,11 +29,12 @@ typedef struct Sparse {
     int *slot;     /* [triplets] place of each triplet in value */
 } Sparse;
 
-/* Allocates `capacity` triplets.  Returns OK, TOO_LARGE or OUT_OF_MEMORY. */
-Status triplets_create(int size, long long capacity, Triplets *triplets);
+/* Allocates room for the triplets that were counted, to be added once more.
+ * Returns OK, TOO_LARGE or OUT_OF_MEMORY. */
+Status triplets_allocate(Triplets *triplets);
 void triplets_free(Triplets *triplets);
 
-/* Appends the entry (row, column); the caller has allocated enough room.  An
+/* Counts the entry (row, column) and, after triplets_allocate, stores it.  An
  * entry of the upper triangle is stored as (column, row): CHOLMOD reads the
  * lower triangle only. */
 void triplets_add(Triplets *triplets, int row, int column);

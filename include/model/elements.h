@@ -138,10 +138,9 @@ bool elements_next(ElementIterator *walk);
 /* TermKind's functions for terms with elements (term.h). */
 double elements_value(const EvalPoint *at);
 void elements_gradient(const EvalPoint *at, double *g);
-long long elements_entries(const EvalPoint *at);
 void elements_pattern(const EvalPoint *at, Triplets *triplets);
 int elements_hessian(const EvalPoint *at, Projection projection,
-                     const int *slot, const double *q, double *out);
+                     const int **slot, const double *q, double *out);
 double elements_line_remainder(const EvalPoint *at, const double *p,
                                double alpha);
 
@@ -156,8 +155,7 @@ bool elements_are_feasible(const EvalPoint *at);
 /* The TermKind of a term with elements begins with these functions. */
 #define ELEMENTS(kind)                                                         \
     .element = &(kind), .value = elements_value,                               \
-    .gradient = elements_gradient, .entries = elements_entries,                \
-    .pattern = elements_pattern, .hessian = elements_hessian,                  \
-    .line_remainder = elements_line_remainder
+    .gradient = elements_gradient, .pattern = elements_pattern,                \
+    .hessian = elements_hessian, .line_remainder = elements_line_remainder
 
 #endif

@@ -10,13 +10,8 @@
 /* The sum of spring_energy over all springs; the term has no data. */
 extern const TermKind mass_spring_energy;
 
-/* Entries of a spring in the lower triangle of the Hessian: ii: xx xy yy,
- * jj: xx xy yy, ij: xx xy yx yy. */
-enum { SPRING_ENTRIES = 10 };
-
 /* TermKind's functions for a term with one block for each spring.  The bound of
  * the curvature is the largest k. */
-long long mass_spring_entries(const EvalPoint *at);
 void mass_spring_pattern(const EvalPoint *at, Triplets *triplets);
 double mass_spring_curvature_bound(const EvalPoint *at);
 
@@ -31,10 +26,11 @@ static inline void spring_add_force(const int e[2], double factor,
 }
 
 /* Adds the block B = [[H, -H], [-H, H]] of a spring with the nodes e[0], e[1]:
- *   q = NULL   entries of B go to out[slot[...]] of a matrix
+ *   q = NULL   triplets ii: xx xy yy, jj: xx xy yy, ij: xx xy yx yy of B go to
+ *              places of a matrix, the first to out[(*slot)[0]]
  *   otherwise  out += B q; q, out [2n] */
 static inline void mass_spring_add(const double H[3], const int e[2],
-                                   int spring, const int *slot, const double *q,
+                                   const int **slot, const double *q,
                                    double *out)
 {
     if (q) {
@@ -47,17 +43,18 @@ static inline void mass_spring_add(const double H[3], const int e[2],
         out[j + 1] -= t1;
         return;
     }
-    slot += SPRING_ENTRIES * spring;
-    out[slot[0]] += H[0];
-    out[slot[1]] += H[1];
-    out[slot[2]] += H[2];
-    out[slot[3]] += H[0];
-    out[slot[4]] += H[1];
-    out[slot[5]] += H[2];
-    out[slot[6]] -= H[0];
-    out[slot[7]] -= H[1];
-    out[slot[8]] -= H[1];
-    out[slot[9]] -= H[2];
+    const int *s = *slot;
+    out[s[0]] += H[0];
+    out[s[1]] += H[1];
+    out[s[2]] += H[2];
+    out[s[3]] += H[0];
+    out[s[4]] += H[1];
+    out[s[5]] += H[2];
+    out[s[6]] -= H[0];
+    out[s[7]] -= H[1];
+    out[s[8]] -= H[1];
+    out[s[9]] -= H[2];
+    *slot += 10;
 }
 
 #endif

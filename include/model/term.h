@@ -92,11 +92,8 @@ struct TermKind {
      * weight -1 and u NULL to collect forces. */
     void (*gradient)(const EvalPoint *at, double *g);
 
-    /* Number of triplets of the Hessian.  The triplets stay the same during a
-     * step, except for grow.  NULL: the Hessian is 0. */
-    long long (*entries)(const EvalPoint *at);
-
-    /* Appends the triplets, by term_add_block. */
+    /* Appends the triplets of the Hessian, by term_add_block.  The triplets
+     * stay the same during a step, except for grow.  NULL: the Hessian is 0. */
     void (*pattern)(const EvalPoint *at, Triplets *triplets);
 
     /* Appends the triplets that the Hessian at x needs and the pattern lacks,
@@ -106,12 +103,13 @@ struct TermKind {
     Status (*grow)(const EvalPoint *at, bool *grown);
 
     /* Adds weight times the projected Hessian of P at x:
-     *   slot  [entries] place of each triplet in the matrix
-     *   q     NULL: out[slot[t]] += entry t
+     *   slot  in/out, place of the term's first triplet in the matrix, then of
+     *         the next term's; NULL if q is given
+     *   q     NULL: out[(*slot)[t]] += triplet t
      *         [2n]: out += Hessian q without a matrix, out [2n]
      * CLAMP and ABS make each block positive semi-definite; NONE and ON_DEMAND
      * leave it.  Returns the number of blocks that the projection changed. */
-    int (*hessian)(const EvalPoint *at, Projection projection, const int *slot,
+    int (*hessian)(const EvalPoint *at, Projection projection, const int **slot,
                    const double *q, double *out);
 
     /* Adds the coefficients of alpha^2, alpha^3 and alpha^4 of weight

@@ -7,13 +7,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-Status triplets_create(int size, long long capacity, Triplets *triplets)
+Status triplets_allocate(Triplets *triplets)
 {
-    *triplets = (Triplets){.size = size};
-    if (size < 1 || capacity < 1 || capacity >= INT_MAX)
+    size_t bytes = (size_t)triplets->count * sizeof(int);
+    if (triplets->count >= INT_MAX)
         return STATUS_TOO_LARGE;
-    triplets->row = malloc((size_t)capacity * sizeof *triplets->row);
-    triplets->column = malloc((size_t)capacity * sizeof *triplets->column);
+    triplets->row = malloc(bytes);
+    triplets->column = malloc(bytes);
+    triplets->count = 0;
     if (!triplets->row || !triplets->column)
         return STATUS_OUT_OF_MEMORY;
     return STATUS_OK;
@@ -28,7 +29,9 @@ void triplets_free(Triplets *triplets)
 
 void triplets_add(Triplets *triplets, int row, int column)
 {
-    int t = triplets->count++;
+    long long t = triplets->count++;
+    if (!triplets->row)
+        return;
     triplets->row[t] = row > column ? row : column;
     triplets->column[t] = row > column ? column : row;
 }
@@ -53,7 +56,7 @@ static void counting_sort(int count, int size, const int *key, const int *in,
 Status sparse_create(const Triplets *triplets, Sparse *A)
 {
     const int *row = triplets->row, *column = triplets->column;
-    int count = triplets->count, size = triplets->size;
+    int count = (int)triplets->count, size = triplets->size;
     size_t bytes = ((size_t)count + 1) * sizeof(int);
     size_t starts = ((size_t)size + 1) * sizeof *A->start;
     *A = (Sparse){.size = size,

@@ -75,12 +75,6 @@ static int count_block_entries(const EvalPoint *at)
     return nodes * (2 * nodes + 1);
 }
 
-long long elements_entries(const EvalPoint *at)
-{
-    return (long long)count_block_entries(at) *
-           at->term->kind->element->block_count(at);
-}
-
 void elements_pattern(const EvalPoint *at, Triplets *triplets)
 {
     const ElementKind *kind = at->term->kind->element;
@@ -141,7 +135,7 @@ static bool add_product(const ElementIterator *walk, Projection projection,
 }
 
 int elements_hessian(const EvalPoint *at, Projection projection,
-                     const int *slot, const double *q, double *out)
+                     const int **slot, const double *q, double *out)
 {
     int projected = 0, entries = count_block_entries(at);
     double H[4][4];
@@ -153,13 +147,14 @@ int elements_hessian(const EvalPoint *at, Projection projection,
             continue;
         }
         projected += walk.kind->hessian(at, element, projection, H);
+        const int *first = *slot + entries * element->block;
         if (element->vectors == 1)
-            element_add_block(element, 1, H, slot + entries * element->block,
-                              out);
+            element_add_block(element, 1, H, first, out);
         else
-            element_add_block(element, 2, H, slot + entries * element->block,
-                              out);
+            element_add_block(element, 2, H, first, out);
     }
+    if (!q)
+        *slot += entries * at->term->kind->element->block_count(at);
     return projected;
 }
 

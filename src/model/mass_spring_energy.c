@@ -29,7 +29,7 @@ static void mass_spring_gradient(const EvalPoint *at, double *g)
 }
 
 static int mass_spring_hessian(const EvalPoint *at, Projection projection,
-                               const int *slot, const double *q, double *out)
+                               const int **slot, const double *q, double *out)
 {
     const System *system = at->system;
     int projected = 0;
@@ -39,7 +39,7 @@ static int mass_spring_hessian(const EvalPoint *at, Projection projection,
         spring_vector(e, at->x, d);
         projected +=
             spring_hessian(d, at->l2[s], at->weight * at->k[s], projection, H);
-        mass_spring_add(H, e, s, slot, q, out);
+        mass_spring_add(H, e, slot, q, out);
     }
     return projected;
 }
@@ -61,11 +61,6 @@ static void mass_spring_line_polynomial(const EvalPoint *at, const double *p,
         q[1] += 2 * c * B * C;
         q[2] += c * C * C;
     }
-}
-
-long long mass_spring_entries(const EvalPoint *at)
-{
-    return (long long)SPRING_ENTRIES * at->system->springs;
 }
 
 void mass_spring_pattern(const EvalPoint *at, Triplets *triplets)
@@ -90,7 +85,6 @@ const TermKind mass_spring_energy = {
     .energy = "elastic",
     .value = mass_spring_value,
     .gradient = mass_spring_gradient,
-    .entries = mass_spring_entries,
     .pattern = mass_spring_pattern,
     .hessian = mass_spring_hessian,
     .line_polynomial = mass_spring_line_polynomial,

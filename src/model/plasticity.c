@@ -121,7 +121,7 @@ static void plastic_gradient(const EvalPoint *at, double *g)
 }
 
 static int plastic_hessian(const EvalPoint *at, Projection projection,
-                           const int *slot, const double *q, double *out)
+                           const int **slot, const double *q, double *out)
 {
     int projected = 0;
     for (int s = 0; s < at->system->springs; s++) {
@@ -138,7 +138,7 @@ static int plastic_hessian(const EvalPoint *at, Projection projection,
         const double H[3] = {factor * (across + difference * d[0] * d[0]),
                              factor * difference * d[0] * d[1],
                              factor * (across + difference * d[1] * d[1])};
-        mass_spring_add(H, spring.e, s, slot, q, out);
+        mass_spring_add(H, spring.e, slot, q, out);
     }
     return projected;
 }
@@ -242,7 +242,6 @@ const TermKind plastic_energy = {
     .loss = "plastic",
     .value = plastic_value,
     .gradient = plastic_gradient,
-    .entries = mass_spring_entries,
     .pattern = mass_spring_pattern,
     .hessian = plastic_hessian,
     .line_polynomial = plastic_line_polynomial,

@@ -24,12 +24,6 @@ static void pull_gradient(const EvalPoint *at, double *g)
                                  (at->x[2 * pull->node + i] - pull->target[i]);
 }
 
-static long long pull_entries(const EvalPoint *at)
-{
-    (void)at;
-    return 2;
-}
-
 static void pull_pattern(const EvalPoint *at, Triplets *triplets)
 {
     const Pull *pull = at->term->data;
@@ -38,7 +32,7 @@ static void pull_pattern(const EvalPoint *at, Triplets *triplets)
 
 /* The Hessian k I has no negative eigenvalue. */
 static int pull_hessian(const EvalPoint *at, Projection projection,
-                        const int *slot, const double *q, double *out)
+                        const int **slot, const double *q, double *out)
 {
     const Pull *pull = at->term->data;
     double k = at->weight * pull->k;
@@ -47,7 +41,7 @@ static int pull_hessian(const EvalPoint *at, Projection projection,
         if (q)
             out[2 * pull->node + i] += k * q[2 * pull->node + i];
         else
-            out[slot[i]] += k;
+            out[*(*slot)++] += k;
     return 0;
 }
 
@@ -67,9 +61,8 @@ static double pull_curvature_bound(const EvalPoint *at)
 
 /* The TermKind of both terms begins with these functions. */
 #define PULL                                                                   \
-    .value = pull_value, .gradient = pull_gradient, .entries = pull_entries,   \
-    .pattern = pull_pattern, .hessian = pull_hessian,                          \
-    .line_polynomial = pull_line_polynomial,                                   \
+    .value = pull_value, .gradient = pull_gradient, .pattern = pull_pattern,   \
+    .hessian = pull_hessian, .line_polynomial = pull_line_polynomial,          \
     .curvature_bound = pull_curvature_bound, .diagonal = true,                 \
     .external = true, .any_integrator = true
 

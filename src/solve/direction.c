@@ -4,7 +4,6 @@
 #include "solve/newton_parts.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 /* Number of iterations in which projection on demand clamps, once a Hessian had
  * no Cholesky factor. */

@@ -4,7 +4,6 @@
 #include "solve/incremental_potential.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "model/inertia_energy.h"
@@ -43,23 +42,28 @@ void incremental_potential_gradient(const IncrementalPotential *E,
     system_clear_pinned(system, g);
 }
 
-Status incremental_potential_pattern(const System *system, Sparse *A)
+/* Adds the triplets of the masses and of all terms. */
+static void add_triplets(const System *system, Triplets *triplets)
 {
     EvalPoint at = eval_point_at(system, NULL, NULL, NULL);
-    Triplets triplets;
-    int masses = 2 * system->nodes;
-    long long count = masses;
-    *A = (Sparse){0};
+    for (int i = 0; i < system->nodes; i++)
+        term_add_diagonal(system, i, triplets);
     for (const TermKind *kind; (kind = eval_point_next_term(&at));)
-        count += kind->entries ? kind->entries(&at) : 0;
-    Status status = triplets_create(masses, count, &triplets);
-    for (int i = 0; i < system->nodes && !status; i++)
-        term_add_diagonal(system, i, &triplets);
-    for (const TermKind *kind; !status && (kind = eval_point_next_term(&at));)
         if (kind->pattern)
-            kind->pattern(&at, &triplets);
-    if (!status)
+            kind->pattern(&at, triplets);
+}
+
+Status incremental_potential_pattern(const System *system, Sparse *A)
+{
+    int masses = 2 * system->nodes;
+    Triplets triplets = {.size = masses};
+    *A = (Sparse){0};
+    add_triplets(system, &triplets);
+    Status status = triplets_allocate(&triplets);
+    if (!status) {
+        add_triplets(system, &triplets);
         status = sparse_create(&triplets, A);
+    }
     /* Entries of terms in rows or columns of pinned nodes are dropped, into the
      * last value of A.  A column begins with its diagonal entry, which is 1
      * here in a pinned column. */
@@ -80,13 +84,9 @@ static int add_hessians(const Iterate *iterate, Projection projection,
 {
     EvalPoint at = eval_point_of(&iterate->E, iterate->u, iterate->x);
     int projected = 0;
-    for (const TermKind *kind; (kind = eval_point_next_term(&at));) {
-        if (!kind->hessian)
-            continue;
-        projected += kind->hessian(&at, projection, slot, q, out);
-        if (!q)
-            slot += kind->entries(&at);
-    }
+    for (const TermKind *kind; (kind = eval_point_next_term(&at));)
+        if (kind->hessian)
+            projected += kind->hessian(&at, projection, &slot, q, out);
     return projected;
 }
 

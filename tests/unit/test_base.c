@@ -22,7 +22,8 @@ typedef struct Problem {
 
 static void problem_create(CholeskyKind kind, Problem *problem)
 {
-    CHECK_OK(triplets_create(SIZE, ENTRIES, &problem->triplets));
+    problem->triplets = (Triplets){.size = SIZE, .count = ENTRIES};
+    CHECK_OK(triplets_allocate(&problem->triplets));
     for (int i = 0; i < SIZE; i++) {
         triplets_add(&problem->triplets, i, i);
         if (i % GRID > 0)
