@@ -86,9 +86,9 @@ void square_mesh_get_triangle(const SquareMesh *shape, int t, int node[3],
 int square_mesh_find_cell(const SquareMesh *shape, const double *x,
                           const double *at, int cell, int end);
 
-/* Whether triangle t is one of the two halves of its cell.  The cut is ac if
- * column + row is even, else bd. */
-bool square_mesh_triangle_is_half(const SquareMesh *shape, int t);
+/* Whether cell c is cut into two triangles along bd, not ac: its column + row
+ * is odd. */
+bool square_mesh_is_cut_along_bd(const SquareMesh *shape, int c);
 
 /* Writes the corners of the patch of cells x cells cells whose lower left cell
  * is c; patches at the right and upper side may be smaller.  The patches cover

@@ -150,7 +150,7 @@ static const ElementKind triangle = {
 };
 
 /* Cuts each cell into two triangles.  Their sides stay springs, which are drawn
- * but have no energy; the other diagonal gets k = 0. */
+ * but have no energy; the diagonal that is no side gets k = 0. */
 static Status neo_hookean_configure(System *system, const SquareMesh *mesh,
                                     const double *number)
 {
@@ -169,12 +169,12 @@ static Status neo_hookean_configure(System *system, const SquareMesh *mesh,
                                   .area = 0.5 * mesh->spacing * mesh->spacing,
                                   .node = (int(*)[3])(data + 1)};
     for (int c = 0; c < mesh->cells; c++) {
-        int node[4], spring[6], odd = square_mesh_triangle_is_half(mesh, 4 * c);
+        int node[4], spring[6], cut_bd = square_mesh_is_cut_along_bd(mesh, c);
         square_mesh_get_cell(mesh, c, node, spring);
-        system->k[spring[odd ? 4 : 5]] = 0;
+        system->k[spring[cut_bd ? 4 : 5]] = 0;
         for (int t = 2 * c; t < 2 * c + 2; t++)
             for (int k = 0; k < 3; k++)
-                data->triangles.node[t][k] = node[corner[odd][t % 2][k]];
+                data->triangles.node[t][k] = node[corner[cut_bd][t % 2][k]];
     }
     system_remove_term(system, &mass_spring_energy);
     return STATUS_OK;

@@ -105,11 +105,10 @@ int square_mesh_find_cell(const SquareMesh *shape, const double *x,
     return -1;
 }
 
-bool square_mesh_triangle_is_half(const SquareMesh *shape, int t)
+bool square_mesh_is_cut_along_bd(const SquareMesh *shape, int c)
 {
-    int c = t / 4;
     locate_in_body(shape, shape->cells, &c);
-    return (c / shape->rows + c % shape->rows + t) % 2;
+    return (c / shape->rows + c % shape->rows) % 2;
 }
 
 bool square_mesh_get_patch(const SquareMesh *shape, int c, int cells,
