@@ -38,10 +38,10 @@ typedef struct LecturePage {
     const char *file;     /* path of the source shown by K */
     const char *function; /* functions shown by K, separated by ',' */
     const char *const *code; /* code lines of `function`, then NULL */
-    const char *lit;         /* part of each code line that is lit */
-    const char *const
-        *lit_at_line;        /* [LINES_WALKED] part of each code line that is
-                         lit at a line of Algorithm 3; NULL: lit */
+    const char *lit;         /* code lines with this text are highlighted */
+    const char *const *lit_at_line; /* [LINES_WALKED] text of the code lines that
+                                       are highlighted at each line of Algorithm
+                                       3; NULL: `lit` */
     const char *claim;       /* statement that a test checks */
     unsigned flips;          /* bit s: switch s of the scene is turned over */
     int picture;             /* step that the printed page shows */

@@ -28,9 +28,11 @@ void scene_predict(Simulation *simulation, double x, double y);
 
 /* ---- one mass, one spring ------------------------------------------------ */
 
+#define SMALL_MASS 1.0 /* kg, mass of each node */
+
 /* Creates a system of a free node 0 and some pinned nodes, each with a spring
- * to node 0; kg, m, J/m^2.  Returns as system_create. */
-Status create_small_system(System *system, int pins, double mass, double length,
+ * to node 0; m, J/m^2.  Returns as system_create. */
+Status create_small_system(System *system, int pins, double length,
                            double stiffness);
 
 /* Create `circle` and `arrows`, with runs 0, 1, 2 by forward, symplectic and

@@ -279,7 +279,7 @@ static Status measure_start(Program program, int segments, int start, int steps,
     return status;
 }
 
-/* Measures all programs on one square: for each start one after the other.
+/* Runs all programs from each start of one square, and prints the medians.
  *   ms  out, median time a step */
 static Status measure_solvers(bool quick, int segments, double ms[SOLVERS])
 {

@@ -63,7 +63,7 @@ void elements_gradient(const EvalPoint *at, double *g)
     }
 }
 
-/* Node numbers of each 2x2 part of a block, diagonal parts first. */
+/* The pair of nodes of each 2x2 part of a block, diagonal parts first. */
 enum { PARTS = 6 };
 static const int part[PARTS][2] = {{0, 0}, {1, 1}, {2, 2},
                                    {0, 1}, {0, 2}, {1, 2}};

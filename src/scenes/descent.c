@@ -11,7 +11,6 @@
 
 enum { LANDSCAPE_PINS = 2, LANDSCAPE_NODES = 1 + LANDSCAPE_PINS };
 
-static const double POINT_MASS = 1;            /* kg */
 static const double LINE_STIFFNESS = 10;       /* J/m^2 */
 static const double LINE_LENGTH = 1;           /* m, rest length */
 static const double LINE_TARGET = 2;           /* m, x_tilde of node 0 */
@@ -49,7 +48,7 @@ static LocalModel log_two_cosh(const Simulation *simulation, double x)
 static LocalModel evaluate_tangent_energy(const Simulation *simulation,
                                           double x)
 {
-    double m = POINT_MASS, l2 = LINE_LENGTH * LINE_LENGTH;
+    double m = SMALL_MASS, l2 = LINE_LENGTH * LINE_LENGTH;
     double h = simulation->run[0].h, x_tilde = simulation->exhibit.target[0];
     double d = x - x_tilde, k = h * h * LINE_STIFFNESS;
     double s = spring_strain(x * x, l2);
@@ -309,7 +308,7 @@ static Status begin_descent(Simulation *simulation)
     simulation->runs = 1;
     Status status =
         create_small_system(&simulation->system, scalar ? 0 : LANDSCAPE_PINS,
-                            POINT_MASS, LANDSCAPE_LENGTH, LANDSCAPE_STIFFNESS);
+                            LANDSCAPE_LENGTH, LANDSCAPE_STIFFNESS);
     if (!status)
         status =
             simulation_start_run(simulation, 0, integrator_find_method(method),

@@ -9,16 +9,15 @@
 
 static const double CIRCLE_OMEGA = 6.283185307179586; /* 1/s: a turn a second */
 static const double MASS_OMEGA2 = 1; /* 1/s^2, omega2 in the scene `arrows` */
-static const double SPRING_MASS = 1;                  /* kg */
 static const double SPRING_STIFFNESS = 100;           /* J/m^2 */
 static const double SPRING_LENGTH = 1;                /* m, rest length */
 
-Status create_small_system(System *system, int pins, double mass, double length,
+Status create_small_system(System *system, int pins, double length,
                            double stiffness)
 {
     Status status = system_create(1 + pins, pins, system);
     for (int i = 0; i <= pins && !status; i++)
-        system->m[i] = mass;
+        system->m[i] = SMALL_MASS;
     for (int s = 0; s < pins && !status; s++) {
         system->pinned[s + 1] = 1;
         system->e[2 * s + 1] = s + 1;
@@ -36,10 +35,10 @@ static Status create_orbit(Simulation *simulation, double omega2,
         "forward-euler", "symplectic-euler", "backward-euler"};
     const Options *options = &simulation->options;
     bool chosen = options->integrator >= 0;
-    Status status = create_small_system(&simulation->system, 0, 1, 0, 0);
+    Status status = create_small_system(&simulation->system, 0, 0, 0);
     if (!status)
         status = pull_configure(&simulation->system, &central_field,
-                                &(Pull){.k = omega2}); /* the mass is 1 kg */
+                                &(Pull){.k = SMALL_MASS * omega2});
     simulation->runs = chosen ? 1 : SIMULATION_MAX_RUNS;
     memcpy(simulation->exhibit.start, x, 2 * sizeof *x);
     memcpy(simulation->exhibit.start + 2, v, 2 * sizeof *v);
@@ -120,8 +119,8 @@ Status create_spring(Simulation *simulation)
     System *system = &simulation->system;
     const double x[4] = {options->start[0], options->start[1], 0, 0};
     const double v[4] = {0};
-    Status status = create_small_system(system, 1, SPRING_MASS, SPRING_LENGTH,
-                                        SPRING_STIFFNESS);
+    Status status =
+        create_small_system(system, 1, SPRING_LENGTH, SPRING_STIFFNESS);
     simulation->runs = 1;
     return status ? status
                   : simulation_start_run(simulation, 0, options_method(options),
