@@ -1,6 +1,5 @@
-/* clock.h - two clocks in seconds: elapsed time and processor time.  Only
- * differences of two readings of the same clock have a meaning.
- */
+/* clock.h - elapsed time and processor time, in seconds.  Only differences of
+ * two readings have a meaning. */
 #ifndef ELASTO_CLOCK_H
 #define ELASTO_CLOCK_H
 

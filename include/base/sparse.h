@@ -42,8 +42,7 @@ void triplets_add(Triplets *triplets, int row, int column);
 /* Builds A, in which triplets with the same row and column share one entry.
  *   triplets  in
  *   A         out; free it with sparse_free, also after a failure
- * Two counting sorts take the time O(size + count).  Returns OK or
- * OUT_OF_MEMORY. */
+ * Takes the time O(size + count).  Returns OK or OUT_OF_MEMORY. */
 Status sparse_create(const Triplets *triplets, Sparse *A);
 void sparse_free(Sparse *A);
 

@@ -1,8 +1,7 @@
 /* status.h - every way in which a call can end, each with a text.
  *
  * A function that can fail returns a Status.  STATUS_OK is 0, so `if (status)`
- * reads "if the call failed".  Numeric kernels cannot fail and return no
- * Status.
+ * reads "if the call failed".  Numeric kernels cannot fail.
  */
 #ifndef ELASTO_STATUS_H
 #define ELASTO_STATUS_H

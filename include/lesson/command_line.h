@@ -1,6 +1,4 @@
-/* command_line.h - reads command lines and single options, and
- * writes --help.
- */
+/* command_line.h - reads command lines and options, and writes --help. */
 #ifndef ELASTO_COMMAND_LINE_H
 #define ELASTO_COMMAND_LINE_H
 
@@ -26,8 +24,7 @@ Status options_parse_line(const char *line, Options *options, Message message);
 /* Sets an option that has a value.  An option that the scene cannot use, or
  * that does not fit the others, is refused with a message as above.
  *   text   in, value as on the command line; "": take `value`
- *   value  number, or index of a name; NaN counts as an empty text, which is
- *          refused */
+ *   value  number, or index of a name; NaN is refused like an empty text */
 Status options_set(Options *options, const OptionRow *row, const char *text,
                    double value, Message message);
 

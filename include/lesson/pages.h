@@ -1,5 +1,4 @@
-/* pages.h - the lecture as a table with a row for each page, in the slides'
- * order.
+/* pages.h - the tour: a table with a row for each page, in the slides' order.
  *
  * A page is a scene with settings, and texts about the scene.  The table is
  * generated from src/lesson/pages.txt.  A new page needs a text there, and a
@@ -11,8 +10,7 @@
 #include "run/message.h"
 #include "run/options.h"
 
-/* Length of LecturePage.lit_at_line: lines 1 to 8 of Algorithm 3; 0 is unused.
- */
+/* Length of lit_at_line: lines 1 to 8 of Algorithm 3; element 0 is unused. */
 enum { LINES_WALKED = 9 };
 
 /* A page.  Texts are texts of live_values.h: live numbers stand in braces. */
@@ -22,8 +20,7 @@ typedef struct LecturePage {
     const char *section;  /* heading above the page in the list, or NULL */
     bool extra;           /* whether the 80 minutes leave the page out */
     const char *text;     /* text: what the page is about */
-    const char *formula;  /* text: formulas in large letters, one on a line; or
-                             NULL */
+    const char *formula;  /* text: large formulas, one on a line, or NULL */
     const char *line;     /* scene and settings, as on the command line */
     const char *cards;    /* names of the open cards, separated by blanks */
     const char *look;     /* text: the answer, and what to look at */

@@ -1,5 +1,4 @@
-/* boundary.h - points and edges on the boundary of the bodies, and a search for
- * the edges that come near a point.
+/* boundary.h - the boundary of the bodies, and a search for edges near a point.
  *
  *     d-----c      A triangle is solid if its three springs are whole.  A cell
  *     |   / |      counts as the two triangles abd and cdb if both are solid,

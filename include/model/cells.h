@@ -1,5 +1,4 @@
-/* cells.h - barrier energy that keeps the cells of the square from turning
- * over.
+/* cells.h - barrier energy that keeps cells from turning over.
  *
  *     d-----c     A spring has the same energy in a cell that is turned inside
  *     |\   /|     out, which therefore stays so.  The term gives each of the
@@ -8,9 +7,7 @@
  *     a-----b       J = (e1 x e2)/(2 A0)   1 at rest, 0 if flat
  *                   W = c f(J/J_hat)       J, c = A0 k_c, f of barrier.h
  *
- * J_hat is 0.4: a triangle with more than 40 % of its area has no force.  The
- * eigenvectors of the Hessian of J are those of Smith et al.: Stable
- * Neo-Hookean Flesh Simulation, 2018.
+ * J_hat is 0.4: a triangle with more than 40 % of its area has no force.
  */
 #ifndef ELASTO_CELLS_H
 #define ELASTO_CELLS_H

@@ -11,8 +11,7 @@
  *                               pushes the node away.
  *
  * c = A d_hat kappa/2 in J, where A is the length of boundary for each node.
- * Every node is tested, since springs that break turn inner nodes into
- * boundary.
+ * Every node is tested, since a break turns inner nodes into boundary.
  */
 #ifndef ELASTO_CONTACT_H
 #define ELASTO_CONTACT_H
@@ -35,8 +34,7 @@ typedef struct Motion {
 
 typedef struct Obstacle {
     ObstacleKind kind;
-    double o[2];   /* m, point on the surface of a wall, centre of a ball; not
-                      used for the free ball */
+    double o[2];   /* m, point of a wall's surface, centre of a fixed ball */
     double n[2];   /* outward unit normal of a wall; not used for balls */
     double radius; /* m, R > 0; not used for walls */
     Motion motion;
@@ -122,9 +120,8 @@ double contact_node_radius(const Contact *contact, int node);
 
 /* Sets the velocity of the held obstacle before a step of h seconds from x [2n]
  * m.  The obstacle moves part of the way to its target, with a bounded speed.
- * The obstacle rests if a node in front of it is pressed with the hand's full
- * force.  The obstacle stops in front of fixed nodes, and before its centre
- * enters a cell. */
+ * The obstacle rests if a node in front feels the hand's full force, and stops
+ * before fixed nodes, and before its centre enters a cell. */
 void push_begin_step(Contact *contact, const System *system, const double *x,
                      double h);
 

@@ -8,9 +8,8 @@
  *   triangle            a = x_j - x_i,  b = x_k - x_i
  *   point and edge      a = x_p - x_0,  b = x_1 - x_0
  *
- * The source of a term has W, its gradient and its Hessian in (a, b).  The
- * loops over the elements, the step from (a, b) to the nodes and the entries of
- * the matrix are in elements.c.
+ * The source of a term has W, its gradient and its Hessian in (a, b).  Loops,
+ * the step from (a, b) to the nodes and the matrix are in elements.c.
  */
 #ifndef ELASTO_ELEMENTS_H
 #define ELASTO_ELEMENTS_H
@@ -90,8 +89,8 @@ struct ElementKind {
     /* Writes the gradient of W in (a, b) to g. */
     void (*gradient)(const EvalPoint *at, const Element *element, double g[4]);
 
-    /* Writes the projected Hessian of W in (a, b) to H.  Returns whether the
-     * projection changed it. */
+    /* Writes the projected Hessian of W in (a, b).  Returns whether an
+     * eigenvalue was changed. */
     bool (*hessian)(const EvalPoint *at, const Element *element,
                     Projection projection, double H[4][4]);
 
@@ -119,10 +118,8 @@ struct ElementKind {
 };
 
 /* A loop over the elements with W > 0 at x and, with p [2n], also those with
- * W > 0 on the way to x + alpha p:
- *   for (ElementIterator walk = elements_begin(at, p, alpha);
- *        elements_next(&walk);)
- */
+ * W > 0 on the way to x + alpha p: begins with elements_begin(at, p, alpha),
+ * goes on while elements_next(&walk). */
 typedef struct ElementIterator {
     const EvalPoint *at;
     const ElementKind *kind;

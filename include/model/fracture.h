@@ -4,8 +4,7 @@
  * its strength.  The candidate with the largest load breaks first, and at most
  * one spring at each node breaks in a step.  The springs beside it then take
  * over its load in the next step; otherwise whole rows would break at once.  A
- * broken spring has k = 0 and stays in all lists and in the pattern of the
- * Hessian.
+ * broken spring stays in all lists, with k = 0.
  *
  * The strengths differ by up to a tenth, by a hash of the spring's number.
  * Without this, rounding would choose the springs of a symmetric scene.

@@ -1,5 +1,4 @@
-/* inertia_energy.h - E_I(x) = sum m_i |x_i - x_tilde_i|^2 / 2
- * (slide InertiaEnergy.py).
+/* inertia_energy.h - E_I = sum m_i |x_i - x_tilde_i|^2/2 (InertiaEnergy.py).
  *
  * E_I depends on x - x_tilde alone.  Time steps therefore pass displacements
  * from x_n as x and x_tilde, which have smaller rounding errors.

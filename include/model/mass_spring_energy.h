@@ -1,6 +1,4 @@
-/* mass_spring_energy.h - energy of all springs (slide MassSpringEnergy.py), and
- * functions that other energies of springs share with it.
- */
+/* mass_spring_energy.h - energy of all springs (slide MassSpringEnergy.py). */
 #ifndef ELASTO_MASS_SPRING_ENERGY_H
 #define ELASTO_MASS_SPRING_ENERGY_H
 

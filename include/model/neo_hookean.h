@@ -17,8 +17,7 @@
  *
  * A flat triangle, J = 0, has infinite energy, so no triangle turns over.
  * Lame's parameters in plane strain: mu = E/(2 (1 + nu)), lambda = E nu/((1 +
- * nu) (1 - 2 nu)).  For nu < 0, lambda is negative and W has no lower bound, so
- * options refuse nu < 0.
+ * nu) (1 - 2 nu)).  Options refuse nu < 0: W would have no lower bound.
  */
 #ifndef ELASTO_NEO_HOOKEAN_H
 #define ELASTO_NEO_HOOKEAN_H

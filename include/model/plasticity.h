@@ -3,9 +3,8 @@
  * A spring has the Green strain E = |d|^2/l2 - 1.  The plastic strain ep is the
  * part of E that remains after unloading.  The elastic energy is
  * k l2 (E - ep)^2/2; beyond the yield strain Y the spring flows.  W is the
- * condensed incremental potential of Ortiz and Stainier (1999), in which the
- * flow of this step is already minimised out, so that a step is one
- * minimisation:
+ * condensed incremental potential of Ortiz and Stainier (1999): the flow is
+ * minimised out, so that a step is one minimisation:
  *
  *   W = k l2 V(e),  e = E - ep_n
  *   V = e^2/2 - (|e| - Y_n)_+^2 flow/2,  flow = 1/(1 + H)

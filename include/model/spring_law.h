@@ -80,8 +80,7 @@ static inline bool spring_project_eigenvalues(Projection projection,
 
 /* Writes the projected H.
  *   H  [3] out: H_xx, H_xy, H_yy
- * Returns whether the projection changed an eigenvalue; never for a broken
- * spring, k = 0. */
+ * Returns whether an eigenvalue was changed; never for a broken spring. */
 static inline bool spring_hessian(const double d[2], double l2, double k,
                                   Projection projection, double H[3])
 {

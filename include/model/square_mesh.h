@@ -5,8 +5,7 @@
  * A body has (columns+1) (rows+1) nodes on a grid centred at the origin.  Node
  * i*(rows+1)+j is column i, row j, counted from the lower left.  The springs of
  * a body are in this order: horizontal, vertical, the two diagonals of each
- * cell. Only multigrid and the planes of the grid use these numbers directly;
- * other code calls the functions below.
+ * cell. Only multigrid uses these numbers directly.
  */
 #ifndef ELASTO_SQUARE_MESH_H
 #define ELASTO_SQUARE_MESH_H
@@ -71,23 +70,20 @@ int square_mesh_get_sides(const SquareMesh *shape, int i);
 void square_mesh_get_cell(const SquareMesh *shape, int c, int node[4],
                           int spring[6]);
 
-/* Writes the nodes and springs of triangle t = 4 c + k: corner k of cell c and
- * the two neighbours of that corner.
+/* Writes the triangle t = 4 c + k: corner k of cell c and its two neighbours.
  *   node  [3] out, anticlockwise from the corner
  *   side  [3] out, springs */
 void square_mesh_get_triangle(const SquareMesh *shape, int t, int node[3],
                               int side[3]);
 
-/* Returns the first of the cells cell ... end-1 that contains a point; -1: no
- * cell does.  Contact tests nodes only, so a small ball could be inside a cell
- * unnoticed.
+/* Returns the first of the cells cell ... end-1 that contains a point, or -1.
+ * Contact tests nodes only, and would not notice a small ball inside a cell.
  *   x   [2n] m, in, positions of the nodes
  *   at  [2] m, in, the point */
 int square_mesh_find_cell(const SquareMesh *shape, const double *x,
                           const double *at, int cell, int end);
 
-/* Whether cell c is cut into two triangles along bd, not ac: its column + row
- * is odd. */
+/* Whether cell c is cut along bd, not ac: column + row is odd. */
 bool square_mesh_is_cut_along_bd(const SquareMesh *shape, int c);
 
 /* Writes the corners of the patch of cells x cells cells whose lower left cell

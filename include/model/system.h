@@ -7,8 +7,7 @@
  * steps only, in begin_step and end_step of a term.
  *
  * Code that changes a system calls system_mark_changed, which raises its
- * version. Solvers store with their results the version for which they are
- * valid.
+ * version.  Solvers store the version for which their results are valid.
  */
 #ifndef ELASTO_SYSTEM_H
 #define ELASTO_SYSTEM_H
@@ -37,8 +36,7 @@ struct System {
     unsigned char *pinned; /* [n] 1: pinned; e, order, pinned share one
                               allocation */
     double *pin_v;         /* [2n] m/s, velocity of pinned nodes; NULL: 0 */
-    int segments; /* segments a side if the system is the mesh of square_mesh.h;
-                     else 0 */
+    int segments;     /* segments a side if the system is one square; else 0 */
     unsigned version; /* rises with every change of numbers or terms */
     unsigned pattern; /* rises when the pattern of the Hessian changes */
     int terms;
@@ -116,8 +114,7 @@ bool system_falls_freely(const System *system);
 
 /* Whether P stays the same when all nodes turn about the pivot: no term is
  * external or depends on x_n, and at most one node is pinned.
- *   pivot  out, the pinned node; -1: none, bodies turn about the centre of mass
- */
+ *   pivot  out, the pinned node; -1: the centre of mass */
 bool system_turns_freely(const System *system, int *pivot);
 
 /* Returns the kinetic energy sum m |v|^2/2, J.  v [2n] m/s, in. */

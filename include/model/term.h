@@ -24,8 +24,7 @@ struct SquareMesh;
 typedef struct EvalPoint {
     const System *system;
     const Term *term;  /* term that is evaluated; NULL: none is selected yet */
-    double weight;     /* s^2, factor on everything that is added to an array;
-                          h^2 for implicit Euler */
+    double weight; /* s^2, factor on derivatives of P: h^2 for implicit Euler */
     const double *x_n; /* [2n] m, positions at the start of the step */
     const double *u; /* [2n] m, displacement x - x_n; NULL: outside of a step */
     const double *x; /* [2n] m, current positions, x_n + u */
@@ -68,8 +67,7 @@ struct TermKind {
     /* Order of the list.  Equal places keep the order in which they were added.
      * Sums and end_step thus keep their order when a term is added later. */
     enum TermPlace {
-        PLACE_FORCE, /* springs, fields and all terms without a place of their
-                        own */
+        PLACE_FORCE, /* springs, triangles, fields: the usual place */
         PLACE_DAMPING,
         PLACE_CONTACT,
         PLACE_FRICTION,
@@ -113,13 +111,11 @@ struct TermKind {
                    const double *q, double *out);
 
     /* Adds the coefficients of alpha^2, alpha^3 and alpha^4 of weight
-     * P(x + alpha p) to q [3].  NULL: no part of P is a polynomial of degree
-     * 2 to 4 along a line. */
+     * P(x + alpha p) to q [3].  NULL: no part of P is such a polynomial. */
     void (*line_polynomial)(const EvalPoint *at, const double *p, double q[3]);
 
     /* Returns weight (P(x + alpha p) - P(x) - alpha grad P.p), less what
-     * line_polynomial has added, without cancellation.  NULL: P is such a
-     * polynomial. */
+     * line_polynomial has added, without cancellation.  NULL: 0. */
     double (*line_remainder)(const EvalPoint *at, const double *p,
                              double alpha);
 
@@ -141,10 +137,8 @@ struct TermKind {
 
     bool diagonal; /* P is a sum of c/2 |x_i - o|^2 over nodes i, c > 0,
                       so its Hessian is a diagonal matrix */
-    bool external; /* has forces that do not add up to 0 and so move the centre
-                      of mass */
-    bool depends_on_start;    /* P depends on x_n too, so that a turn of all
-                                 nodes changes P */
+    bool external; /* has forces that move the centre of mass */
+    bool depends_on_start; /* P depends on x_n too, and a turn changes P */
     bool any_integrator; /* works with every integrator; other terms only with
                             backward Euler, whose x_(n+1) is the minimiser */
 };

@@ -1,5 +1,4 @@
-/* scenes.h - the table of scenes.
- */
+/* scenes.h - the table of scenes. */
 #ifndef ELASTO_SCENES_H
 #define ELASTO_SCENES_H
 

@@ -22,8 +22,7 @@
 #include "run/simulation.h"
 
 /* Stores a user's guess that the next step, or the longest step of the dial,
- * leads to (x, y), m.  Does nothing in scenes without a single point, and after
- * the end of a scene. */
+ * leads to (x, y), m.  No effect without a single point, or after the end. */
 void scene_predict(Simulation *simulation, double x, double y);
 
 /* ---- one mass, one spring ------------------------------------------------ */
@@ -48,8 +47,7 @@ Status create_spring(Simulation *simulation);
  *   symplectic  v' = v + h a(x)  x' = x + h v'
  *   backward    v' = v + h a(x') x' = x + h v' */
 typedef struct MassStep {
-    /* Position, velocity and acceleration, SI units, before and after the step.
-     */
+    /* Position, velocity, acceleration, SI units, before and after the step. */
     double x[2], v[2], a[2], new_x[2], new_v[2], new_a[2];
     bool by_old_v; /* x' = x + h v (forward Euler) */
 } MassStep;
@@ -170,8 +168,7 @@ Status create_envelope(Simulation *simulation);
 Status step_envelope(Simulation *simulation);
 
 /* Runs the steps of a cell, with the h of its column and the k of its row, as
- * run 0 of the simulation.  Returns OK, also if steps did not converge, or
- * OUT_OF_MEMORY. */
+ * run 0.  Returns OK, also if steps did not converge, or OUT_OF_MEMORY. */
 Status envelope_run_cell(Simulation *simulation, int column, int row);
 
 #endif

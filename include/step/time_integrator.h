@@ -35,9 +35,8 @@ typedef struct IntegratorMethod {
     void (*finish)(TimeIntegrator *);
 } IntegratorMethod;
 
-/* Time as a number of equal steps since h was last changed.  The sum of all
- * steps would have wrong last digits: 60 steps of 0.002 s would not be 0.12 s.
- */
+/* Time as a number of equal steps since h was last changed.  A sum of steps has
+ * wrong last digits: 60 steps of 0.002 s would not be 0.12 s. */
 typedef struct StepClock {
     double now;         /* s, last_change + steps h */
     double last_change; /* s, time of the last change of h */
@@ -59,8 +58,7 @@ struct TimeIntegrator {
     double *x;         /* [2n] m, positions; start of the block of all arrays */
     double *v;         /* [2n] m/s, velocities */
     double *new_x;   /* [2n] m, x at the end of a step; before that workspace */
-    double *new_v;   /* [2n] m/s, v at the end of a step; before that
-                        workspace */
+    double *new_v;   /* [2n] m/s, v at the end; before that workspace */
     double *memory;  /* [memory * 2n] arrays that the method remembers */
     double memory_h; /* s, time step at which the method filled `memory`; 0: the
                         contents of `memory` are not valid */

@@ -1,5 +1,4 @@
-/* mathematics.c - hypot, log and log1p with the same bits in every C library.
- */
+/* mathematics.c - hypot, log and log1p with the same bits everywhere. */
 #include "base/mathematics.h"
 
 #include <math.h>

@@ -1,6 +1,4 @@
-/* sparse.c - symmetric sparse matrices in compressed columns, built from
- * triplets.
- */
+/* sparse.c - symmetric sparse matrices, built from triplets. */
 #include "base/sparse.h"
 
 #include <limits.h>

@@ -1,6 +1,4 @@
-/* bench.c - elasto-bench measures run time against error, and the time of a
- * step.
- */
+/* bench.c - measures run time against error, and the time of a step. */
 #include <SDL.h>
 #include <cholmod.h>
 #include <math.h>
@@ -13,8 +11,7 @@
 #include "lesson/command_line.h"
 #include "scenes/small_scenes.h"
 
-/* lecture.c is included without a change.  A call of exit in lecture.c becomes
- * a jump out of the step. */
+/* A call of exit in lecture.c, which is included here, leaves the step. */
 static jmp_buf program_ended;
 
 #define exit(code) longjmp(program_ended, code)
@@ -68,8 +65,7 @@ typedef struct TimedMotion {
 } TimedMotion;
 
 /* A stiffness 10^4 times as large makes vibrations 100 times as fast.  The last
- * motion suits implicit methods: stiff springs that hardly vibrate, in a square
- * that turns slowly. */
+ * motion suits implicit methods: a stiff square turns and hardly vibrates. */
 static const TimedMotion motions[] = {
     {"soft", 1e5, 1.1, 0, 0.1, {16, 64, 128, 0}},
     {"stiff", 1e9, 1.1, 0, 0.02, {16, 32, 0}},
@@ -91,8 +87,7 @@ typedef struct FastestRun {
     double ms;        /* run time */
 } FastestRun;
 
-/* Creates a simulation whose run 0 is the start of the motion and whose run 1
- * is its exact end. */
+/* Creates a simulation: run 0 is the start of the motion, run 1 its end. */
 static Status create_motion(const TimedMotion *motion, int segments,
                             Simulation *simulation)
 {
@@ -117,8 +112,7 @@ static Status create_motion(const TimedMotion *motion, int segments,
  * Tolerance: the last direction p of a step changes velocities by at most the
  * tolerance, so all steps change positions by at most
  * steps * tolerance * time / 2.  The bound may equal the expected error of the
- * method: a step applies the last p, and the remaining error is a hundredth of
- * p or less. */
+ * method, since a step also applies the last p. */
 static Status measure_method(bool quick, const TimedMotion *motion,
                              Simulation *simulation,
                              const IntegratorMethod *method,

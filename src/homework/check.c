@@ -443,9 +443,8 @@ static void check_task(const Task *task, int errors)
     }
 }
 
-/* Reports the message that the process wrote to its standard error: the first
- * fault of a sanitizer, with the line in the student's file, or the message of
- * FAIL. */
+/* Reports what the process wrote to its standard error: the first fault of a
+ * sanitizer, with the line in the student's file, or the message of FAIL. */
 static void read_reason(FILE *errors)
 {
     char line[1000], reason[200] = "", *at;

@@ -100,8 +100,7 @@ static Status apply_numbers(const Line *line, const Word *word)
     return STATUS_OK;
 }
 
-/* Stores the name of a file, or of nodes.  A table is CSV; names of other
- * formats are refused. */
+/* Stores the name of a file, or of nodes.  A table must be CSV. */
 static Status apply_text(const Line *line, const Word *word)
 {
     static const char *const formats[] = {".npz", ".json", ".vtk",  ".gz",
@@ -190,8 +189,7 @@ Status options_set(Options *options, const OptionRow *row, const char *text,
 
 /* ---- words -------------------------------------------------------------- */
 
-/* Returns a hint if a text may belong to the value of the word before it, as in
- * "4 ms" and "1, 2"; else "".
+/* Returns a hint if a text may end the word before it, as in "4 ms"; else "".
  *   before  in, or NULL */
 static Phrase hint_at_split_value(const Word *before, const char *text)
 {
@@ -242,8 +240,7 @@ static const OptionRow *read_option(const Line *line, const char *word)
     return found;
 }
 
-/* Splits arguments into words.  The value of an option is behind its '=' or in
- * the next argument. */
+/* Splits arguments into words; a value is behind '=' or the next argument. */
 static Status read_words(int argc, char **argv, Line *line)
 {
     for (int i = 1; i < argc;) {

@@ -1,6 +1,4 @@
-/* hints.c - finds the name that a mistyped text was meant to be, and what
- * replaces removed options.
- */
+/* hints.c - hints for users who mistyped a name or used a removed option. */
 #include "lesson/hints.h"
 
 #include <ctype.h>
@@ -21,8 +19,7 @@ Phrase list_names(Names names)
 
 /* ---- mistyped names ----------------------------------------------------- */
 
-/* Whether a typed letter stands for a letter of a name: case is ignored, and
- * '_' stands for '-'. */
+/* Whether a typed letter fits one of a name: in any case, and '_' for '-'. */
 static bool letters_match(char typed, char letter)
 {
     return tolower((unsigned char)typed) == tolower((unsigned char)letter) ||
@@ -35,9 +32,8 @@ enum {
 };
 
 /* Number of typing mistakes (Damerau 1964) between a text, of at most
- * NAME_LETTERS, and a name or the beginning of a name, so that "seg" fits
- * segments.  A mistake is a letter too many, too few, another letter, or two
- * letters exchanged. */
+ * NAME_LETTERS, and a name or its beginning, so that "seg" fits segments.  A
+ * mistake is a letter too many, too few, another one, or two exchanged. */
 static int count_mistakes(const char *text, const char *name)
 {
     /* [i][j]: mistakes between i letters of the text and j of the name */
@@ -63,8 +59,8 @@ static int count_mistakes(const char *text, const char *name)
     return best;
 }
 
-/* A name of an option or of a value, and words of other programs, of books or of
- * lecture.c that have this meaning there, each between two blanks. */
+/* A name of an option or of a value, and words that mean the same in other
+ * programs, in books or in lecture.c, each between two blanks. */
 static const struct Synonyms {
     const char *name, *words;
 } synonyms[] = {

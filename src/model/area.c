@@ -1,6 +1,4 @@
-/* area.c - derivatives, projection and largest step of energies that depend on
- * the area of a triangle.
- */
+/* area.c - energies that depend on the area of a triangle. */
 #include "model/area.h"
 
 #include <string.h>

@@ -1,5 +1,4 @@
-/* area.h - energies that depend on the area of a triangle, for cells.c and
- * neo_hookean.c.
+/* area.h - energies that depend on the area of a triangle.
  *
  * The edges f1 and f2 of a triangle span a parallelogram of area J = f1 x f2.
  * With f = (f1, f2), a vector of four numbers, the gradient of J is K f.  The
@@ -48,15 +47,13 @@ static inline void subtract_node(const double *x, int i, int j, int node_0,
     }
 }
 
-/* ElementKind's functions for terms with Triangles; an element has s = unit J,
- * unit = 1/(2 A0). */
+/* ElementKind's functions for terms with Triangles; s = unit J = J/(2 A0). */
 int triangle_count(const EvalPoint *at);
 int triangle_block_nodes(const EvalPoint *at, int t, int node[3]);
 double triangle_max_step(const EvalPoint *at, const Element *element,
                          const double P[4]);
 
-/* Makes triangle t an element, with a = x_b - x_a and b = x_c - x_a; s is left
- * to the caller. */
+/* Makes triangle t an element with a = x_b - x_a, b = x_c - x_a, without s. */
 void triangle_set_element(const EvalPoint *at, int t, Element *element);
 
 /* A Hessian H by its eigenspaces.  H is on_plus in the space of f+, on_minus in
@@ -77,9 +74,9 @@ bool area_project_hessian(const double f[4], double unit, double on_plus,
 /* Writes the numbers of H.  H [4][4] out. */
 void area_assemble_hessian(const AreaHessian *area, double H[4][4]);
 
-/* Writes Hv = H v from the eigenvectors, without the entries of H.  Where f- is
- * small, a rotation v = S f is multiplied almost by on_plus alone, which may be
- * smaller than the rounding of the entries.
+/* Writes Hv = H v from the eigenvectors.  Where f- is small, a rotation v = S f
+ * is multiplied by little more than on_plus, which the entries of H may hide by
+ * their rounding.
  *   v, Hv  [4] in, out */
 void area_multiply_hessian(const AreaHessian *area, const double v[4],
                            double Hv[4]);

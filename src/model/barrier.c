@@ -20,8 +20,7 @@ double barrier_curvature(double s)
     return s < 1 ? (1 + s) / (s * s) : 0;
 }
 
-/* With r = z/(2 + z): log1p(z) = 2 (r + r^3/3 + r^5/5 + ...), and 2r - z is
- * -z r. */
+/* r = z/(2 + z): log1p(z) = 2 (r + r^3/3 + r^5/5 + ...), and 2r - z = -z r. */
 double log1p_minus(double z)
 {
     if (!(fabs(z) < 0.25))

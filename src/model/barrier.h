@@ -17,8 +17,7 @@ double barrier_slope(double s);     /* f'(s) */
 double barrier_curvature(double s); /* f''(s) */
 
 /* Returns f(s + t) - f(s) - f'(s) t >= 0 with full relative accuracy, also for
- * t so small that the difference would be only rounding.  Infinite if s + t <=
- * 0. */
+ * tiny t, where the difference is only rounding.  Infinite if s + t <= 0. */
 double barrier_taylor_remainder(double s, double t);
 
 /* Returns log1p(z) - z, z > -1, without cancellation for small z. */

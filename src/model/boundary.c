@@ -1,6 +1,4 @@
-/* boundary.c - finds the boundary of the bodies and the edges near each of its
- * points.
- */
+/* boundary.c - the boundary of the bodies, and the edges near its points. */
 #include "model/boundary.h"
 
 #include <math.h>

@@ -1,6 +1,4 @@
-/* elements.c - value, gradient, Hessian and largest step of terms that are sums
- * over elements.
- */
+/* elements.c - the functions of terms that are sums over elements. */
 #include "model/elements.h"
 
 #include <math.h>

@@ -30,8 +30,7 @@ static int compare_loads(const void *one, const void *other)
     return a->spring - b->spring;
 }
 
-/* Collects and sorts the candidates, which may be thousands in one step.
- * Returns their number. */
+/* Collects and sorts the candidates, and returns their number. */
 static int find_candidates(Fracture *fracture, const System *system,
                            const double *x)
 {

@@ -1,6 +1,4 @@
-/* mass_spring_energy.c - the energy of all springs, with gradient and
- * Hessian (slide MassSpringEnergy.py).
- */
+/* mass_spring_energy.c - energy of all springs (slide MassSpringEnergy.py). */
 #include "model/mass_spring_energy.h"
 
 #include <math.h>

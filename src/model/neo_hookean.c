@@ -57,10 +57,8 @@ static void compute_stresses(const NeoHookean *data, double J, double *on_plus,
     *on_minus = 2 * data->mu - *on_plus;
 }
 
-/* dW/dF = on_plus F+ + on_minus F-, with F = F+ + F- as in area.h.  The two
- * summands are 0 where the stress is 0, so rounding is proportional to the
- * stress.  In mu F - mu F^-T rounding would be proportional to mu, however
- * small the difference. */
+/* dW/dF = on_plus F+ + on_minus F-, with F = F+ + F- as in area.h.  Rounding
+ * is proportional to the stress, while in mu F - mu F^-T it would be to mu. */
 static void neo_hookean_gradient(const EvalPoint *at, const Element *element,
                                  double g[4])
 {

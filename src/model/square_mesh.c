@@ -1,6 +1,4 @@
-/* square_mesh.c - nodes, springs, cells and triangles of the square (slide
- * square_mesh.py).
- */
+/* square_mesh.c - the mesh of the square (slide square_mesh.py). */
 #include "model/square_mesh.h"
 
 #include <string.h>
@@ -19,11 +17,11 @@ SquareMesh square_mesh_create(int columns, int rows, double side, int bodies)
                         .outline = bodies * 2 * (columns + rows)};
 }
 
-/* Returns the body of node, cell or edge i of `all`; i becomes its number in
- * that body. */
-static int locate_in_body(const SquareMesh *shape, int all, int *i)
+/* Returns the body of node, cell or edge i; i becomes its number in the body.
+ *   total  number of nodes, cells or edges of all bodies */
+static int locate_in_body(const SquareMesh *shape, int total, int *i)
 {
-    int each = all / shape->bodies, body = *i / each;
+    int each = total / shape->bodies, body = *i / each;
     *i %= each;
     return body;
 }
@@ -162,8 +160,7 @@ static int *list_springs(const SquareMesh *shape, int first, int *e, int right,
     return e;
 }
 
-/* Lists the springs in the slide's order: horizontal, vertical, then by cell.
- */
+/* The order is that of the slide: horizontal, vertical, then cell by cell. */
 void square_mesh_list_springs(const SquareMesh *shape, int *e)
 {
     int each = shape->nodes / shape->bodies, spring[6], c = 0;
@@ -179,8 +176,7 @@ void square_mesh_list_springs(const SquareMesh *shape, int *e)
     }
 }
 
-/* A rectangle of nodes: columns begin[0] ... end[0]-1, rows begin[1] ...
- * end[1]-1. */
+/* Columns begin[0] ... end[0]-1 and rows begin[1] ... end[1]-1 of the nodes. */
 typedef struct GridPart {
     int begin[2], end[2];
 } GridPart;

@@ -1,6 +1,4 @@
-/* system.c - the simulated system: masses, springs, pins, gravity and the
- * list of energy terms.
- */
+/* system.c - masses, springs, pins, gravity and the list of energy terms. */
 #include "model/system.h"
 
 #include <float.h>

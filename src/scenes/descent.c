@@ -1,6 +1,5 @@
-/* descent.c - scenes that minimise a function of one or two unknowns by
- * Newton's method: overshoot, tangent, landscape and dial.
- */
+/* descent.c - Newton's method in one or two unknowns: the scenes overshoot,
+ * tangent, landscape and dial. */
 #include "scenes/small_scenes.h"
 
 #include <math.h>

@@ -7,8 +7,7 @@
 #include "run/body.h"
 #include "scenes/small_scenes.h"
 
-/* ---- scenes of the square that no options describe ------------------------
- */
+/* ---- scenes of the square that no options describe ----------------------- */
 
 /* Three blocks on slopes, each lower than the one before, with 0.5, 0.9 and 1.1
  * times the friction with which a block just stays at rest. */
@@ -90,8 +89,7 @@ static Status create_tear(Simulation *simulation)
     return status;
 }
 
-/* Returns the heavy third ball of `bend`, which starts 0.05 m above a beam that
- * lies on two balls. */
+/* Returns the heavy third ball of `bend`, 0.05 m above the beam. */
 static Obstacle make_bend_ball(const Options *options)
 {
     const SquareMesh shape = body_make_mesh(options);
@@ -118,8 +116,7 @@ static Status create_bend(Simulation *simulation)
     return STATUS_OK;
 }
 
-/* ---- the table ------------------------------------------------------------
- */
+/* ---- the table ----------------------------------------------------------- */
 
 /* Picture and needs of every scene with a body. */
 #define SQUARE PICTURE_SQUARE, NEEDS_SQUARE
@@ -149,8 +146,7 @@ const Scene scenes[] = {
      "--timestep 0.02 --stretch 0.5 --projection none", create_square,
      .starts_paused = true},
     /* Nodes fly 1.7 km in the first step, in which E rises to 2e16 J s^2;
-     * projection or line search prevents that.  The setting was found by trying
-     * 2560 squares. */
+     * projection or line search prevents that.  2560 squares were tried. */
     {"explosion", "Newton's method explodes",
      "one step without projection and line search: nodes fly", SQUARE,
      "--segments 3 --timestep 0.02 --stretch 0.485 --projection none "

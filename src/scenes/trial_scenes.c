@@ -145,8 +145,7 @@ static bool is_stable(const Simulation *simulation, TimeIntegrator *run)
                RACE_MAX_ENERGY * find_energy(&simulation->run[0]);
 }
 
-/* Returns the energy of a run after a second, over the energy at the start;
- * NaN: the run failed. */
+/* Returns a run's energy after 1 s over that at the start; NaN: failure. */
 static double find_energy_ratio(const Simulation *simulation,
                                 TimeIntegrator *run)
 {

@@ -1,6 +1,4 @@
-/* cholesky.c - sparse Cholesky factorisation by CHOLMOD, and solves with the
- * factor.
- */
+/* cholesky.c - sparse Cholesky factors by CHOLMOD, and solves with them. */
 #include "solve/cholesky.h"
 
 #include <cholmod.h>
@@ -62,8 +60,7 @@ Status cholesky_create(const Sparse *A, CholeskyKind kind, Cholesky **out)
     common->supernodal =
         kind == CHOLESKY_DEFINITE ? CHOLMOD_SUPERNODAL : CHOLMOD_SIMPLICIAL;
     common->quick_return_if_not_posdef = 1;
-    /* Supernodes are merged if few zeros are added.  The limits are the fastest
-     * on square meshes. */
+    /* Supernodes merge if few zeros are added: limits for square meshes. */
     common->nrelax[0] = 8;
     common->nrelax[1] = 20;
     common->nrelax[2] = 40;
@@ -145,8 +142,9 @@ static void solve_by_panels(const cholmod_factor *L, double *y, double *w)
     }
 }
 
-/* ---- indefinite: y = L^-T D^-1 L^-1 y; the first entry of each column is that
- * of D. */
+/* ---- indefinite: the first entry of each column is that of D ---- */
+
+/* y = L^-T D^-1 L^-1 y */
 static void solve_by_columns(const cholmod_factor *L, double *y)
 {
     const int *start = L->p, *count = L->nz, *row = L->i;

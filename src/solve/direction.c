@@ -1,12 +1,9 @@
-/* direction.c - the search direction p = -H^-1 grad E of Algorithm 3, and its
- * residual.
- */
+/* direction.c - the search direction p = -H^-1 grad E, and its residual. */
 #include "solve/newton_parts.h"
 
 #include <math.h>
 
-/* Number of iterations in which projection on demand clamps, once a Hessian had
- * no Cholesky factor. */
+/* Iterations in which projection on demand clamps after a failed factor. */
 enum { CLAMPS_AFTER_FAILURE = 4 };
 
 /* Shifts that are tried: 1e-15, 1e-13, ... 1e-5 of the largest entry.  A shift
@@ -248,8 +245,7 @@ static Status direction_error_bound(Newton *newton, double *error)
 
 /* Makes linear momentum exact.  Internal forces cannot move the centre of mass,
  * so sum m (u + p) = sum m u_tilde, as H p = -g summed over all nodes says.
- * Rounding of a stiff H hides this sum; an equal shift of all nodes of p
- * corrects the sum. */
+ * Rounding of a stiff H hides this sum; a shift of all nodes mends it. */
 static void correct_momentum(Newton *newton)
 {
     const System *system = newton->system;
@@ -297,9 +293,8 @@ static double largest_row_sum(int nodes, const double *p)
 static const double NEGLIGIBLE = 1e-6;
 
 /* A factor serves again while no node has moved by more than NEARBY of the
- * shortest spring since it was computed.  Each correction of p has to be at
- * most CONVERGES of the correction before, and the last one at most REFINED of
- * p. */
+ * shortest spring since it was computed.  Each correction of p is at most
+ * CONVERGES of the one before, and the last one at most REFINED of p. */
 static const double NEARBY = 0.03, CONVERGES = 0.1, REFINED = 0.01;
 
 /* Computes p with the factor of an earlier iteration, as the Hessian hardly
@@ -346,8 +341,7 @@ static double bound_largest_movement(const Newton *newton, double norm)
 
 /* Computes the residual of p, and tests it.
  *   exact  whether p solves H p = -g up to rounding.  Otherwise the bound of
- *          its error must pass the test, too.  Rounding of g itself is not in
- *          the bound. */
+ *          its error, without rounding of g, must pass the test, too. */
 static Status find_residual(Newton *newton, bool exact)
 {
     NewtonRecord *record = &newton->record;

@@ -1,6 +1,4 @@
-/* incremental_potential.c - E(x) and its derivatives, summed over the terms
- * (slides: IP_val, IP_grad, IP_hess).
- */
+/* incremental_potential.c - E(x) and its derivatives, summed over the terms. */
 #include "solve/incremental_potential.h"
 
 #include <math.h>

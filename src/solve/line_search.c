@@ -1,5 +1,4 @@
-/* line_search.c - finds the step length along p by backtracking (slide:
- * Algorithm 2). */
+/* line_search.c - step length along p by backtracking (slide: Algorithm 2). */
 #include "solve/newton_parts.h"
 
 #include <math.h>

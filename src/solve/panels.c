@@ -1,6 +1,4 @@
-/* panels.c - dense panels of a Cholesky factor: products and solves, with
- * the same bits everywhere.
- */
+/* panels.c - products and solves with dense panels of a Cholesky factor. */
 #include "solve/panels.h"
 
 #include <math.h>

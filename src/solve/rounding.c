@@ -12,10 +12,9 @@ enum { STAGNANT_ITERATIONS = 20 };
  * contact one converged later.) */
 enum { CIRCLING_ITERATIONS = 500 };
 
-/* Limits of the ratio of w k to m.  Above STIFF_MASSES, rounding of the
- * gradient may hide that E rises along p.  Above INEXACT_MASSES, a direction
- * from a factor may be wrong by more than 1e-5 of itself.  Above HIDDEN_MASSES,
- * m + w k rounds to w k. */
+/* Limits of w k over m.  Above STIFF_MASSES, rounding of the gradient may hide
+ * that E rises along p.  Above INEXACT_MASSES, a direction from a factor may be
+ * wrong by 1e-5 of itself.  Above HIDDEN_MASSES, m + w k rounds to w k. */
 static const double STIFF_MASSES = 1e5, INEXACT_MASSES = 1e10,
                     HIDDEN_MASSES = 1e16;
 

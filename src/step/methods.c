@@ -1,5 +1,4 @@
-/* methods.c - the time integrators: target and result of each method, and
- * their table. */
+/* methods.c - the time integrators, and their table. */
 #include "step/time_integrator.h"
 
 #include <string.h>

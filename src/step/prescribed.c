@@ -16,10 +16,9 @@
 #include "model/inertia_energy.h"
 
 /* Limits of the halvings of a part of the way, and of the parts of a step.  A
- * wall at 50 m/s in steps of 0.01 s onto cells of 1/8 m needs 19 parts.  A body
- * that leaves room for less than a thousandth of the way is pressed flat, and
- * the step ends, because each further part takes more updates than the one
- * before. */
+ * wall at 50 m/s in steps of 0.01 s onto cells of 1/8 m needs 19 parts.  Where
+ * a body leaves room for less than a thousandth of the way, the step ends,
+ * because each further part would take more updates than the one before. */
 enum { MAX_HALVINGS = 10, MAX_PARTS = 100 };
 
 /* Nodes that a wall would touch are carried along and keep this part of the
@@ -194,8 +193,7 @@ void prescribed_start(TimeIntegrator *run)
                  guess ? 10 * tolerance + 0.01 : tolerance);
 }
 
-/* Reports the end of a step that the prescribed motion has ended, by a record
- * without an iteration. */
+/* Reports a step that prescribed motion has ended: a record of no iteration. */
 static void report_end(const Newton *newton, Status status)
 {
     const NewtonSettings *settings = &newton->settings;

@@ -1,5 +1,4 @@
-/* prescribed.h - motion of walls, of pins, and of an obstacle that a hand
- * pushes, within a step.
+/* prescribed.h - motion of walls, pins and a pushed obstacle within a step.
  *
  * A step has one or several minimisations: prescribed_start moves walls and
  * pins as far as there is room and starts one, prescribed_end_part says whether
@@ -28,8 +27,7 @@ bool prescribed_end_part(TimeIntegrator *run, Status *status);
 
 /* Returns the work of the prescribed motion in a step, J.  The pins' work is
  * their reaction, the gradient of E there, times their way.  The obstacles'
- * work is the force on the nodes, normal and of friction, times the obstacle's
- * way. */
+ * work is their force on the nodes, normal and of friction, times their way. */
 double prescribed_work(const TimeIntegrator *run);
 
 #endif

@@ -1,6 +1,4 @@
-/* time_integrator.c - one time step, from its start to the accepted state
- * (slide time_integrator.py).
- */
+/* time_integrator.c - one step forward in time (slide time_integrator.py). */
 #include "step/time_integrator.h"
 
 #include <stdlib.h>
@@ -138,8 +136,7 @@ static void begin_stage(TimeIntegrator *run)
                      newton->settings.tolerance);
 }
 
-/* Ends the step.  x and v become new_x and new_v if the status is OK or an
- * unconverged one. */
+/* Ends the step.  x and v become new_x and new_v unless the step failed. */
 static Status end_step(TimeIntegrator *run, Status status)
 {
     size_t both = 2 * run->size; /* x and v are one array */
