@@ -72,8 +72,6 @@ Gap contact_measure_gap(const Obstacle *obstacle, const double *o,
 /* Returns the force -dW/dd >= 0, N, on the node along n at the gap d > 0, m. */
 double contact_normal_force(const Barrier *barrier, double d);
 
-/* ---- the term -------------------------------------------------------- */
-
 /* Largest number of obstacles that a command line and a scene have together. */
 enum { CONTACT_MAX_OBSTACLES = 20 };
 

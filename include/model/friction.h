@@ -25,8 +25,6 @@
 /* Returns f0'(y), without unit.  e > 0, m. */
 double friction_slope(double y, double e);
 
-/* ---- the term -------------------------------------------------------- */
-
 /* A contact with a normal force in this step. */
 typedef struct SlidingContact {
     Element element; /* element of the contact term, with v = t for its vectors

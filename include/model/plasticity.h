@@ -39,8 +39,6 @@ double flow_law_slope(FlowLaw law, double e);
 double flow_law_eigenvalue_along(FlowLaw law, double e, double d2,
                                  double across);
 
-/* ---- the term -------------------------------------------------------- */
-
 typedef struct Plasticity {
     double yield;     /* yield strain Y > 0 */
     double hardening; /* hardening modulus H >= 0, relative to k */

@@ -54,8 +54,6 @@ double contact_node_radius(const Contact *contact, int node)
     return ball->node == node ? ball->radius : 0;
 }
 
-/* ---- the term ------------------------------------------------------------ */
-
 static const Barrier *contact_barrier(const EvalPoint *at)
 {
     return &((const Contact *)at->term->data)->barrier;

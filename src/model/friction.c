@@ -67,8 +67,6 @@ static double friction_taylor_remainder(double y, double t, double e)
            taylor_remainder_on_side(0, -z, e);
 }
 
-/* ---- the term ------------------------------------------------------------ */
-
 /* Returns the component along t of vectors a and b, which are those of
  * displacements or of a direction. */
 static double tangential_component(const Element *row, const double vectors[4])

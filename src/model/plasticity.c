@@ -50,8 +50,6 @@ double flow_law_eigenvalue_along(FlowLaw law, double e, double d2,
     return 2 * flow_law_curvature(law, e) * d2 + across;
 }
 
-/* ---- the term -------------------------------------------------------- */
-
 /* Returns the law V of spring s without damping. */
 static inline FlowLaw make_flow_law(const Plasticity *data, int s)
 {
