@@ -164,10 +164,9 @@ static void plastic_line_polynomial(const EvalPoint *at, const double *p,
     }
 }
 
-/* R_V(e, t) = V(e + t) - V(e) - V'(e) t >= 0 is the integral of (t - s) V''(e +
- * s) over s from 0 to t, mirrored so that t >= 0.  V'' is hard + theta, plus
- * flow where the spring is elastic.  Only the limits of the integral are
- * subtracted from each other. */
+/* R_V(e, t) = V(e + t) - V(e) - V'(e) t >= 0 is the integral over s from 0 to t
+ * of (t - s) V''(e + s), mirrored so that t >= 0.  V'' is 1 - flow + theta,
+ * plus flow where the spring is elastic.  Only the limits are subtracted. */
 static double plastic_line_remainder(const EvalPoint *at, const double *p,
                                      double alpha)
 {
