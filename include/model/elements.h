@@ -59,6 +59,7 @@ static inline void element_vectors(const Element *element, const double *x,
 typedef struct Triangles {
     int count;
     double area;    /* m^2, A0 of each triangle at rest */
+    double unit;    /* 1/m^2, 1/(2 A0) */
     int (*node)[3]; /* [count] nodes a, b, c of each triangle, anticlockwise */
 } Triangles;
 

@@ -42,7 +42,7 @@ double triangle_max_step(const EvalPoint *at, const Element *element,
 {
     const Triangles *triangles = at->term->data;
     double J1, J2, most = ELEMENT_LIMIT * element->s;
-    area_expand_along(element->v, 1 / (2 * triangles->area), P, &J1, &J2);
+    area_expand_along(element->v, triangles->unit, P, &J1, &J2);
     double discriminant = J1 * J1 - 4 * J2 * most;
     if (!(discriminant >= 0))
         return INFINITY;

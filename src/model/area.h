@@ -36,6 +36,14 @@ static inline void area_split(const double f[4], double plus[2],
 void area_expand_along(const double f[4], double unit, const double P[4],
                        double *J1, double *J2);
 
+/* Returns Triangles with legs of this length, m, and a right angle, at rest.
+ *   node  [3 count] int, memory for the nodes */
+static inline Triangles triangles_of_legs(int count, double leg, void *node)
+{
+    double area = 0.5 * leg * leg;
+    return (Triangles){count, area, 1 / (2 * area), node};
+}
+
 /* Writes the vectors x_i - x_0 and x_j - x_0 of three nodes.  e [4] out. */
 static inline void subtract_node(const double *x, int i, int j, int node_0,
                                  double e[4])
@@ -47,7 +55,7 @@ static inline void subtract_node(const double *x, int i, int j, int node_0,
     }
 }
 
-/* ElementKind's functions for terms with Triangles; s = unit J = J/(2 A0). */
+/* ElementKind's functions for terms with Triangles; s = unit J. */
 int triangle_count(const EvalPoint *at);
 int triangle_block_nodes(const EvalPoint *at, int t, int node[3]);
 double triangle_max_step(const EvalPoint *at, const Element *element,

@@ -16,11 +16,11 @@ static bool cell_get_element(const EvalPoint *at, int t, double way,
     const Cells *cells = at->term->data;
     const double *k = at->system->k;
     const int *node = cells->triangles.node[t], *side = cells->spring[t];
-    double e[4], twice = 2 * cells->triangles.area;
+    double e[4], unit = cells->triangles.unit;
     subtract_node(at->x, node[1], node[2], node[0], e);
     double sides = fabs(e[0]) + fabs(e[1]) + fabs(e[2]) + fabs(e[3]);
-    double J = cross(e, e + 2) / twice;
-    if (J >= CELL_J_HAT + 1 / twice * way * (sides + way) ||
+    double J = cross(e, e + 2) / (2 * cells->triangles.area);
+    if (J >= CELL_J_HAT + unit * way * (sides + way) ||
         !(k[side[0]] > 0 && k[side[1]] > 0 && k[side[2]] > 0))
         return false;
     triangle_set_element(at, t, element);
@@ -52,7 +52,7 @@ static bool cell_hessian(const EvalPoint *at, const Element *element,
                          Projection projection, double H[4][4])
 {
     const Cells *cells = at->term->data;
-    double s = element->s / CELL_J_HAT, q = 1 / (2 * cells->triangles.area);
+    double s = element->s / CELL_J_HAT, q = cells->triangles.unit;
     double slope = cells->c / CELL_J_HAT * barrier_slope(s) * q;
     double bend = cells->c / (CELL_J_HAT * CELL_J_HAT) * barrier_curvature(s);
     AreaHessian area;
@@ -67,7 +67,7 @@ static double cell_line_remainder(const EvalPoint *at, const Element *element,
 {
     const Cells *cells = at->term->data;
     double J1, J2, s = element->s / CELL_J_HAT;
-    area_expand_along(element->v, 1 / (2 * cells->triangles.area), P, &J1, &J2);
+    area_expand_along(element->v, cells->triangles.unit, P, &J1, &J2);
     J1 *= alpha;
     J2 *= alpha * alpha;
     return cells->c * (barrier_slope(s) * J2 / CELL_J_HAT +
@@ -111,9 +111,7 @@ Status cells_configure(System *system, const SquareMesh *shape,
     if (!cells)
         return STATUS_OUT_OF_MEMORY;
     Triangles *triangles = &cells->triangles;
-    *triangles = (Triangles){.count = count,
-                             .area = 0.5 * shape->spacing * shape->spacing,
-                             .node = (int(*)[3])(cells + 1)};
+    *triangles = triangles_of_legs(count, shape->spacing, cells + 1);
     cells->c = triangles->area * stiffness;
     cells->spring = triangles->node + count;
     for (int t = 0; t < count; t++)
