@@ -25,6 +25,15 @@ static const struct FilmKind {
     {NULL, 0, NULL},
 };
 
+/* Why no film can be made where the program ffmpeg is missing. */
+#ifdef __EMSCRIPTEN__
+#define WHY_NO_FILM "a page makes no films; the program does"
+#else
+#define WHY_NO_FILM                                                            \
+    "a film needs the program ffmpeg: apt-get install ffmpeg; "                \
+    "--frames DIR needs nothing"
+#endif
+
 Status film_open(const char *name, char *message, Film *film)
 {
     const char *end = strrchr(name, '.'), *why = NULL;
@@ -35,8 +44,7 @@ Status film_open(const char *name, char *message, Film *film)
     if (!film->kind->suffix)
         why = "its name does not end in .mp4, .webm, .gif or .apng";
     else if (system("command -v ffmpeg >/dev/null 2>&1") != 0)
-        why = "a film needs the program ffmpeg: apt-get install ffmpeg; "
-              "--frames DIR needs nothing";
+        why = WHY_NO_FILM;
     else if (output_open(name, message, &film->output))
         return STATUS_FILE_FAILED;
     else if (!film->output.temporary[0])

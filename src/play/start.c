@@ -53,7 +53,7 @@ static Status clear_obstacles_at_start(Player *player, int pane,
     Options began = past_start_control(&player->past, pane)->options;
     Options kept = *options;
     int count = (int)(options->grounds + options->balls);
-    Message message = {player->message, sizeof player->message};
+    Message message = MESSAGE(player->message);
     if (!(options->scene->needs & NEEDS_BODY) || !body_check(options, message))
         return STATUS_OK;
     if (began.grounds != options->grounds || began.balls != options->balls)

@@ -1,12 +1,11 @@
 /* window_web.c - the window in a web page: shows the paper in the page's
- * canvas, and queues the inputs of mouse, touch and keys.  A page makes no
- * films.  src/web/page.js has the object Page.
+ * canvas, and queues the inputs of mouse, touch and keys.  src/web/page.js has
+ * the object Page.
  */
 #include <emscripten.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "play/recording.h"
 #include "play/view.h"
 
 /* ---- calls of the page --------------------------------------------------- */
@@ -141,25 +140,4 @@ Input window_read_input(void)
 void window_wait_for_input(int milliseconds)
 {
     (void)milliseconds;
-}
-
-/* ---- films --------------------------------------------------------------- */
-
-Status film_open(const char *name, char *message, Film *film)
-{
-    *film = (Film){0};
-    return output_report(message, name, STATUS_INVALID_INPUT,
-                         "a page makes no films; the program does");
-}
-
-Status film_add(Film *film, const Canvas *canvas, int times)
-{
-    (void)film, (void)canvas, (void)times;
-    return STATUS_OK;
-}
-
-Status film_close(Film *film, Keep keep)
-{
-    (void)film, (void)keep;
-    return STATUS_OK;
 }

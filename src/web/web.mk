@@ -11,8 +11,8 @@ EMCC = NODE_PATH=/usr/share/nodejs emcc -O2 -msimd128 -mbulk-memory
 WEB_CFLAGS = -std=gnu11 -D_GNU_SOURCE -Iinclude -Isrc -I$(W)/libraries/include \
              -ffp-contract=off -Wall -Wextra -Wno-missing-field-initializers
 
-# In a page other sources are window and film: the same headers answered.
-WEB_SOURCES = $(filter-out src/play/window_sdl.c src/play/film.c,\
+# In a page another source is the window: the same header answered.
+WEB_SOURCES = $(filter-out src/play/window_sdl.c,\
               $(wildcard $(ROOMS:%=src/%/*.c))) src/web/main_web.c \
               src/web/document.c
 WEB_OBJECTS = $(WEB_SOURCES:src/%.c=$(W)/%.o) $(W)/texts.o
