@@ -28,18 +28,18 @@ typedef struct Output {
 } Output;
 
 /* How a file ends. */
-typedef enum Keep {
+typedef enum FileEnding {
     KEEP_WHOLE,  /* the file gets its name and replaces an old one */
     KEEP_PART,   /* NAME.part stays */
     KEEP_NOTHING /* NAME.part is removed */
-} Keep;
+} FileEnding;
 
 /* Opens a file.  Returns OK, FILE_FAILED (message and errno say why). */
 Status output_open(const char *name, char *message, Output *output);
 
 /* Flushes and closes a file if it is open; output->name stays.  Returns OK, or
  * FILE_FAILED and leaves NAME.part. */
-Status output_close(Output *output, Keep keep);
+Status output_close(Output *output, FileEnding keep);
 
 /* Writes "NAME: why" into `message` if it is empty.
  *   why  in, or NULL: output_reason

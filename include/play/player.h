@@ -20,8 +20,8 @@
 #include "play/recording.h"
 #include "play/view.h"
 
-/* The command line, and the session that it begins. */
-typedef struct Given {
+/* Command line and script of the program, and what follows from them. */
+typedef struct Setup {
     Options options[OPTIONS_MAX_PANES]; /* options of each pane */
     char *const *words; /* words of the command line, ended by NULL; or NULL */
     Script script;
@@ -30,7 +30,7 @@ typedef struct Given {
     bool attended;  /* is a session of window, script or page, which may pause
                        and go back */
     bool asks;      /* pages wait for a guess before they show the answer */
-} Given;
+} Setup;
 
 enum {
     SPEED_LEAST = -6, /* lowest speed: a step every 64 frames, about 1 s */
@@ -173,7 +173,7 @@ typedef struct Hands {
 } Hands;
 
 typedef struct Player {
-    Given given;
+    Setup setup;
     Past past;
     PaneView view_of_pane[OPTIONS_MAX_PANES];
     int active; /* index of the active pane, whose numbers are shown */

@@ -40,7 +40,7 @@ Status film_add(Film *film, const Canvas *canvas, int times);
 
 /* Ends a film, if one runs.  Returns OK, FILE_FAILED; a film without frames is
  * a failure and leaves no file. */
-Status film_close(Film *film, Keep keep);
+Status film_close(Film *film, FileEnding keep);
 
 /* Whether a film was begun and not ended. */
 static inline bool film_runs(const Film *film)
@@ -61,7 +61,7 @@ enum { FRAMES_MOST = 1000000 }; /* frames have numbers of six digits */
 typedef struct Recording {
     const char *folder; /* folder of the frames, or NULL */
     long frames;        /* number of frames written */
-    unsigned char *old; /* [FRAMES_MOST] 1: the folder still has the frame of
+    unsigned char *is_old; /* [FRAMES_MOST] 1: the folder still has the frame of
                            this step from an earlier run; NULL: no folder */
     Film film;
     int panes; /* number of panes at the start */
@@ -95,7 +95,7 @@ Status recording_write_iteration(Recording *recording,
 
 /* Closes all files.  If a file has failed or fails now, no file gets its name.
  */
-Status recording_close(Recording *recording, Keep keep);
+Status recording_close(Recording *recording, FileEnding keep);
 
 /* Frees a recording; files that were not closed are removed. */
 void recording_free(Recording *recording);

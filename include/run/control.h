@@ -14,9 +14,9 @@
 typedef struct Control {
     int users; /* reference count; the last user frees the control */
     Options options;
-    int hand;     /* node that the mouse holds; -1: none */
-    int push;     /* obstacle that the mouse holds; -1: none */
-    double at[2]; /* m, place to which the hand pulls or pushes */
+    int hand;         /* node that the mouse holds; -1: none */
+    int push;         /* obstacle that the mouse holds; -1: none */
+    double target[2]; /* m, place to which the hand pulls or pushes */
     int nodes;
     unsigned char pinned[]; /* [nodes] 1: pinned, 0: free */
 } Control;

@@ -13,7 +13,7 @@ typedef struct Simulation Simulation;
 /* A user's guess where the next step leads, and where the step does lead. */
 typedef struct Prediction {
     bool made;       /* the user has made a guess */
-    long step;       /* steps of the simulation when the user made the guess */
+    long guess_step; /* steps of the simulation when the user guessed */
     double at[2];    /* m, the guess */
     double end[2];   /* m, where the step does lead */
     double distance; /* m, from `at` to `end`; in one variable along x */
@@ -114,13 +114,13 @@ typedef struct EnvelopeMap {
 
 /* Data of all small scenes; a scene uses what it needs. */
 typedef struct Exhibit {
-    double start[4];   /* m, m/s, start x, v of the exact path of one mass */
-    double target[2];  /* m, x_tilde; in one unknown only target[0] counts */
-    unsigned switches; /* bit s: part s of E is on (LandscapePart); for switches
-                          of kinds of springs, kind s is off */
+    double exact_start[4]; /* m, m/s, start x, v of one mass's exact path */
+    double target[2];      /* m, x_tilde; in one unknown only target[0] counts */
+    unsigned switches;     /* bit s: part s of E is on (LandscapePart); for
+                              switches of kinds of springs, kind s is off */
     DialCurve dial;
     Race race;
-    EnvelopeMap map;
+    EnvelopeMap envelope;
 } Exhibit;
 
 /* Lists the points that can be dragged, m.  Returns how many there are. */

@@ -62,7 +62,7 @@ static void draw_ratio_line(const Plot *plot, double ratio)
  */
 void envelope_draw(Plot *stage)
 {
-    const EnvelopeMap *map = &stage->simulation->exhibit.map;
+    const EnvelopeMap *map = &stage->simulation->exhibit.envelope;
     Plot plot =
         plot_create_on_stage(stage, (Axis){.log = true, .label = "h in s"},
                              (Axis){.log = true, .label = "k in J/m\u00b2"});
@@ -95,7 +95,7 @@ void envelope_pick(const Plot *stage, double x, double y, Pick *pick)
 
 void envelope_add_values(const Simulation *simulation, LiveValues *values)
 {
-    const EnvelopeMap *map = &simulation->exhibit.map;
+    const EnvelopeMap *map = &simulation->exhibit.envelope;
     const EnvelopeCell *cell = &map->cell[map->row][map->column];
     double h = envelope_timestep(map->column), m = simulation->system.m[0];
     int known = 0, converged = 0;

@@ -280,7 +280,7 @@ void mass_bounds(const Plot *stage, double bounds[4])
             bounds[i] += (i < 2 ? -0.14 : 0.14) * side;
         return;
     }
-    const double *began = simulation->exhibit.start;
+    const double *began = simulation->exhibit.exact_start;
     double most = math_hypot(vector_length(began), vector_length(began + 2));
     for (int r = 0; r < simulation->runs; r++) {
         MassStep step;

@@ -97,7 +97,7 @@ Status film_add(Film *film, const Canvas *canvas, int times)
                                  "ffmpeg ended before the film did");
 }
 
-Status film_close(Film *film, Keep keep)
+Status film_close(Film *film, FileEnding keep)
 {
     Output *output = &film->output;
     struct stat info;

@@ -341,7 +341,7 @@ static void fill_own_options(const Player *player, LectureContent *lecture)
     const char *before = ", with ";
     const LecturePage *page = past_control(&player->past, 0)->options.page;
     /* After undo the window may show another page than the one opened last. */
-    if (!page || page != own->page || !player->given.asks)
+    if (!page || page != own->page || !player->setup.asks)
         return;
     int rows = player_list_options(player, true, row);
     bool is_changed =
@@ -388,7 +388,7 @@ static void fill_frame(const Player *player, Frame *frame)
         content->hand = (HeldByHand){true,
                                      control->hand,
                                      control->push,
-                                     {control->at[0], control->at[1]}};
+                                     {control->target[0], control->target[1]}};
     content->time_line.steps = past->stores_states ? past_newest(past) : 0;
     content->time_line.bar = find_step_bar;
     content->time_line.bar_data = player;

@@ -69,7 +69,7 @@ Status obey_film(Player *player, const Command *command)
 
 int player_next_scene_argument(const Player *player, int i)
 {
-    char *const *words = player->given.words;
+    char *const *words = player->setup.words;
     const OptionRow *first = option_find("steps");
     for (; words && words[0] && words[i]; i++) {
         char name[32];
@@ -116,7 +116,7 @@ static char *write_command_line(const Player *player, const char *script)
         return NULL;
     fputs("elasto", file);
     for (int i = 0; (i = player_next_scene_argument(player, i + 1));)
-        put_word(file, player->given.words[i]);
+        put_word(file, player->setup.words[i]);
     if (script)
         fprintf(file, " --script %s", script);
     else

@@ -214,7 +214,7 @@ Status obey_switch(Player *player, const Command *command)
     bool search = command->kind == COMMAND_SEARCH;
     const OptionRow *row = option_find(search ? "line-search" : "projection");
     double off = search ? LINE_SEARCH_NONE : PROJECTION_NONE;
-    double on = player->given.options[0].number[row->slot];
+    double on = player->setup.options[0].number[row->slot];
     if (on == off)
         on = search ? LINE_SEARCH_BACKTRACK : PROJECTION_CLAMP;
     bool was_off = player_active_options(player)->number[row->slot] == off;

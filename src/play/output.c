@@ -67,7 +67,7 @@ Status output_open(const char *name, char *message, Output *output)
 }
 
 /* Checks every call that can report a failed write. */
-Status output_close(Output *output, Keep keep)
+Status output_close(Output *output, FileEnding keep)
 {
     FILE *file = output->file;
     bool beside = output->temporary[0];

@@ -814,8 +814,8 @@ static const Control *make_edited_control(const Control *from,
         control->push = edit->kind == COMMAND_PUSH ? (int)edit->number : -1;
     }
     if (takes || edit->kind == COMMAND_DRAG) {
-        control->at[0] = edit->x;
-        control->at[1] = edit->y;
+        control->target[0] = edit->x;
+        control->target[1] = edit->y;
     }
     return control;
 }

@@ -48,12 +48,12 @@ Status player_draw(Player *player)
 
 bool player_ended(const Player *player)
 {
-    const Options *options = &player->given.options[0];
+    const Options *options = &player->setup.options[0];
     const Simulation *simulation = &player->past.pane[0].simulation;
     bool counted = options->steps >= 0;
-    if (player->quit || *player->given.stop)
+    if (player->quit || *player->setup.stop)
         return true;
-    if (!script_is_over(&player->given.script) || past_works(&player->past))
+    if (!script_is_over(&player->setup.script) || past_works(&player->past))
         return false;
     return (counted && player->past.step >= options->steps) ||
            ((!player->screen.window || counted) && simulation->done) ||
@@ -66,7 +66,7 @@ static Status obey_script(Player *player)
     while (!status && !player->quit) {
         bool done = player->past.pane[0].simulation.done;
         const Command *command =
-            script_due(&player->given.script, player->past.step,
+            script_due(&player->setup.script, player->past.step,
                        !player_is_stopped(player) && !done);
         if (!command)
             break;
@@ -152,7 +152,7 @@ bool player_is_idle(const Player *player)
 {
     return player->screen.window && player_is_stopped(player) &&
            !player->screen.sheet && !past_works(&player->past) &&
-           script_is_over(&player->given.script);
+           script_is_over(&player->setup.script);
 }
 
 int player_find_wait_time(const Player *player)
@@ -162,7 +162,7 @@ int player_find_wait_time(const Player *player)
     if (player_is_idle(player))
         return IDLE_WAIT;
     if (!player->screen.window || past_works(&player->past) ||
-        (stands && !script_is_over(&player->given.script)))
+        (stands && !script_is_over(&player->setup.script)))
         return 0;
     return (int)fmax(fmin(ceil(wait), IDLE_WAIT), 0);
 }
@@ -183,7 +183,7 @@ Status player_run(Player *player)
 /* Opens the window.  If there is no screen, the frames are written to files. */
 static void open_view(Player *player)
 {
-    Options *options = &player->given.options[0];
+    Options *options = &player->setup.options[0];
     const int size[] = {(int)options->size[0], (int)options->size[1]};
     if (!options->headless)
         player->screen.window =
@@ -212,38 +212,38 @@ Status player_create(const Options *options, int count, char *const *words,
 {
     const Command begin = {.kind = COMMAND_RESTART};
     const Command pause = {.kind = COMMAND_PAUSE};
-    *player = (Player){.given = {.words = words, .stop = stop},
+    *player = (Player){.setup = {.words = words, .stop = stop},
                        .tour.last_page = options->page};
-    memcpy(player->given.options, options, (size_t)count * sizeof *options);
-    player->given.started = clock_now();
-    Status status = script_read(options->script, &player->given.script,
+    memcpy(player->setup.options, options, (size_t)count * sizeof *options);
+    player->setup.started = clock_now();
+    Status status = script_read(options->script, &player->setup.script,
                                 MESSAGE(player->message));
     if (status)
         return status;
     open_view(player);
-    player->given.asks = player->screen.window && !options->script;
-    player->given.attended =
+    player->setup.asks = player->screen.window && !options->script;
+    player->setup.attended =
         player->screen.window || options->script || options->page;
-    options = player->given.options;
+    options = player->setup.options;
     if (options->page)
         player_store_own_options(player, options);
-    if (options->paused || (player->given.asks && options->steps < 0 &&
+    if (options->paused || (player->setup.asks && options->steps < 0 &&
                             (options->page || options->scene->starts_paused)))
         player->time.mode = MODE_PAUSE;
     status = recording_open(options, count, &player->recording);
-    past_create(player->given.attended || player->screen.draws,
-                player->given.attended && options->steps < 0, &player->past);
+    past_create(player->setup.attended || player->screen.draws,
+                player->setup.attended && options->steps < 0, &player->past);
     if (!status)
         status =
-            player_begin_runs(player, player->given.options, count, &begin);
+            player_begin_runs(player, player->setup.options, count, &begin);
     /* A script starts running, so the journal needs the pause. */
     if (!status && player_is_stopped(player))
         status = script_add(&player->commands.journal, 0, &pause, 0);
     bool nodes = !status && player_simulation(player)->mesh.nodes > 0;
-    if (!status && player->given.asks && options->page) {
+    if (!status && player->setup.asks && options->page) {
         status = player_enqueue_page(player);
         status = status ? status : player_obey_queue(player, false);
-    } else if (!status && player->given.asks &&
+    } else if (!status && player->setup.asks &&
                simulation_is_draggable(player_simulation(player)))
         player_note(player,
                     "pull at a %s with the mouse%s; G: scenes; Page "
@@ -266,9 +266,9 @@ Status player_finish(Player *player, Status status)
         Status rest = player_write_remaining(player);
         status = status ? status : rest;
     }
-    Keep keep = player->past.written < 0 ? KEEP_NOTHING
-                : status                 ? KEEP_PART
-                                         : KEEP_WHOLE;
+    FileEnding keep = player->past.written < 0 ? KEEP_NOTHING
+                      : status                 ? KEEP_PART
+                                               : KEEP_WHOLE;
     close_view(player);
     Status closed = recording_close(&player->recording, keep);
     return status ? status : closed;
@@ -282,6 +282,6 @@ void player_free(Player *player)
     player_forget_step(player);
     sheet_close(player);
     control_release(player->commands.queue.pins);
-    script_free(&player->given.script);
+    script_free(&player->setup.script);
     script_free(&player->commands.journal);
 }

@@ -61,7 +61,7 @@ static int print_information(const Options *options)
 
 static const char *find_advice(const Player *player, Status status)
 {
-    bool time = player->given.options[0].scene->needs & NEEDS_TIME;
+    bool time = player->setup.options[0].scene->needs & NEEDS_TIME;
     return status == STATUS_OUT_OF_MEMORY || status == STATUS_TOO_LARGE
                ? "; try fewer --segments"
            : status == STATUS_NOT_POSITIVE_DEFINITE ? "; try --projection clamp"
@@ -186,7 +186,7 @@ static void print_summary(FILE *file, const Player *player)
         fputs(panes > 1 ? "\n\n" : "\n", file);
     }
     print_quantity(file, "wall time", "%.3f s",
-                   clock_now() - player->given.started);
+                   clock_now() - player->setup.started);
     if (recording->folder)
         print_quantity(file, "frames written", "%ld, in %s/", recording->frames,
                        recording->folder);
@@ -202,8 +202,8 @@ static void print_old_frames(const Recording *recording)
 {
     char range[48] = "";
     long count = 0, first = 0, last = 0;
-    for (long step = 0; recording->old && step < FRAMES_MOST; step++)
-        if (recording->old[step]) {
+    for (long step = 0; recording->is_old && step < FRAMES_MOST; step++)
+        if (recording->is_old[step]) {
             first = count++ == 0 ? step : first;
             last = step;
         }
@@ -229,7 +229,7 @@ int program_end(Player *player, Status status)
     if (status)
         return report_failure(player, status);
     errno = 0;
-    if (!player->given.options[0].quiet)
+    if (!player->setup.options[0].quiet)
         print_summary(player->recording.standard ? stderr : stdout, player);
     print_old_frames(&player->recording);
     int code = check_standard_output();

@@ -147,13 +147,13 @@ static void find_old_frames(Recording *recording)
 {
     DIR *folder = opendir(recording->folder);
     struct dirent *file;
-    recording->old = calloc(FRAMES_MOST, 1);
-    while (folder && recording->old && (file = readdir(folder))) {
+    recording->is_old = calloc(FRAMES_MOST, 1);
+    while (folder && recording->is_old && (file = readdir(folder))) {
         int end = 0, step = 0;
         if (sscanf(file->d_name, "frame_%6d.png%n", &step, &end) == 1 &&
             end == (int)strlen("frame_000000.png") && !file->d_name[end] &&
             step >= 0)
-            recording->old[step] = 1;
+            recording->is_old[step] = 1;
     }
     if (folder)
         closedir(folder);
@@ -213,8 +213,8 @@ Status recording_write_frame(Recording *recording, const Canvas *canvas,
         return status;
     snprintf(name, sizeof name, "%s/frame_%06ld.png", recording->folder, step);
     recording->frames++;
-    if (recording->old && step < FRAMES_MOST)
-        recording->old[step] = 0;
+    if (recording->is_old && step < FRAMES_MOST)
+        recording->is_old[step] = 0;
     return png_file_write(name, recording->message, canvas);
 }
 
@@ -271,7 +271,7 @@ Status recording_write_iteration(Recording *recording,
 }
 
 /* Flushes all tables before the first file gets its name. */
-Status recording_close(Recording *recording, Keep keep)
+Status recording_close(Recording *recording, FileEnding keep)
 {
     bool failed = recording->message[0];
     for (int t = 0; t < RECORDING_TABLES; t++) {
@@ -292,5 +292,5 @@ Status recording_close(Recording *recording, Keep keep)
 void recording_free(Recording *recording)
 {
     recording_close(recording, KEEP_NOTHING);
-    free(recording->old);
+    free(recording->is_old);
 }

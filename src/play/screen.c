@@ -12,7 +12,7 @@ static bool could_lose_work(const Player *player)
     static const double LONG = 60; /* s */
     const Past *past = &player->past;
     return past->now > 0 || (past_newest(past) > 0 &&
-                             clock_now() - player->given.started > LONG);
+                             clock_now() - player->setup.started > LONG);
 }
 
 Status obey_screen(Player *player, const Command *command)

@@ -53,7 +53,7 @@ Status player_find_defaults(Player *player, const char *scene,
                             const LecturePage *page, Options *options,
                             int *count)
 {
-    const Options *given = &player->given.options[0];
+    const Options *given = &player->setup.options[0];
     *count = 1;
     Status status =
         page ? lecture_make_options(page, options, MESSAGE(player->message))
@@ -123,7 +123,7 @@ void player_sample_line_energy(Player *player)
 int player_initial_speed(const Player *player, const Options *options)
 {
     double speed = options->speed;
-    if (speed == 0 && !options->page && player->given.attended)
+    if (speed == 0 && !options->page && player->setup.attended)
         speed = options->scene->speed;
     if (speed > 0)
         return (int)lrint(fmin(fmax(log2(speed), SPEED_LEAST), SPEED_MOST));
@@ -201,8 +201,8 @@ Status player_tolerate_failure(Player *player, Status status)
     bool fatal = status == STATUS_OUT_OF_MEMORY ||
                  status == STATUS_INVALID_INPUT ||
                  status == STATUS_FILE_FAILED || status == STATUS_SCREEN_FAILED;
-    if (!status || fatal || !player->given.attended ||
-        player->given.options[0].steps >= 0)
+    if (!status || fatal || !player->setup.attended ||
+        player->setup.options[0].steps >= 0)
         return status;
     player_pause(player);
     return STATUS_OK;

@@ -27,7 +27,7 @@ Status obey_scene(Player *player, const Command *command)
         return status;
     sheet_close(player);
     bool explains =
-        options->scene->starts_paused && !player->given.options[0].script;
+        options->scene->starts_paused && !player->setup.options[0].script;
     player->time.mode = runs && !explains ? MODE_RUN : MODE_PAUSE;
     if (player->screen.column != COLUMN_KEYS)
         player->screen.column = COLUMN_CARDS;
@@ -102,7 +102,7 @@ Status player_restart_runs(Player *player, const Options *options, int panes,
     if (opens)
         player->time.walk_unit = UNIT_STEP;
     if (!status && opens &&
-        player->given.asks) { /* a script repeats the opening commands itself */
+        player->setup.asks) { /* a script repeats the opening commands itself */
         player->commands.queue.pins = before;
         return player_enqueue_page(player);
     }
@@ -129,7 +129,7 @@ Status obey_restart(Player *player, const Command *command)
         options[p].start[0] = command->x;
         options[p].start[1] = command->y;
     }
-    if (moves || (options->page && player->given.asks))
+    if (moves || (options->page && player->setup.asks))
         player->time.mode = MODE_PAUSE;
     else if (player->time.mode >= MODE_END && !options->page &&
              !options->scene->starts_paused)
@@ -159,7 +159,7 @@ bool player_hides_answer(const Player *player)
 {
     const LecturePage *page = player_active_options(player)->page;
     return page && page->ask && player->tour.revealed != page &&
-           player->given.asks && !player->tour.obeys_page;
+           player->setup.asks && !player->tour.obeys_page;
 }
 
 /* A guess may be wrong by two percent, since it is calculated on paper. */
@@ -234,7 +234,7 @@ Status obey_page(Player *player, const Command *command)
     player->screen.column = COLUMN_CARDS;
     player->time.walk_unit = UNIT_STEP;
     sheet_close(player);
-    if (status || !player->given.asks)
+    if (status || !player->setup.asks)
         return status;
     player->time.mode = MODE_PAUSE;
     return player_enqueue_page(player);

@@ -75,7 +75,7 @@ Status player_write_remaining(Player *player)
     if (!past->stores_states || !player->recording.tables)
         return status;
     while (past->booked < past_newest(past) && !status &&
-           !*player->given.stop) {
+           !*player->setup.stop) {
         long next = past->booked + 1;
         past_choose_step(past, next, again);
         status = past_finish_work(past);
@@ -91,7 +91,7 @@ Status player_write_remaining(Player *player)
 /* ---- beginning ----------------------------------------------------------- */
 
 /* Leaves the lines of Algorithm 3.  The panes show the end of the step. */
-static void end_line_walk(Player *player)
+static void leave_algorithm_lines(Player *player)
 {
     for (int p = 0; p < OPTIONS_MAX_PANES; p++)
         player->view_of_pane[p].place = -1;
@@ -102,7 +102,7 @@ void player_forget_step(Player *player)
     player->screen.changed = true;
     if (player->time.mode > MODE_END)
         player->time.mode = MODE_END;
-    end_line_walk(player);
+    leave_algorithm_lines(player);
     for (int p = 0; p < OPTIONS_MAX_PANES; p++) {
         free(player->view_of_pane[p].ghost);
         player->view_of_pane[p].ghost = NULL;
@@ -205,10 +205,10 @@ static void report_rest(Player *player)
 
 /* Reports the first step of a run in which the total energy has risen without
  * work. */
-static void report_gain(Player *player)
+static void report_energy_gain(Player *player)
 {
     const Past *past = &player->past;
-    if (player->given.options[0].steps >= 0 || !player->given.attended)
+    if (player->setup.options[0].steps >= 0 || !player->setup.attended)
         return;
     for (int p = 0; p < past_panes(past) && !player->time.gained; p++) {
         const Simulation *simulation = &past->pane[p].simulation;
@@ -226,13 +226,13 @@ static void report_gain(Player *player)
 
 /* Stops the run if all panes have ended, a step did not converge for the first
  * time, all bodies are at rest, or the page pauses at this step. */
-static void detect_rest(Player *player)
+static void stop_run_if_over(Player *player)
 {
     const Past *past = &player->past;
     bool ended = true, rests = true, bad = false;
     int going = 0;
     const Options *options = player_active_options(player);
-    if (player->given.options[0].steps >= 0 || !player->given.attended ||
+    if (player->setup.options[0].steps >= 0 || !player->setup.attended ||
         (options->next == NEXT_SPRING && /* the Hessian is being assembled */
          past->step < player_simulation(player)->system.springs))
         return;
@@ -411,9 +411,9 @@ static Status finish_work(Player *player, Status status, long before, bool made)
     }
     status = record_step(player);
     if (!status && runs)
-        report_gain(player);
+        report_energy_gain(player);
     if (!status && runs)
-        detect_rest(player);
+        stop_run_if_over(player);
     else if (!status && after == AFTER_COMPARE)
         compare_outcomes(player);
     else if (!status && after != AFTER_NOTHING)
@@ -438,7 +438,7 @@ Status player_work(Player *player)
                 return status;
             player_sample_line_energy(player);
         }
-        player->quit = player->quit || *player->given.stop;
+        player->quit = player->quit || *player->setup.stop;
         bool begins = past_makes(past) && !made && player_is_slow(player);
         if (player->screen.window && (begins || clock_now() - begin > SLICE))
             break;
@@ -489,7 +489,7 @@ Status obey_pause(Player *player, const Command *command)
     bool runs = command->kind == COMMAND_PLAY;
     player->time.mode = runs ? MODE_RUN : MODE_PAUSE;
     if (runs)
-        end_line_walk(player);
+        leave_algorithm_lines(player);
     return STATUS_OK;
 }
 
@@ -503,7 +503,8 @@ Status obey_next(Player *player, const Command *command)
         return STATUS_OK;
     if (after == AFTER_SHOW_PEAK &&
         player->view_of_pane[player->active].place >= 0) {
-        end_line_walk(player); /* from the peak of E to the end of the step */
+        leave_algorithm_lines(
+            player); /* from the peak of E to the end of the step */
         return STATUS_OK;
     }
     return player_seek(player, player->past.step + 1, after);
@@ -548,7 +549,7 @@ Status obey_finer(Player *player, const Command *command)
     player->time.walk_unit = (player->time.walk_unit + 1) % UNITS;
     player_pause(player);
     if (player->time.walk_unit == UNIT_STEP)
-        end_line_walk(player);
+        leave_algorithm_lines(player);
     player_note(player, "N and \u2190 go by %s", paces[player->time.walk_unit]);
     return STATUS_OK;
 }

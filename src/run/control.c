@@ -190,7 +190,7 @@ static Status apply_hand(Simulation *simulation, const Control *control)
         &(Pull){.node = node,
                 .cell = mesh->nodes > 0 ? mesh->spacing : INFINITY,
                 .side = mesh->side,
-                .mouse = {control->at[0], control->at[1]},
+                .mouse = {control->target[0], control->target[1]},
                 .target = {x[0], x[1]},
                 .strength = k > 0 ? STIFFER * k : 1e5 * system->m[node]});
 }
@@ -202,11 +202,11 @@ static void apply_push(Simulation *simulation, const Control *control)
         Contact *contact = contact_of(simulation->run[r].system);
         if (!contact)
             continue;
-        contact->push = (Push){.on = 0 <= control->push &&
-                                     control->push < contact->obstacles,
-                               .obstacle = control->push,
-                               .target = {control->at[0], control->at[1]},
-                               .shape = simulation->mesh};
+        contact->push = (Push){
+            .on = 0 <= control->push && control->push < contact->obstacles,
+            .obstacle = control->push,
+            .target = {control->target[0], control->target[1]},
+            .shape = simulation->mesh};
         if (contact->push.on)
             contact->push.target[1] +=
                 get_lift(simulation, r, &contact->obstacle[control->push]);

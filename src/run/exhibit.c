@@ -26,7 +26,7 @@ void exhibit_drag_handle(Simulation *simulation, int handle, double x, double y)
 {
     const Scene *scene = simulation->scene;
     TimeIntegrator *run = simulation->run;
-    double *start = simulation->exhibit.start; /* x and v */
+    double *start = simulation->exhibit.exact_start; /* x and v */
     char kind = scene->handle_kinds[handle];
     const double to[2] = {x, scene->needs & NEEDS_ONE_NUMBER ? 0 : y};
     if (!isfinite(to[0]) || !isfinite(to[1]))

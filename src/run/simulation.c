@@ -83,7 +83,8 @@ static Status finish_step(Simulation *simulation, Status status)
     if (status_is_failure(status))
         return status;
     simulation->steps++;
-    if (simulation->steps > guess->step + 1) /* a guess counts for one step */
+    if (simulation->steps >
+        guess->guess_step + 1) /* a guess counts for one step */
         *guess = (Prediction){0};
     if (status) {
         simulation->unconverged++;

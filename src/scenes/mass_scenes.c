@@ -40,8 +40,8 @@ static Status create_orbit(Simulation *simulation, double omega2,
         status = pull_configure(&simulation->system, &central_field,
                                 &(Pull){.k = SMALL_MASS * omega2});
     simulation->runs = chosen ? 1 : SIMULATION_MAX_RUNS;
-    memcpy(simulation->exhibit.start, x, 2 * sizeof *x);
-    memcpy(simulation->exhibit.start + 2, v, 2 * sizeof *v);
+    memcpy(simulation->exhibit.exact_start, x, 2 * sizeof *x);
+    memcpy(simulation->exhibit.exact_start + 2, v, 2 * sizeof *v);
     for (int i = 0; i < simulation->runs && !status; i++)
         status = simulation_start_run(simulation, i,
                                       chosen ? options_method(options)
@@ -88,7 +88,8 @@ bool mass_find_next_step(const Simulation *simulation, int run, MassStep *step)
 
 void mass_find_exact(const Simulation *simulation, double t, double x[2])
 {
-    const double *start = simulation->exhibit.start, omega = sqrt(MASS_OMEGA2);
+    const double *start = simulation->exhibit.exact_start,
+                 omega = sqrt(MASS_OMEGA2);
     for (int i = 0; i < 2; i++)
         x[i] =
             start[i] * cos(omega * t) + start[i + 2] * sin(omega * t) / omega;

@@ -294,7 +294,7 @@ void scene_predict(Simulation *simulation, double x, double y)
     }
     simulation->prediction = (Prediction){
         .made = true,
-        .step = simulation->steps,
+        .guess_step = simulation->steps,
         .at = {x, y},
         .end = {end[0], end[1]},
         .distance = math_hypot(end[0] - x, count == 1 ? 0 : end[1] - y)};

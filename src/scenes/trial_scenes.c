@@ -268,7 +268,7 @@ static int find_nearest_index(double value, double first, double per_ten,
 
 Status envelope_run_cell(Simulation *simulation, int column, int row)
 {
-    EnvelopeMap *map = &simulation->exhibit.map;
+    EnvelopeMap *map = &simulation->exhibit.envelope;
     TimeIntegrator *run = &simulation->run[0];
     Options options = simulation->options;
     options.timestep = envelope_timestep(column);
@@ -307,7 +307,7 @@ Status create_envelope(Simulation *simulation)
 /* The row's runs replace run 0, so the shown cell's run is made again. */
 Status step_envelope(Simulation *simulation)
 {
-    const EnvelopeMap *map = &simulation->exhibit.map;
+    const EnvelopeMap *map = &simulation->exhibit.envelope;
     int row = (int)simulation->steps, shown[2] = {map->column, map->row};
     Status status = STATUS_OK;
     for (int column = 0; column < ENVELOPE_COLUMNS && !status; column++)

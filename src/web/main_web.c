@@ -68,7 +68,7 @@ EMSCRIPTEN_KEEPALIVE const char *web_address(void)
 {
     static char words[MOST_TEXT];
     Player *player = &session->player;
-    const Options *given = &player->given.options[0];
+    const Options *given = &player->setup.options[0];
     Options now[OPTIONS_MAX_PANES], base[OPTIONS_MAX_PANES];
     words[0] = '\0';
     if (!plays)
@@ -81,7 +81,7 @@ EMSCRIPTEN_KEEPALIVE const char *web_address(void)
                                        base, &count)))
         return words;
     for (int i = 0; same && (i = player_next_scene_argument(player, i + 1));)
-        append(words, sizeof words, "%s\n", player->given.words[i]);
+        append(words, sizeof words, "%s\n", player->setup.words[i]);
     if (!same)
         append(words, sizeof words, "%s%s", now->page ? "--lecture\n" : "",
                now->page ? now->page->name : now->scene->name);
@@ -237,7 +237,7 @@ EMSCRIPTEN_KEEPALIVE void web_print_draw(int card, int width, int height)
 /* Hides the answer of the printed page, as before a guess. */
 EMSCRIPTEN_KEEPALIVE void web_print_hide_answer(void)
 {
-    session->player.given.asks = true;
+    session->player.setup.asks = true;
     session->player.tour.revealed = NULL;
     player_fill_frame(&session->player);
 }

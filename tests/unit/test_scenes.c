@@ -106,7 +106,7 @@ TEST(landscape_is_downhill_from_everywhere)
 static const EnvelopeCell *visit(Simulation *map, int column, int row)
 {
     CHECK_OK(envelope_run_cell(map, column, row));
-    return &map->exhibit.map.cell[row][column];
+    return &map->exhibit.envelope.cell[row][column];
 }
 
 /* A cell is the run that its command line makes. */

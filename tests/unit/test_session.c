@@ -386,9 +386,9 @@ static void run_until(long step)
     Command pause = {.kind = COMMAND_PAUSE};
     if (player_is_stopped(&player))
         show_result(obey("play"));
-    player.given.script.count =
-        player.given.script.next; /* later lines of the script are dropped */
-    CHECK_STATUS(script_add(&player.given.script, step, &pause, 0), STATUS_OK);
+    player.setup.script.count =
+        player.setup.script.next; /* later lines of the script are dropped */
+    CHECK_STATUS(script_add(&player.setup.script, step, &pause, 0), STATUS_OK);
     player_run(&player);
 }
 
@@ -745,7 +745,7 @@ static double find_hand_distance(const Simulation *simulation)
 {
     const Control *control = past_control(&player.past, 0);
     const double *x = simulation->run[0].x + 2 * control->hand;
-    return hypot(x[0] - control->at[0], x[1] - control->at[1]);
+    return hypot(x[0] - control->target[0], x[1] - control->target[1]);
 }
 
 static double find_hand_step(const Simulation *simulation)
@@ -798,7 +798,7 @@ static double count_idle_cells(const Simulation *simulation)
     int idle = 0;
     for (int i = 0; i < ENVELOPE_ROWS; i++)
         for (int k = 0; k < ENVELOPE_COLUMNS; k++)
-            idle += simulation->exhibit.map.cell[i][k].updates == 0;
+            idle += simulation->exhibit.envelope.cell[i][k].updates == 0;
     return idle;
 }
 
@@ -966,7 +966,7 @@ static void session_line(const char *line)
     else if (strcmp(verb, "whole") == 0)
         show_result(player_continue(&player));
     else if (strcmp(verb, "asks") == 0)
-        player.given.asks = player.screen.changed = true;
+        player.setup.asks = player.screen.changed = true;
     else if (strstr("reads lacks list", verb))
         read_words(verb, rest);
     else if (strstr("mark same other", verb))

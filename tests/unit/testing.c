@@ -231,8 +231,8 @@ Status simulation_hold(Simulation *simulation, int node, double x, double y)
 {
     Control *control = control_from_simulation(simulation);
     control->hand = node;
-    control->at[0] = x;
-    control->at[1] = y;
+    control->target[0] = x;
+    control->target[1] = y;
     return use(simulation, control);
 }
 
