@@ -114,11 +114,10 @@ static bool read_argument(const char *word, char kind, Command *command)
     double *number = kind == 'X' ? &command->x : &command->y;
     char *end = NULL;
     bool one;
-    errno = 0;
     switch (kind) {
     case 'N':
         command->number = strtol(word, &end, 10);
-        return isdigit((unsigned char)word[0]) && errno == 0 && *end == '\0';
+        return isdigit((unsigned char)word[0]) && *end == '\0';
     case 'X':
     case 'Y':
         *number = strtod(word, &end);
@@ -249,10 +248,8 @@ Status script_read(const char *name, Script *script, Message message)
         line[strcspn(line, "#\r\n")] = '\0';
         if (*line == '\0')
             continue;
-        errno = 0;
         long step = strtol(line, &end, 10);
-        if (!isdigit((unsigned char)*line) || errno ||
-            !isspace((unsigned char)*end))
+        if (!isdigit((unsigned char)*line) || !isspace((unsigned char)*end))
             status =
                 refuse(MESSAGE(why), "write STEP COMMAND, such as 40 grab 12");
         else

@@ -47,8 +47,6 @@ Status film_open(const char *name, char *message, Film *film)
         why = WHY_NO_FILM;
     else if (output_open(name, message, &film->output))
         return STATUS_FILE_FAILED;
-    else if (!film->output.temporary[0])
-        why = "a film is a regular file";
     if (!why)
         return STATUS_OK;
     output_close(&film->output, KEEP_NOTHING);

@@ -22,8 +22,8 @@ typedef struct MouseTarget {
     Layout layout; /* layout of the last frame */
     Hit hit;       /* part of the window under the mouse */
     int pane;
-    double at[2]; /* m, place of the mouse in the scene of this pane */
-    Pick pick;    /* part of the scene under the mouse */
+    double place[2]; /* m, place of the mouse in the scene of this pane */
+    Pick pick;       /* part of the scene under the mouse */
 } MouseTarget;
 
 static MouseTarget find_mouse_target(Player *player)
@@ -44,7 +44,7 @@ static MouseTarget find_mouse_target(Player *player)
         target.pane = pane;
     held->away = false;
     Camera camera = camera_of_pane(content, &target.layout, target.pane);
-    camera_to_world(&camera, mouse->x, mouse->y, target.at);
+    camera_to_world(&camera, mouse->x, mouse->y, target.place);
     target.pick = frame_pick(content, &target.layout, mouse->x, mouse->y);
     held->away = target.hit.zone != ZONE_STAGE;
     return target;
@@ -142,7 +142,8 @@ static Status drag_number(Player *player, const MouseTarget *target)
     const OptionRow *row =
         edge ? option_find("stretch") : player->hands.selected;
     double notches = (mouse->x - mouse->from[0]) / NOTCH_PIXELS;
-    double wanted = fmax(rint(200 * fabs(target->at[0]) / now.side), 2) / 100;
+    double wanted =
+        fmax(rint(200 * fabs(target->place[0]) / now.side), 2) / 100;
     if (!row)
         return STATUS_OK;
     if (row->count > 1)
@@ -199,8 +200,8 @@ static Status press_target(Player *player, const MouseTarget *target)
         mouse->drag = COMMAND_OBSTACLE;
         simulation_find_obstacle(player_simulation(player), 0, mouse->index,
                                  point);
-        mouse->grip[0] = point[0] - target->at[0];
-        mouse->grip[1] = point[1] - target->at[1];
+        mouse->grip[0] = point[0] - target->place[0];
+        mouse->grip[1] = point[1] - target->place[1];
         return STATUS_OK;
     case PICK_EDGE:
         mouse->drag = COMMAND_SET;
@@ -294,15 +295,15 @@ static Status go_on_dragging(Player *player)
             if (!status)
                 status = obey(player, COMMAND_GRAB, mouse->index);
         }
-        return status ? status : obey_at(player, COMMAND_DRAG, 0, target.at);
+        return status ? status : obey_at(player, COMMAND_DRAG, 0, target.place);
     case COMMAND_OBSTACLE:
-        target.at[0] += mouse->grip[0];
-        target.at[1] += mouse->grip[1];
-        return drag_obstacle(player, target.at);
+        target.place[0] += mouse->grip[0];
+        target.place[1] += mouse->grip[1];
+        return drag_obstacle(player, target.place);
     case COMMAND_PLACE:
     case COMMAND_START:
     case COMMAND_HANDLE:
-        return obey_at(player, mouse->drag, mouse->index, target.at);
+        return obey_at(player, mouse->drag, mouse->index, target.place);
     case COMMAND_SET:
         return drag_number(player, &target);
     case COMMAND_GOTO:
@@ -412,7 +413,7 @@ static Status press_left_button(Player *player, const MouseTarget *target,
             return status ? status : press_target(player, target);
         return body && target->pick.nearest_node < 0 &&
                        target->pick.kind == PICK_NONE
-                   ? add_ball(player, target->at)
+                   ? add_ball(player, target->place)
                    : obey(player, COMMAND_FIT, 0);
     default:
         return STATUS_OK;

@@ -139,7 +139,8 @@ Status player_write_remaining(Player *player);
 Status player_restart_runs(Player *player, const Options *options, int panes,
                            const Command *edit);
 
-/* Sets the pins of an earlier control again, and releases this control.
+/* Pins and frees nodes as in an earlier control, if scene, page and mesh are
+ * still the same; releases the earlier control.
  *   before  in, or NULL */
 Status player_restore_pins(Player *player, const Control *before);
 

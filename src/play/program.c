@@ -116,7 +116,7 @@ static void print_newton(FILE *file, const Simulation *simulation)
     unsigned needs = simulation->scene->needs;
     const struct {
         const char *name;
-        long long count; /* 0: the row is not printed */
+        long long value; /* 0: the row is not printed */
     } rows[] = {
         {"Newton iterations",
          needs & NEEDS_TIME ? sum.iterations : simulation->descent.count},
@@ -132,8 +132,8 @@ static void print_newton(FILE *file, const Simulation *simulation)
                        newton->refusal ? "; no multigrid: " : "",
                        newton->refusal ? newton->refusal : "");
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
-        if (rows[i].count > 0)
-            print_quantity(file, rows[i].name, "%lld", rows[i].count);
+        if (rows[i].value > 0)
+            print_quantity(file, rows[i].name, "%lld", rows[i].value);
 }
 
 /* Prints by how much the total energy has risen in steps of backward Euler. */
