@@ -36,7 +36,7 @@ typedef struct Input {
 /* Opens the only window.  Returns false after a failure (window_failure).
  *   size  [2] in, pixels; 0: 1280 x 800, or what fits on the screen
  *   full  the window fills the screen */
-bool window_open(const char *title, const int size[2], bool full);
+bool window_open(const int size[2], bool full);
 void window_close(void);
 
 /* Finds the size of a paper that fills the window, pixels. */

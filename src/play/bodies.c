@@ -92,9 +92,8 @@ Status obey_drag(Player *player, const Command *command)
 Status obey_handle(Player *player, const Command *command)
 {
     Past *past = &player->past;
-    const Simulation *simulation = player_simulation(player);
     Status status = STATUS_OK;
-    unsigned needs = simulation->scene->needs;
+    unsigned needs = player_simulation(player)->scene->needs;
     long step = past->step;
     int now = past->now;
     if (command->kind == COMMAND_HANDLE && (needs & NEEDS_START) &&

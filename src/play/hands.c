@@ -191,7 +191,6 @@ static Status press_target(Player *player, const MouseTarget *target)
     Mouse *mouse = &player->hands.mouse;
     const LecturePage *page = player_active_options(player)->page;
     double point[2];
-    bool places = drag_places_things(player);
     mouse->index = target->pick.index;
     player->screen.view.held = frame_hold_bounds(&player->screen.frame.content,
                                                  &target->layout, target->pane);
@@ -224,9 +223,9 @@ static Status press_target(Player *player, const MouseTarget *target)
             PICK_NODE) /* a click ends the highlight of a spring */
             player->screen.view.hover.kind = PICK_NONE;
         mouse->index = target->pick.nearest_node;
-        mouse->drag = mouse->index < 0 ? COMMAND_PAN
-                      : places         ? COMMAND_PLACE
-                                       : COMMAND_GRAB;
+        mouse->drag = mouse->index < 0             ? COMMAND_PAN
+                      : drag_places_things(player) ? COMMAND_PLACE
+                                                   : COMMAND_GRAB;
         return STATUS_OK;
     }
 }
@@ -424,7 +423,6 @@ static Status press_button(Player *player, const Input *input)
 {
     Mouse *mouse = &player->hands.mouse;
     MouseTarget target = find_mouse_target(player);
-    bool stage = target.hit.zone == ZONE_STAGE;
     const Scene *scene = player_simulation(player)->scene;
     bool nodes = (scene->needs & NEEDS_MESH) && !scene->step;
     int near = target.pick.nearest_node;
@@ -434,7 +432,7 @@ static Status press_button(Player *player, const Input *input)
     player->note[0] = '\0';
     if (input->button == BUTTON_LEFT)
         return press_left_button(player, &target, input->clicks);
-    if (!stage)
+    if (target.hit.zone != ZONE_STAGE)
         return STATUS_OK;
     if (input->button == BUTTON_RIGHT && near < 0 && nodes)
         return player_refuse(player, "no node is here: a right click on one "
@@ -552,12 +550,9 @@ Status player_obey_input(Player *player, const Input *input)
     case INPUT_LEAVE:
         player->screen.view.hover = (Pick){.kind = PICK_NONE};
         player->screen.view.mouse = (Hit){.zone = ZONE_NONE};
-        player->screen.changed = true;
-        return STATUS_OK;
+        /* fall through */
     case INPUT_REDRAW:
         player->screen.changed = true;
-        return STATUS_OK;
-    case INPUT_NONE:
         return STATUS_OK;
     default:
         return obey_mouse(player, input);

@@ -41,14 +41,13 @@ Status obey_method(Player *player, const Command *command)
 Status obey_add_pane(Player *player, const Command *command)
 {
     int panes = past_panes(&player->past);
-    const TimeIntegrator *run = player_simulation(player)->run;
     if (panes >= OPTIONS_MAX_DRAWN)
         return player_refuse(player, "six are side by side: no room for more");
     if (player_simulation(player)->runs > 1)
         return player_refuse(player, "several runs are in this picture "
                                      "already: nothing goes beside it");
     const IntegratorMethod *next = player->tour.obeys_page
-                                       ? run->method
+                                       ? player_simulation(player)->run->method
                                        : find_next_method(player, panes - 1);
     if (!next)
         return STATUS_INVALID_INPUT;

@@ -157,12 +157,11 @@ bool player_is_idle(const Player *player)
 
 int player_find_wait_time(const Player *player)
 {
-    bool stands = player_is_stopped(player);
     double wait = 1e3 * (player->time.due - clock_now());
     if (player_is_idle(player))
         return IDLE_WAIT;
     if (!player->screen.window || past_works(&player->past) ||
-        (stands && !script_is_over(&player->setup.script)))
+        (player_is_stopped(player) && !script_is_over(&player->setup.script)))
         return 0;
     return (int)fmax(fmin(ceil(wait), IDLE_WAIT), 0);
 }
@@ -186,8 +185,7 @@ static void open_view(Player *player)
     Options *options = &player->setup.options[0];
     const int size[] = {(int)options->size[0], (int)options->size[1]};
     if (!options->headless)
-        player->screen.window =
-            window_open("elasto", size, options->fullscreen);
+        player->screen.window = window_open(size, options->fullscreen);
     if (!options->headless && !player->screen.window) {
         if (!options->frames && !options->film)
             options->frames = "frames";

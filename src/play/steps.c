@@ -392,10 +392,9 @@ static Status finish_work(Player *player, Status status, long before, bool made)
     const Past *past = &player->past;
     AfterWork after = player->time.after;
     bool runs = made && after == AFTER_NOTHING && !player_is_stopped(player);
-    bool failed = status_is_failure(status);
     player->time.after = AFTER_NOTHING;
     player->screen.changed = true;
-    if (failed && past->step == before) {
+    if (status_is_failure(status) && past->step == before) {
         long seen = past_find_drawable_step(past, 0, before);
         bool lost = runs && status == STATUS_NOT_FINITE;
         player->screen.drawn = -1;
@@ -601,10 +600,9 @@ static void describe_edit(const Player *player, const Command *edit, char *line,
 
 Status obey_undo(Player *player, const Command *command)
 {
-    Past *past = &player->past;
     char line[2 * COMMAND_TEXT_SIZE];
     int way = command->kind == COMMAND_UNDO ? -1 : 1;
-    const Command *made = past_undo(past, way);
+    const Command *made = past_undo(&player->past, way);
     if (!made)
         return player_refuse(player, way < 0 ? "nothing is to be undone"
                                              : "nothing was undone");

@@ -60,7 +60,7 @@ bool window_is_full(void)
 
 /* Without acceleration X11 shows a frame of 900 x 900 pixels in 6 ms, with
  * OpenGL computed by the processor in 14 ms (measured). */
-bool window_open(const char *title, const int size[2], bool full)
+bool window_open(const int size[2], bool full)
 {
     SDL_Rect area = {0, 0, WINDOW_WIDTH, WINDOW_HEIGHT};
     SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
@@ -75,7 +75,7 @@ bool window_open(const char *title, const int size[2], bool full)
     int width = SDL_min(WINDOW_WIDTH, area.w - BORDER_WIDTH);
     int height = SDL_min(WINDOW_HEIGHT, area.h - BORDER_HEIGHT);
     window = SDL_CreateWindow(
-        title, SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED,
+        "elasto", SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED,
         size[0] > 0 ? size[0] : width, size[1] > 0 ? size[1] : height,
         SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI);
     if (!window || !SDL_GetWindowSurface(window))

@@ -23,11 +23,10 @@ EM_JS(void, page_show, (const void *pixels, int width, int height, int card), {
 });
 /* clang-format on */
 
-bool window_open(const char *title, const int size[2], bool full)
+bool window_open(const int size[2], bool full)
 {
     (void)size;
     (void)full;
-    (void)title;
     return true;
 }
 

@@ -93,7 +93,6 @@ static Status create_system(const Options *options, System *system)
 {
     const SquareMesh shape = body_make_mesh(options);
     int nodes = shape.nodes / shape.bodies, ball = find_ball_node(options);
-    bool square = shape.rows == shape.segments;
     if ((double)shape.segments * shape.rows * shape.bodies >
         SQUARE_MESH_MAX_CELLS)
         return STATUS_TOO_LARGE;
@@ -120,7 +119,7 @@ static Status create_system(const Options *options, System *system)
         system->l2[s] = dx * dx + dy * dy;
         system->k[s] = options->stiffness;
     }
-    if (square && ball < 0 && shape.bodies == 1)
+    if (shape.rows == shape.segments && ball < 0 && shape.bodies == 1)
         system->segments = shape.segments;
     system->gravity[1] = -options->gravity;
     square_mesh_order_nodes(&shape, system->order);

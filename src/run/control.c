@@ -66,7 +66,6 @@ void control_store_obstacle(Control *control, int number,
                             const Simulation *simulation)
 {
     static const double SAME = 1e-9; /* tolerance, in sides of the square */
-    double *at = options_obstacle_at(&control->options, number);
     double place[2], other[2];
     simulation_find_obstacle(simulation, 0, number, place);
     for (int r = 1; r < simulation->runs; r++) {
@@ -75,7 +74,7 @@ void control_store_obstacle(Control *control, int number,
         if (!(away < SAME * simulation->options.side))
             return;
     }
-    memcpy(at, place, sizeof place);
+    memcpy(options_obstacle_at(&control->options, number), place, sizeof place);
 }
 
 const Control *control_retain(const Control *control)

@@ -46,9 +46,7 @@ typedef struct TableRow {
 static bool read_next_line(TableReader *reader)
 {
     static const char mark[] = "\xef\xbb\xbf";
-    ssize_t length =
-        getline(&reader->line_text, &reader->capacity, reader->file);
-    if (length < 0)
+    if (getline(&reader->line_text, &reader->capacity, reader->file) < 0)
         return false;
     reader->line_text[strcspn(reader->line_text, "\r\n")] = '\0';
     if (reader->line_number++ == 0 &&
