@@ -28,8 +28,7 @@ typedef struct Command {
     CommandKind kind;
     long number; /* index of a node, card, obstacle, row of options, ... */
     double x, y; /* place, m; x also the numeric value of an option */
-    char text[COMMAND_TEXT_SIZE]; /* name, or value of an option that x does not
-                                     hold; else "" */
+    char text[COMMAND_TEXT_SIZE]; /* name or value that is no number, or "" */
     bool joins; /* is undone together with the command before: "& set ..." */
 } Command;
 
@@ -98,8 +97,7 @@ bool command_replaces(const Command *command, const Command *before);
  *     40 grab 12
  *     40 & drag 0.5 0.5
  * A command with & is undone together with the command of the line before.  A
- * line waits until the run has reached its step, unless the run is paused or at
- * its end. */
+ * line waits for its step, unless the run is paused or at its end. */
 typedef struct ScriptLine {
     long step;
     Command command;

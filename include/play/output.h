@@ -23,8 +23,7 @@ typedef struct Output {
     FILE *file;                  /* stream; NULL: the output is not open */
     char name[OUTPUT_NAME];      /* name as given, for messages */
     char temporary[OUTPUT_NAME]; /* NAME.part; "": the file has no such part */
-    char *message; /* [OUTPUT_MESSAGE] out, not owned: "NAME: why" of the first
-                      failure; or NULL */
+    char *message; /* [OUTPUT_MESSAGE] or NULL: "NAME: why" of a failure */
 } Output;
 
 /* How a file ends. */
@@ -91,8 +90,7 @@ Status table_open(const char *name, char *message, Table *table);
 /* Adds a row, value [columns].  table_check reports whether this failed. */
 void table_add_row(Table *table, const double *value);
 
-/* Returns FILE_FAILED (message) if a write has failed; OK also if the table is
- * not open. */
+/* Returns FILE_FAILED (message) if a write to an open table has failed. */
 Status table_check(const Table *table);
 
 #endif

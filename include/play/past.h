@@ -32,12 +32,10 @@
 #include "play/step_trace.h"
 #include "run/control.h"
 
-/* Memory for states and samples, bytes; if more is needed every second state is
- * dropped. */
+/* Bytes for states and samples; beyond them every second state is dropped. */
 #define PAST_BYTES ((size_t)256 << 20)
 
-/* Largest extent of a state that a picture can show, relative to the extent
- * after step 1. */
+/* Largest extent that a picture can show, over the extent after step 1. */
 #define PAST_EXPLODED 10
 
 /* A stored state, which entries of several branches can share. */
@@ -68,8 +66,7 @@ typedef struct Outcome {
 typedef struct Entry {
     const Control *control; /* control with which the next step is made; NULL:
                                this entry's step is still being made */
-    State *state;   /* state after the step, before `control`; NULL: not
-                       stored */
+    State *state;   /* state after the step; NULL: not stored */
     Sample *sample; /* energies of the state under `control`, or NULL */
     int substeps; /* steps of the simulation in this step; 0: the scene is over,
                      or the pane has ended with the status of the outcome */
@@ -105,8 +102,7 @@ typedef struct PaneRun {
     Outcome outcome; /* outcome of the step in progress, else of the last one */
     bool failed;     /* the step after `step` could not be made */
     StepTrace trace; /* iterates of the last step that was made */
-    bool known; /* trace and records are those of `step`, or of the step that
-                   failed after it */
+    bool known;      /* trace and records are of `step` or the failed step */
     Records records; /* Newton's records of the last step, for the log */
 } PaneRun;
 

@@ -27,8 +27,7 @@ typedef struct Setup {
     Script script;
     const volatile sig_atomic_t *stop; /* not 0 after a signal: the run ends */
     double started; /* s, time on the wall clock when the run began */
-    bool attended;  /* is a session of window, script or page, which may pause
-                       and go back */
+    bool attended;  /* a window, script or page can pause and go back */
     bool asks;      /* pages wait for a guess before they show the answer */
 } Setup;
 
@@ -93,8 +92,7 @@ typedef struct Commands {
     int gestures;        /* number of gestures so far, the id of the newest */
     int held;            /* id of the last grab or push, for its drags */
     Script journal;      /* commands of the session, with undo and redo */
-    CommandKind leaving; /* COMMAND_ESCAPE or COMMAND_QUIT, if a second one ends
-                            the program */
+    CommandKind leaving; /* command of which a second one ends the program */
     bool refused;        /* a line of the script was refused */
 } Commands;
 
@@ -218,8 +216,7 @@ Status player_draw(Player *player);
 /* Makes frames until the window is closed or the run is over. */
 Status player_run(Player *player);
 
-/* Makes a frame: reads inputs, obeys the script, makes steps and draws, as far
- * as they are due. */
+/* Makes a frame: reads inputs, obeys the script, makes due steps and draws. */
 Status player_frame(Player *player);
 
 /* Whether nothing happens before the next input. */

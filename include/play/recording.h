@@ -8,9 +8,8 @@
  * the old ones: the last rows of a step count.  A number that is changed after
  * a step also changes the energies of this step.
  *
- * The program ffmpeg makes films of frames from a pipe.  A film has all frames
- * that were added, 60 a second; .gif has 50, as it counts hundredths of a
- * second.
+ * The program ffmpeg makes films of frames from a pipe, 60 frames a second; in
+ * .gif 50, since .gif counts hundredths of a second.
  */
 #ifndef ELASTO_RECORDING_H
 #define ELASTO_RECORDING_H
@@ -93,8 +92,7 @@ Status recording_write_states(Recording *recording, bool energies_only,
 Status recording_write_iteration(Recording *recording,
                                  const NewtonRecord *record, int pane);
 
-/* Closes all files.  If a file has failed or fails now, no file gets its name.
- */
+/* Closes all files.  If a file has failed, no file gets its name. */
 Status recording_close(Recording *recording, FileEnding keep);
 
 /* Frees a recording; files that were not closed are removed. */

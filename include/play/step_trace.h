@@ -9,8 +9,7 @@
 
 #include "picture/frame_content.h"
 
-/* Memory for the iterates of one step, bytes.  Further rounds only have
- * Newton's record. */
+/* Bytes of the iterates of one step; further rounds have records only. */
 #define STEP_TRACE_BYTES ((size_t)64 << 20)
 
 /* E along p is drawn up to 3/2 of the first trial of the line search.  If E is
@@ -75,9 +74,7 @@ void step_trace_begin(StepTrace *trace, const Simulation *simulation, bool all,
  *   place  index of the place; -1: the last round */
 bool step_trace_lacks_samples(const StepTrace *trace, int place);
 
-/* Adds the round of a Newton iteration, or only its record if memory is
- * missing.
- */
+/* Adds a Newton iteration, or only its record if memory is missing. */
 void step_trace_add_round(StepTrace *trace, const Newton *newton,
                           const NewtonRecord *record);
 

@@ -65,8 +65,7 @@ void window_set_full(bool full);
 /* Whether the window fills the screen. */
 bool window_is_full(void);
 
-/* Returns the next input, or INPUT_NONE.  A movement before another movement is
- * skipped. */
+/* Returns the next input, or INPUT_NONE; skips movements but the last one. */
 Input window_read_input(void);
 
 /* Waits for an input, at most for this time. */

@@ -51,9 +51,8 @@ Status body_check(const Options *options, Message message);
  *   nodes    nodes of each run; the rows of run r follow those of run r - 1
  *   x, v     [2 nodes] out, m, m/s
  *   system   in/out, with all its terms
- * Returns OK, OUT_OF_MEMORY, or INVALID_INPUT if the file has no such step, has
- * a line that cannot be read, or is about another number of nodes, springs or
- * runs. */
+ * Returns OK, OUT_OF_MEMORY, or INVALID_INPUT if the file has no such step, a
+ * line that cannot be read, or another number of nodes, springs or runs. */
 Status start_table_read(const Options *options, int run, int nodes, double *x,
                         double *v, Message message);
 Status start_springs_read(const Options *options, int run, System *system,

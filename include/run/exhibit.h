@@ -70,17 +70,15 @@ typedef struct DialCurve {
 enum { RACE_SHOWN_ROW = 1, RACE_METHODS = 7, RACE_STEP_SIZES = 7 };
 
 /* An explicit run counts as stable if RACE_EXTRA_STEPS further steps, which are
- * not measured, leave the energy below RACE_MAX_ENERGY times that of the start:
- * with too long a time step a run may be accurate for a while and explode
- * later. */
+ * not measured, leave the energy below RACE_MAX_ENERGY times that of the start.
+ * With too long a time step an accurate run may explode later. */
 enum { RACE_EXTRA_STEPS = 2048, RACE_MAX_ENERGY = 2 };
 
 /* A run of the race: a method with a time step. */
 typedef struct RacePoint {
     const IntegratorMethod *method;
     double h;       /* s, time step */
-    double error;   /* m, largest distance of a node from the reference; NaN:
-                       the run failed */
+    double error;   /* m, most that a node is off; NaN: the run failed */
     double seconds; /* s, processor time */
     bool converged; /* every step converged */
     double energy_after_second; /* energy after 1 s over that at the start; only
@@ -103,8 +101,7 @@ typedef struct EnvelopeCell {
     int updates;  /* Newton updates of all steps */
 } EnvelopeCell;
 
-/* Whether the square converges: a row for each stiffness, a column for each
- * time step. */
+/* Whether the square converges, by stiffness (row) and time step (column). */
 typedef struct EnvelopeMap {
     EnvelopeCell cell[ENVELOPE_ROWS][ENVELOPE_COLUMNS];
     int column, row; /* cell whose run is shown; -1: none */
@@ -115,7 +112,7 @@ typedef struct EnvelopeMap {
 /* Data of all small scenes; a scene uses what it needs. */
 typedef struct Exhibit {
     double exact_start[4]; /* m, m/s, start x, v of one mass's exact path */
-    double target[2];      /* m, x_tilde; in one unknown only target[0] counts */
+    double target[2];      /* m, x_tilde; in one unknown [0] alone counts */
     unsigned switches;     /* bit s: part s of E is on (LandscapePart); for
                               switches of kinds of springs, kind s is off */
     DialCurve dial;
@@ -131,15 +128,13 @@ int exhibit_list_handles(const struct Simulation *simulation,
 int exhibit_list_switches(const struct Simulation *simulation,
                           Switch out[SCENE_MAX_SWITCHES]);
 
-/* Returns the switches that differ from the start of the scene, bit s for
- * switch s. */
+/* Returns the switches that were turned since the start, bit s for switch s. */
 unsigned exhibit_find_flips(const struct Simulation *simulation);
 
 /* Whether the switches turn kinds of springs on and off (LAYER_KINDS). */
 bool exhibit_has_kind_switches(const struct Simulation *simulation);
 
-/* Returns the kind of a spring: 0 horizontal, 1 vertical, 2 and 3 the
- * diagonals. */
+/* Returns the kind of a spring: 0 horizontal, 1 vertical, 2, 3 diagonal. */
 int exhibit_spring_kind(const struct Simulation *simulation, int spring);
 
 /* Moves a point to (x, y), m, and begins the scene again from there; without

@@ -6,8 +6,7 @@
 
 #include "base/status.h"
 
-/* Replaces the control characters of ASCII by '?', so that a text from outside
- * stays one line. */
+/* Replaces control characters by '?', so that a text stays one line. */
 void make_one_line(char *text);
 
 /* Appends to a text, as far as it fits.
@@ -15,8 +14,7 @@ void make_one_line(char *text);
 void append(char *text, size_t size, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-/* Buffer for the message of a call that fails.  A caller that wants no message
- * passes {0}. */
+/* Buffer for the message of a call that fails; {0}: no message is wanted. */
 typedef struct Message {
     char *text;
     size_t size; /* bytes of text */

@@ -2,8 +2,7 @@
  * them.
  *
  * A row of the table is the only description of an option: the command line,
- * --help, the row of numbers in the window, scripts and the labels of panes all
- * read it.
+ * --help, the window's row of numbers, scripts and labels of panes read it.
  */
 #ifndef ELASTO_OPTIONS_H
 #define ELASTO_OPTIONS_H
@@ -48,8 +47,7 @@ enum { BODY_NUMBERS = 7 };
 
 static const double DEGREE = 0.017453292519943295; /* pi/180 */
 
-/* Capacity of Options.number; the static assertion below fails if more numbers
- * are declared. */
+/* Capacity of Options.number, which a static assertion below checks. */
 enum { OPTIONS_NUMBERS = 256 };
 
 /* The value of every option.  Numbers, whole numbers, switches (0 or 1) and
@@ -126,9 +124,7 @@ typedef enum OptionKind {
     OPTION_PAGE,   /* page of the tour; the value may be left out */
 } OptionKind;
 
-/* The names of a table whose rows begin with a name; a NULL name ends the
- * table.
- */
+/* The names of a table whose rows begin with a name; NULL ends the table. */
 typedef struct Names {
     const void *table;
     size_t size; /* bytes of a row of the table */
@@ -228,14 +224,12 @@ bool option_read(const OptionRow *row, int count, const char *text,
  *   text  [size] out */
 void option_write(const OptionRow *row, double value, char *text, size_t size);
 
-/* Writes the value of an option with few digits, for the window, or "none" if
- * the option is not given.  A repeated option has its last value written.
+/* Writes the last value of an option with few digits, or "none" without one.
  *   text  [size] out */
 void option_write_short(const OptionRow *row, const Options *options,
                         char *text, size_t size);
 
-/* Whether a number of the option is not 0; else its term is not in the energy.
- */
+/* Whether a number of the option is not 0, so that it adds its term. */
 bool option_is_on(const OptionRow *row, const Options *options);
 
 /* Whether an option has the same numbers in two structs. */

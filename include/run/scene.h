@@ -26,8 +26,7 @@ typedef enum PictureKind {
     PICTURE_COUNT
 } PictureKind;
 
-/* Parts that a scene may have, as bits.  Options about missing parts are
- * refused. */
+/* Parts of a scene, as bits.  Options about missing parts are refused. */
 enum SceneNeeds {
     NEEDS_MESH = 1,        /* a square: segments, side, density, stiffness */
     NEEDS_TIME = 2,        /* motion in time, by an integrator */
@@ -65,23 +64,20 @@ typedef struct SceneBody {
 typedef struct Scene {
     const char *name;     /* name on the command line */
     const char *title;    /* heading above the picture */
-    const char *sentence; /* description in --list and the window, at most 60
-                             letters */
+    const char *sentence; /* description, at most 60 letters */
     PictureKind picture;
     unsigned needs;   /* enum SceneNeeds */
     const char *line; /* options with other values than on the slides */
     /* Fills simulation->system, the mesh and the start. */
     Status (*create)(struct Simulation *simulation);
     double speed;    /* steps a frame when the scene opens; 0 means 1 */
-    double frame[4]; /* m, left, bottom, right, top of the view; 0: the choice
-                        of the picture */
+    double frame[4]; /* m, left, bottom, right, top of the view; 0: automatic */
     double strain_colour_max; /* strain that is drawn in the full colour; 0:
                                  springs have no colours at the start */
     bool needs_dissipation;   /* the sentence describes a motion that dies away,
                                  which is true only of methods that dissipate */
     const char *step_name; /* name of a step, "iteration"; NULL: a time step */
-    bool starts_paused;    /* the window waits at step 0, to be stepped
-                              through */
+    bool starts_paused;    /* the window waits at step 0 */
     const char *group;     /* heading of the group, in its first scene */
     bool only_by_name;     /* opens by name or by a page, neither by a key nor
                               from the overview */
@@ -92,8 +88,7 @@ typedef struct Scene {
     /* Computes the next direction again, after the projection or the line
      * search changed.  NULL: the next step computes its direction. */
     void (*find_direction)(struct Simulation *simulation);
-    /* Begins the search again, after a point was dragged.  NULL: the scene
-     * moves in time. */
+    /* Begins the search again after a drag.  NULL: the scene moves in time. */
     void (*restart)(struct Simulation *simulation);
     /* A letter for each point that can be dragged: x for the mass or the
      * iterate, v for the tip of the velocity, t for x_tilde. */

@@ -1,8 +1,7 @@
 /* simulation.h - a scene while it runs: a system and one or more runs of it,
  * each with its integrator and its state.
  *
- * Most scenes have one run; circle compares three integrators, slope three
- * frictions.
+ * Most scenes have one run; circle and slope compare three runs.
  */
 #ifndef ELASTO_SIMULATION_H
 #define ELASTO_SIMULATION_H
@@ -50,8 +49,7 @@ struct Simulation {
     Ledger ledger[SIMULATION_MAX_RUNS];
     int stepping; /* run whose step is being computed */
     Status worst; /* OK, or the last other status of a run in this step */
-    double energy_before; /* J, energy minus work of run `stepping` before this
-                             step */
+    double energy_before; /* J, energy minus work of the run before this step */
     Descent descent;      /* minimisation; zero in scenes that move in time */
     Exhibit exhibit;      /* data of small scenes, and of switches */
     Prediction prediction;   /* guess where the next step leads */
@@ -139,8 +137,7 @@ Energies simulation_energies(const Simulation *simulation, int run);
  * condition a turning point would count as rest. */
 bool simulation_is_at_rest(const Simulation *simulation);
 
-/* Returns Newton's counters, summed over the runs; zero with explicit methods.
- */
+/* Returns Newton's counters, summed over the runs; explicit methods have 0. */
 NewtonCounters simulation_sum_counters(const Simulation *simulation);
 
 /* Returns when a changed option takes effect in this scene: the effect of its

@@ -1,6 +1,4 @@
-/* bodies.c - pins, pulls and places nodes; pushes and moves obstacles and
- * handles.
- */
+/* bodies.c - pins, pulls and places nodes; moves obstacles and handles. */
 #include <string.h>
 
 #include "play/playing.h"

@@ -204,8 +204,7 @@ static void format_pane_value(const Player *player, int pane,
                         &past->pane[pane].simulation, value, VALUE_SIZE);
 }
 
-/* Whether all panes but one have this value of an option, if there are at least
- * three. */
+/* Whether all of at least three panes but one have this value of an option. */
 static bool is_usual_value(const Player *player, const OptionRow *row,
                            const char *value)
 {
@@ -330,9 +329,8 @@ static int find_changed_pane(const Player *player, const OptionRow *row)
     return -1;
 }
 
-/* If options of the page are changed, writes a heading for the lines of Look
- * that are true with the page's own options: "As the page opened, with h 1 s:".
- */
+/* If options of the page are changed, writes with which of them Look is true:
+ * "As the page opened, with h 1 s:". */
 static void fill_own_options(const Player *player, LectureContent *lecture)
 {
     const OptionRow *row[OPTIONS_MAX_ROWS];
@@ -421,8 +419,7 @@ static void fill_frame(const Player *player, Frame *frame)
     frame_fill_texts(content);
 }
 
-/* Finds what is now under the mouse if the mouse was on a body, which may have
- * moved. */
+/* Finds what is under the mouse, if it was a body, which may have moved. */
 static void update_hover(Player *player)
 {
     const FrameContent *content = &player->screen.frame.content;

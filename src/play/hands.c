@@ -1,6 +1,4 @@
-/* hands.c - turns inputs of keyboard and mouse into commands, as scripts have
- * them.
- */
+/* hands.c - turns inputs of keyboard and mouse into commands. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

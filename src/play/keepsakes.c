@@ -1,5 +1,4 @@
-/* keepsakes.c - saves pictures, films and scripts of a session under new names.
- */
+/* keepsakes.c - saves pictures, films and scripts under new names. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -105,8 +104,7 @@ static void put_word(FILE *file, const char *word)
 
 /* Returns the command line that leads to the present step, to be freed, or NULL
  * if memory is missing.
- *   script  in, name of the script of the session; NULL: no commands were given
- */
+ *   script  in, name of the session's script; NULL: no commands yet */
 static char *write_command_line(const Player *player, const char *script)
 {
     char *line = NULL;

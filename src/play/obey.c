@@ -13,8 +13,7 @@ static CommandFunction *const functions[COMMAND_KINDS] = {
 
 /* ---- commands ------------------------------------------------------------ */
 
-/* Returns the number of nodes, obstacles, cards, ... that a command can name.
- */
+/* Counts the nodes, obstacles, cards or others that a command can name. */
 static long count_targets(const Player *player, int pane, CommandKind kind)
 {
     const Simulation *simulation = &player->past.pane[pane].simulation;
@@ -61,8 +60,7 @@ static Status check_target(Player *player, const Command *command)
     return STATUS_OK;
 }
 
-/* Returns the command that a key stands for now, with which a script leads to
- * the same state. */
+/* Returns the command for a script that a key stands for now. */
 static Command resolve_command(const Player *player, const Command *asked)
 {
     const double *x = player_simulation(player)->run[0].x;
@@ -126,8 +124,7 @@ Status player_obey_queue(Player *player, bool now)
     return STATUS_OK;
 }
 
-/* Abandons the step that is being made, and obeys the commands that waited for
- * its end. */
+/* Abandons the step being made, and obeys the commands that waited for it. */
 static Status abandon_step(Player *player)
 {
     int gesture = player->commands.gesture;

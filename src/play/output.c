@@ -1,5 +1,4 @@
-/* output.c - writes files that get their name when they are whole, and tables.
- */
+/* output.c - writes tables, and files that get their name when whole. */
 #include "play/output.h"
 
 #include <errno.h>

@@ -1,6 +1,4 @@
-/* past.c - stores all steps and edits, goes back to steps, undoes edits, and
- * makes steps in several panes.
- */
+/* past.c - stores the steps and edits of all panes, and goes back to them. */
 #include "play/past.h"
 
 #include <math.h>
@@ -75,8 +73,7 @@ static bool entry_is_failure(const Entry *entry)
     return status_is_failure(entry->outcome.status);
 }
 
-/* Whether a failure has ended a pane before the pane could make the step of an
- * entry. */
+/* Whether a failure has ended a pane before it could make an entry's step. */
 static bool pane_has_ended(const Entry *entry)
 {
     return entry->substeps == 0 && entry_is_failure(entry);
@@ -164,8 +161,7 @@ static void drop_branches(Past *past, int from)
 /* ---- states -------------------------------------------------------------- */
 
 /* Whether an entry keeps its state when the run of its pane leaves the step.
- * In a thinned branch entry 0 keeps its state only if no step can make the
- * state again. */
+ * In a thinned branch entry 0 keeps only a state that no step makes. */
 static bool keeps_state(const Branch *branch, const Entry *entry)
 {
     long i = (entry - branch->entry) / branch->panes;
@@ -194,8 +190,7 @@ static bool thin_states(Past *past)
     return true;
 }
 
-/* Samples at most HISTORY_POINTS steps of a long run, the newest one among
- * them. */
+/* Samples at most HISTORY_POINTS steps of a run, among them the newest. */
 void past_fill_history(const Past *past, int pane, History *history)
 {
     long newest = past_newest(past), stride = 1;
@@ -779,8 +774,7 @@ static bool edit_sets_state(const Command *edit)
            edit->kind == COMMAND_PLACE;
 }
 
-/* Whether an edit changes the state of its step.  A pin does: the pinned node
- * stops. */
+/* Whether an edit changes the state of its step, as a pin stops its node. */
 static bool edit_changes_state(const Command *edit)
 {
     return edit_sets_state(edit) || edit->kind == COMMAND_PIN;

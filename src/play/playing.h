@@ -1,5 +1,5 @@
-/* playing.h - functions that the sources of play share.  The sections are in
- * the order of the calls: a file calls only files before it.
+/* playing.h - functions that the sources of play share, in an order in which a
+ * file calls only files before it.
  */
 #ifndef ELASTO_PLAYING_H
 #define ELASTO_PLAYING_H
@@ -81,8 +81,7 @@ Status player_tolerate_failure(Player *player, Status status);
 /* Returns the command that sets an option as a part of the present gesture. */
 Command make_set_command(const OptionRow *row, double value);
 
-/* Puts a command into the queue.  The next place of a drag replaces the place
- * before. */
+/* Puts a command into the queue.  A place of a drag replaces the one before. */
 void player_enqueue(Player *player, const Command *command);
 
 /* Puts a new value of an option into the queue. */

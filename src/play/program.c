@@ -1,6 +1,4 @@
-/* program.c - begins the program from its command line and ends it with a
- * summary or a message, and an exit code.
- */
+/* program.c - begins with the command line, ends with summary and exit code. */
 #include "play/player.h"
 
 #include <errno.h>
@@ -152,9 +150,7 @@ static void print_gain(FILE *file, const Simulation *simulation)
             sum.energy, sum.steps);
 }
 
-/* Prints the steps, solver and energies of each pane; then time, files and
- * hash.
- */
+/* Prints steps, solver and energies of each pane; then time, files, hash. */
 static void print_summary(FILE *file, const Player *player)
 {
     const Recording *recording = &player->recording;

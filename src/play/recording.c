@@ -102,8 +102,7 @@ static const struct {
 
 /* ---- pictures ------------------------------------------------------------ */
 
-/* Writes red, green and blue of each pixel; libpng keeps errno of a failed
- * write. */
+/* Writes red, green, blue of each pixel; libpng keeps errno of a failure. */
 static Status png_write(FILE *file, const Canvas *canvas)
 {
     size_t count = (size_t)canvas->width * (size_t)canvas->height;

@@ -1,6 +1,4 @@
-/* session.c - queries of a player that other files share, messages, and the
- * queue of commands.
- */
+/* session.c - shared queries of a player, messages, the queue of commands. */
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>

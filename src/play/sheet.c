@@ -15,8 +15,7 @@ enum {
 /* s, computing time in a frame for the steps of all scenes together */
 static const double STEP_TIME = 0.008;
 
-/* The first cell shows the pages of the tour in turn, each other cell a scene.
- */
+/* The first cell shows the tour's pages in turn, each other cell a scene. */
 typedef struct Sheet {
     int cells;
     int next; /* index of the cell that gets the next step */

@@ -1,6 +1,4 @@
-/* start.c - begins new runs of scenes and of pages of the lecture at step 0;
- * answers of pages; cells of the envelope.
- */
+/* start.c - begins runs of scenes and pages; answers the questions of pages. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -1,6 +1,4 @@
-/* step_trace.c - stores the iterates of one step for the cards and for a walk
- * through its lines.
- */
+/* step_trace.c - stores the iterates of a step, and walks through its lines. */
 #include "play/step_trace.h"
 
 #include <math.h>
@@ -79,8 +77,7 @@ static bool reserve_round(StepTrace *trace)
 
 /* ---- rounds -------------------------------------------------------------- */
 
-/* Stores E along p of the newest round; samples E unless the polynomial is all
- * of it. */
+/* Stores E along p of the newest round; samples E unless it is polynomial. */
 static void store_line_energy(StepTrace *trace, const Iterate *at)
 {
     Round *round = &trace->round[trace->records.count];

@@ -34,9 +34,8 @@ static Status record_iterations(Player *player, long step)
     return status;
 }
 
-/* Writes the shown step to the tables if it is the next one to be written and
- * all panes have its records.  Writes only the energies if only these are
- * missing. */
+/* Writes the shown step, or only its energies if only these are missing, to the
+ * tables if it is the next one to be written and all panes have its records. */
 static Status record_step(Player *player)
 {
     Past *past = &player->past;
@@ -203,8 +202,7 @@ static void report_rest(Player *player)
                     : "");
 }
 
-/* Reports the first step of a run in which the total energy has risen without
- * work. */
+/* Reports the first step in which the total energy has risen without work. */
 static void report_energy_gain(Player *player)
 {
     const Past *past = &player->past;

@@ -1,6 +1,4 @@
-/* window_sdl.c - the window on a computer: SDL shows finished pictures and
- * reads the inputs.
- */
+/* window_sdl.c - the window on a computer, by SDL. */
 #include <SDL.h>
 #include <ctype.h>
 #include <stdio.h>

@@ -1,6 +1,4 @@
-/* body.c - creates bodies, obstacles and energy terms from the options, and
- * checks that a run can start with them.
- */
+/* body.c - creates and checks bodies, obstacles and terms of the options. */
 #include "run/body.h"
 
 #include <math.h>
@@ -213,9 +211,8 @@ static Status set_obstacles(const Options *options, System *system)
                                        options->slip_speed);
 }
 
-/* Sets contact between bodies and its friction.  The barrier is at most a
- * quarter of an edge wide: a wider one would repel neighbouring edges at rest.
- */
+/* Sets contact between bodies and its friction.  A barrier wider than a quarter
+ * of an edge would repel neighbouring edges at rest. */
 static Status set_self_contact(const Options *options, const SquareMesh *mesh,
                                System *system)
 {

@@ -1,6 +1,4 @@
-/* control.c - makes controls (options, pins, what the mouse holds) and applies
- * them to a simulation.
- */
+/* control.c - makes controls, and applies them to a simulation. */
 #include "run/control.h"
 
 #include <math.h>

@@ -19,9 +19,7 @@ int exhibit_list_handles(const Simulation *simulation,
 }
 
 /* Dragging x moves the mass; the velocity stays, or becomes 0 in scenes with
- * springs.  Dragging v sets the velocity.  Each run begins again from this
- * state.
- */
+ * springs.  Dragging v sets the velocity.  Each run begins again from there. */
 void exhibit_drag_handle(Simulation *simulation, int handle, double x, double y)
 {
     const Scene *scene = simulation->scene;

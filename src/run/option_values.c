@@ -1,6 +1,4 @@
-/* option_values.c - values of options: read as users type them, written as
- * text, and changed in steps of the mouse wheel.
- */
+/* option_values.c - reads, writes and raises the values of options. */
 #include "run/options.h"
 
 #include <math.h>

@@ -1,6 +1,4 @@
-/* simulation.c - creates a scene, makes its steps, and tests whether a body is
- * at rest.
- */
+/* simulation.c - creates a scene, makes its steps, tests whether it rests. */
 #include "run/simulation.h"
 
 #include <math.h>

@@ -1,6 +1,4 @@
-/* start_table.c - reads the start of a run from CSV tables: a step of a table
- * of states, and its springs from a table of springs.
- */
+/* start_table.c - reads starts of runs from tables of states and springs. */
 #include "run/body.h"
 
 #include <errno.h>
@@ -26,8 +24,7 @@ typedef struct TableReader {
     long line_number; /* number of the line in line_text, from 1 */
     int columns;      /* number of columns of the table */
     const char *const *names; /* names of wanted columns, up to NULL */
-    int column_index[MAX_COLUMNS]; /* index of each wanted column; -1: missing
-                                    */
+    int column_index[MAX_COLUMNS]; /* [wanted column]; -1: missing */
     bool has_panes;           /* the table has a column "pane" */
     char why[200];            /* why the table cannot be read, or "" */
 } TableReader;
