@@ -77,9 +77,8 @@ Command command_from_key(const char *key, bool repeats, Keyboard keyboard);
 /* Prints the text of --help commands. */
 void commands_print_help(FILE *file);
 
-/* Reads the line of a command, such as "goto 12".
- *   message  out, reason of INVALID_INPUT
- * Returns OK or INVALID_INPUT. */
+/* Reads the line of a command, such as "goto 12".  Returns OK, or INVALID_INPUT
+ * with a message. */
 Status command_parse(const char *line, Command *command, Message message);
 
 /* Writes the line that command_parse reads, its numbers with 17 digits.
@@ -130,7 +129,6 @@ Status script_write(const char *name, const char *line, const Script *script);
  *   waits  the run goes on: lines of later steps are not due */
 const Command *script_due(Script *script, long step, bool waits);
 
-/* Whether all lines were obeyed. */
 bool script_is_over(const Script *script);
 
 void script_free(Script *script);

@@ -36,12 +36,10 @@ typedef enum FileEnding {
 /* Opens a file.  Returns OK, FILE_FAILED (message and errno say why). */
 Status output_open(const char *name, char *message, Output *output);
 
-/* Flushes and closes a file if it is open; output->name stays.  Returns OK, or
- * FILE_FAILED and leaves NAME.part. */
+/* Closes an open file.  Returns OK, or FILE_FAILED and leaves NAME.part. */
 Status output_close(Output *output, FileEnding keep);
 
-/* Writes "NAME: why" into `message` if it is empty.
- *   why  in, or NULL: output_reason
+/* Writes "NAME: why" into an empty message; why NULL stands for output_reason.
  * Returns the status. */
 Status output_report(char *message, const char *name, Status status,
                      const char *why);

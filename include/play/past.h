@@ -174,8 +174,7 @@ Status past_edit(Past *past, const Command *edit, int from, int to, bool again,
                  int gesture);
 
 /* Sets the step to be shown, 0 ... newest + 1, and abandons the present work.
- *   again  the step is made once more, however long that takes, and E along p
- *          is sampled in each of its iterations */
+ *   again  the step is made once more, with samples of E in each iteration */
 void past_choose_step(Past *past, long step, bool again);
 
 /* Does a part of the work: makes a Newton iteration, or begins a step.  Returns

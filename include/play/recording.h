@@ -37,8 +37,7 @@ Status film_open(const char *name, char *message, Film *film);
  * smaller one filled with white.  Returns OK, FILE_FAILED. */
 Status film_add(Film *film, const Canvas *canvas, int times);
 
-/* Ends a film, if one runs.  Returns OK, FILE_FAILED; a film without frames is
- * a failure and leaves no file. */
+/* Ends a film, if any.  Returns OK, FILE_FAILED; a film needs a frame. */
 Status film_close(Film *film, FileEnding keep);
 
 /* Whether a film was begun and not ended. */

@@ -9,8 +9,7 @@
 
 #include "run/simulation.h"
 
-/* Decisions of a user about a run.  Steps share a control, so a shared control
- * is never changed. */
+/* Decisions of a user about a run.  A control that steps share is constant. */
 typedef struct Control {
     int users; /* reference count; the last user frees the control */
     Options options;
@@ -35,8 +34,7 @@ bool control_hand_holds(const Control *control);
 void simulation_find_obstacle(const Simulation *simulation, int run, int number,
                               double at[2]);
 
-/* Copies the position of an obstacle from the simulation to the options, if the
- * position is the same in all runs. */
+/* Copies an obstacle's place to the options, if all runs have the same. */
 void control_store_obstacle(Control *control, int number,
                             const Simulation *simulation);
 
@@ -57,9 +55,7 @@ Status control_apply(Simulation *simulation, const Control *control);
 /* The state is all that a step changes: positions, velocities, the memory of
  * integrators and terms, counters, and the data of small scenes. */
 
-/* Writes the state as bytes.
- *   bytes  out, or NULL
- * Returns the number of bytes. */
+/* Writes the state as bytes, unless `bytes` is NULL.  Returns their number. */
 size_t state_save(const Simulation *simulation, void *bytes);
 
 /* Restores a saved state.  The stiffness of unbroken springs and the numbers of

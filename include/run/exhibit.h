@@ -137,8 +137,7 @@ bool exhibit_has_kind_switches(const struct Simulation *simulation);
 /* Returns the kind of a spring: 0 horizontal, 1 vertical, 2, 3 diagonal. */
 int exhibit_spring_kind(const struct Simulation *simulation, int spring);
 
-/* Moves a point to (x, y), m, and begins the scene again from there; without
- * effect if x or y is not finite. */
+/* Moves a point to (x, y), m, if finite; begins the scene again from there. */
 void exhibit_drag_handle(struct Simulation *simulation, int handle, double x,
                          double y);
 

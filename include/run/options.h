@@ -160,8 +160,7 @@ typedef struct OptionDisplay {
                          the number, or chooses the next name */
 } OptionDisplay;
 
-/* One option.  The struct has many fields because options differ in many ways;
- * most fields of a row are 0. */
+/* One option.  Options differ in many ways; most fields of a row are 0. */
 typedef struct OptionRow {
     const char *name; /* without dashes; "": help is the heading of a section
                          of --help; NULL ends the table */
@@ -245,9 +244,8 @@ const char *option_label(const OptionRow *row);
  *   text  [size] out */
 void option_write_unit(const OptionRow *row, char *text, size_t size);
 
-/* Lists the options that the window's row of numbers shows, in order.
- *   found  [OPTIONS_MAX_ROWS] out
- * Returns how many there are. */
+/* Lists the options of the window's row of numbers, in order.  Returns how many
+ * there are. */
 int options_list_visible(const Options *options,
                          const OptionRow *found[OPTIONS_MAX_ROWS]);
 

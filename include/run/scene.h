@@ -72,15 +72,13 @@ typedef struct Scene {
     Status (*create)(struct Simulation *simulation);
     double speed;    /* steps a frame when the scene opens; 0 means 1 */
     double frame[4]; /* m, left, bottom, right, top of the view; 0: automatic */
-    double strain_colour_max; /* strain that is drawn in the full colour; 0:
-                                 springs have no colours at the start */
+    double strain_colour_max; /* strain of the full colour; 0: no colours */
     bool needs_dissipation;   /* the sentence describes a motion that dies away,
                                  which is true only of methods that dissipate */
     const char *step_name; /* name of a step, "iteration"; NULL: a time step */
     bool starts_paused;    /* the window waits at step 0 */
     const char *group;     /* heading of the group, in its first scene */
-    bool only_by_name;     /* opens by name or by a page, neither by a key nor
-                              from the overview */
+    bool only_by_name;     /* has no key, and no cell in the overview */
     const char *pin;       /* value of --pin */
     SceneBody body;
     /* Makes one step; NULL: a step in time of each run. */

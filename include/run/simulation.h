@@ -41,8 +41,7 @@ struct Simulation {
     Options options;
     SquareMesh mesh; /* mesh of the square; zero in other scenes */
     System system;   /* system of run 0, which all runs may share */
-    System more[SIMULATION_MAX_RUNS]; /* systems of runs 1 and 2 if each run has
-                                         a system of its own */
+    System more[SIMULATION_MAX_RUNS]; /* systems of runs 1, 2 if not shared */
     int runs;
     TimeIntegrator run[SIMULATION_MAX_RUNS];
     RunVariant variant[SIMULATION_MAX_RUNS];
@@ -60,8 +59,7 @@ struct Simulation {
     int reasons[STATUS_COUNT];   /* unconverged steps by their status */
     Status status;               /* status of the last step */
     bool done;                   /* the scene has ended: a step does nothing */
-    NewtonCounters old_counters; /* counts of Newton's work by integrators that
-                                    another method has replaced */
+    NewtonCounters old_counters; /* work of integrators that were replaced */
 };
 
 /* A quantity of energy by its name: "elastic", "friction". */
@@ -140,9 +138,8 @@ bool simulation_is_at_rest(const Simulation *simulation);
 /* Returns Newton's counters, summed over the runs; explicit methods have 0. */
 NewtonCounters simulation_sum_counters(const Simulation *simulation);
 
-/* Returns when a changed option takes effect in this scene: the effect of its
- * row, except that scenes without time need a new start, and so does another
- * method if runs have different ones. */
+/* Returns when a changed option takes effect: as its row says, but in a new run
+ * for scenes without time, and for a method where runs have different ones. */
 Effect simulation_find_option_effect(const Simulation *simulation,
                                      const OptionRow *row);
 

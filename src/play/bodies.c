@@ -85,8 +85,7 @@ Status obey_drag(Player *player, const Command *command)
     return edit_all_panes(player, command);
 }
 
-/* Moves a handle of the scene or flips a switch; a start that is moved begins
- * the minimisation again at step 0. */
+/* Moves a handle or flips a switch; a moved start leads back to step 0. */
 Status obey_handle(Player *player, const Command *command)
 {
     Past *past = &player->past;

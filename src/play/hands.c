@@ -158,8 +158,7 @@ static Status drag_number(Player *player, const MouseTarget *target)
                                            : player_obey(player, &set);
 }
 
-/* Opens the scene `square` with h, k and stretch of a cell of the map, by
- * commands that a script can repeat. */
+/* Opens a square with h, k and stretch of a cell, by commands for scripts. */
 static Status open_cell(Player *player, long cell)
 {
     const Options map = player_simulation(player)->options;
@@ -321,8 +320,7 @@ static Status go_on_dragging(Player *player)
 
 /* ---- events -------------------------------------------------------------- */
 
-/* Stores what is under the mouse for the next frame; runs a cell of the
- * envelope at once. */
+/* Stores what is under the mouse; runs a cell of the envelope at once. */
 static Status note_hover(Player *player)
 {
     View *view = &player->screen.view;

@@ -122,8 +122,7 @@ static void drop_entry(Past *past, Entry *entry)
     *entry = (Entry){0};
 }
 
-/* Reserves memory for one more entry of each pane.  If states are not stored,
- * only the last two entries stay. */
+/* Reserves an entry of each pane; without states only two entries stay. */
 static Status reserve_entry(Past *past, Branch *branch)
 {
     size_t row = (size_t)branch->panes * sizeof(Entry);
@@ -206,8 +205,7 @@ void past_fill_history(const Past *past, int pane, History *history)
     }
 }
 
-/* Stores the state of a pane's run in an entry, and drops other states if
- * memory would exceed its limit. */
+/* Stores a pane's state in an entry; drops others beyond the memory's limit. */
 static Status store_state(Past *past, int pane, bool set, Entry *entry)
 {
     const PaneRun *run = &past->pane[pane];

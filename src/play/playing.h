@@ -67,15 +67,13 @@ void player_note(Player *player, const char *format, ...);
 #define player_refuse(player, ...)                                             \
     refuse((Message){(player)->message, sizeof(player)->message}, __VA_ARGS__)
 
-/* Shows the reason of INVALID_INPUT as a message, and returns OK.  Returns any
- * other status as it is. */
+/* Shows the reason of INVALID_INPUT and returns OK; else returns the status. */
 Status player_show_refusal(Player *player, Status status);
 
 /* Pauses the run unless it has stopped already. */
 void player_pause(Player *player);
 
-/* Pauses an attended run after a step that failed.  Returns OK, or the status
- * that ends the run. */
+/* Pauses an attended run after a failure.  Returns OK, or what ends the run. */
 Status player_tolerate_failure(Player *player, Status status);
 
 /* Returns the command that sets an option as a part of the present gesture. */
@@ -133,8 +131,7 @@ Status player_write_remaining(Player *player);
 
 /* ---- start.c ------------------------------------------------------------- */
 
-/* Begins new runs with the present pins.  If a page begins again, its opening
- * commands go into the queue. */
+/* Begins new runs with the present pins; enqueues a page's opening commands. */
 Status player_restart_runs(Player *player, const Options *options, int panes,
                            const Command *edit);
 
@@ -159,8 +156,7 @@ Status player_reveal_answer(Player *player, const char *typed);
 
 /* ---- numbers.c ----------------------------------------------------------- */
 
-/* Lists the options in the row of numbers, or all numbers of the scene.
- * Returns how many there are. */
+/* Lists the row of numbers, or all numbers of the scene.  Returns how many. */
 int player_list_options(const Player *player, bool all,
                         const OptionRow *found[OPTIONS_MAX_ROWS]);
 

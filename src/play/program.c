@@ -105,8 +105,7 @@ static int report_failure(const Player *player, Status status)
 #define print_quantity(file, name, format, ...)                                \
     print_line(file, "%-20s" format, name, __VA_ARGS__)
 
-/* Prints the solver of the last step, the reason if it was not multigrid, and
- * counts of Newton's work. */
+/* Prints the last step's solver, why not multigrid, and Newton's work. */
 static void print_newton(FILE *file, const Simulation *simulation)
 {
     const Newton *newton = simulation->run[0].newton;

@@ -13,8 +13,7 @@
 
 /* ---- tables -------------------------------------------------------------- */
 
-/* Writes to the log the Newton iterations of a step that the panes have just
- * made or failed to make. */
+/* Writes the iterations of the last step, also of a failed one, to the log. */
 static Status record_iterations(Player *player, long step)
 {
     Recording *recording = &player->recording;
@@ -332,8 +331,7 @@ static void describe_outcome(const Player *player, const OptionRow *row,
         append(text, size, ", %s", status_text(outcome->status));
 }
 
-/* Reports the outcome of the step before and after the edit, and returns to the
- * line of Algorithm 3 that was shown. */
+/* Reports the outcomes before and after the edit; shows the same line again. */
 static void compare_outcomes(Player *player)
 {
     const Past *past = &player->past;

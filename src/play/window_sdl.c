@@ -17,8 +17,7 @@ enum {
 
 static SDL_Window *window;
 
-/* Tab key and mouse at the time of the event that is read.  SDL knows only
- * their present state. */
+/* Tab key and mouse when the event was sent; SDL knows only their present. */
 static bool tab_alone; /* Tab is down, and no other key was pressed since */
 static bool tab_held;
 static SDL_Point mouse;

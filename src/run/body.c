@@ -75,8 +75,7 @@ SquareMesh body_make_mesh(const Options *options)
                               options->side, (int)fmax(options->bodies, 1));
 }
 
-/* Returns the node at the centre of the scene's ball, which is the last node;
- * -1: the scene has no ball. */
+/* Returns the node at the centre of the scene's ball, the last one; or -1. */
 static int find_ball_node(const Options *options)
 {
     return options->scene->body.obstacle
@@ -374,8 +373,7 @@ Status body_check_method(const Options *options, Message message)
                         method->name, term);
 }
 
-/* Writes the name of an obstacle for a message: "the ball", or "ball 2" if
- * there are several. */
+/* Writes the name of an obstacle: "the ball", or "ball 2" of several. */
 static void name_obstacle(const Options *options, int number, char *name,
                           size_t size)
 {

@@ -33,8 +33,7 @@ const char *solver_name(int solver)
     return solvers[solver];
 }
 
-/* Default numbers of --body, for those that a shorter value leaves out: turn 0,
- * velocity 0, stretch 1. */
+/* Numbers of --body that may be left out: turn 0, velocity 0, stretch 1. */
 static const double body_omitted[BODY_NUMBERS] = {0, 0, 0, 0, 0, 1, 1};
 
 /* Functions for OptionRow.idle_reason: each returns why an option has no

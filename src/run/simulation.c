@@ -8,8 +8,7 @@
 #include "model/neo_hookean.h"
 #include "model/self_contact.h"
 
-/* Limit of Newton iterations in a step.  The largest squares, of 1024 segments,
- * need some thousands. */
+/* Most Newton iterations in a step; 1024 segments need some thousands. */
 enum { MAX_NEWTON_ITERATIONS = 10000 };
 
 void options_fill_newton_settings(const Options *options,
@@ -108,8 +107,7 @@ static void book_gain(Simulation *simulation)
     simulation->ledger[run].gain.energy += gained;
 }
 
-/* The runs make their steps one after another.  Returns the last status of a
- * run that is not OK, if there is one. */
+/* Runs step one after another.  Returns their last status that is not OK. */
 Status simulation_advance(Simulation *simulation)
 {
     while (simulation->stepping < simulation->runs) {
@@ -247,8 +245,7 @@ bool simulation_has_updates(const Simulation *simulation)
     return simulation->run[0].newton && (simulation->scene->needs & NEEDS_TIME);
 }
 
-/* A projection needs springs, a method that uses their Hessian, and a scene
- * that shows the projection. */
+/* The springs' Hessian must be used, and the scene must show its projection. */
 bool simulation_has_projection(const Simulation *simulation)
 {
     return simulation->system.springs > 0 && simulation->run[0].newton &&

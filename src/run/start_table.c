@@ -93,8 +93,7 @@ static void read_names(TableReader *reader)
                     shown, reader->names[k]);
 }
 
-/* Reads the next row.  Returns false at the end, and if the row cannot be read;
- * reader->why then has the reason. */
+/* Reads the next row.  Returns false at the end, or with a reason in `why`. */
 static bool read_next_row(TableReader *reader, TableRow *row)
 {
     int fields = 0;
@@ -123,8 +122,7 @@ static bool read_next_row(TableReader *reader, TableRow *row)
 
 /* ---- a step of a table --------------------------------------------------- */
 
-/* The rows of one step and one run in a table.  The second column numbers the
- * rows of a step from 0. */
+/* The rows of a step and a run, which the second column numbers from 0. */
 typedef struct TablePart {
     const char *option;             /* option with the table, for messages */
     const char *file;               /* name of the file */
