@@ -1,7 +1,6 @@
 /* command.h - the commands of keys, mouse, wheel and scripts.
  *
- * The table command_rows has a row for each command, with its word and
- * arguments in scripts, its keys and an explanation.  The window obeys the same
+ * The table command_rows has a row for each command.  The window obeys the same
  * commands as a script, so a session can be saved as a script and played again.
  */
 #ifndef ELASTO_COMMAND_H
@@ -68,10 +67,9 @@ typedef struct CommandRow {
 
 extern const CommandRow command_rows[COMMAND_KINDS];
 
-/* Returns the command of a key, with the key as its text, or COMMAND_NONE.
- *   key       in, "N", "Shift+N", "Left", "+"
- *   repeats   in, the key is held down
- *   keyboard  in, part of the window that gets the key */
+/* Returns the command of a key such as "Shift+N", with the key as its text, or
+ * COMMAND_NONE.
+ *   repeats  in, the key is held down */
 Command command_from_key(const char *key, bool repeats, Keyboard keyboard);
 
 /* Prints the text of --help commands. */

@@ -11,7 +11,6 @@
  * Branches are a stack.  Undo returns to the branch below, at the step where
  * the user left it; redo returns to the branch above; an edit drops the
  * branches above the present one.
- *
  * An entry has the state after its step, and the control with which the next
  * step is made (control_apply).  A branch begins with a new control at a state
  * of the branch below.  Where several branches begin at one step, the control
@@ -20,7 +19,6 @@
  *
  * To show a step, the run of each pane loads the nearest stored state up to
  * that step, and makes the steps from there once more (past_iterate).
- *
  * The panes share their time and count of steps.  A step is one time step of
  * the pane with the longest one, and as many of the others as fit into it.  A
  * pane that cannot make its part ends; the others go on.
@@ -166,8 +164,7 @@ Status past_begin_runs(Past *past, const Options *options, int panes,
  *            COMMAND_HANDLE, COMMAND_FLIP; COMMAND_ADD_PANE adds a pane with
  *            the past of the last one, COMMAND_END_PANE removes the last one
  *   from,to  panes from ... to - 1 are edited
- *   again    past_iterate makes the shown step, which is not step 0, once more
- *            with the edit
+ *   again    past_iterate makes the shown step once more with the edit
  *   gesture  id, or 0; edits of one gesture are undone together
  * Returns OK, OUT_OF_MEMORY. */
 Status past_edit(Past *past, const Command *edit, int from, int to, bool again,

@@ -189,8 +189,7 @@ typedef struct Player {
                       written; a sentence about the thing replaces the note */
 } Player;
 
-/* Creates a player.  If no screen can be opened, reports this on standard error
- * and writes 100 frames to the folder "frames".
+/* Creates a player.  Without a screen it writes 100 frames to "frames".
  *   options  [count] in, options of each pane
  *   words    in, command line, ended by NULL, or NULL; outlives the player
  *   stop     in, not 0 ends the run after the present step; outlives the player
@@ -269,9 +268,8 @@ int player_next_scene_argument(const Player *player, int i);
 int program_begin(int argc, char **argv, const volatile sig_atomic_t *stop,
                   Player *player);
 
-/* Finishes the files and prints the summary, or why the run failed.
- *   status  in, last status of the run
- * Returns the exit code. */
+/* Finishes the files after the last status of a run, and prints the summary or
+ * why the run failed.  Returns the exit code. */
 int program_end(Player *player, Status status);
 
 #endif

@@ -1,7 +1,6 @@
 /* recording.h - the files that a run writes: frames, films, tables.
  *
- * Frames are FOLDER/frame_000000.png, ..., numbered by their steps; frames of
- * an earlier run that this one does not reach stay there.
+ * Frames are FOLDER/frame_000000.png, ..., numbered by their steps.
  * Tables (output.h) begin at step 0; README.md of play explains their columns.
  * Nodes and springs of run 1 are numbered after those of run 0, and runs of all
  * panes from 0.  If a user goes back and changes a step, its new rows follow

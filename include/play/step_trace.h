@@ -1,8 +1,6 @@
-/* step_trace.h - the iterates of one step, for the cards and for a walk through
- * the lines of Algorithm 3.
+/* step_trace.h - the iterates of a step, for cards and for a walk through it.
  *
- * A round is one Newton iteration; Newton's observer adds it.  A place is a
- * line of Algorithm 3 in a round.
+ * A round is a Newton iteration; a place is a line of Algorithm 3 in a round.
  */
 #ifndef ELASTO_STEP_TRACE_H
 #define ELASTO_STEP_TRACE_H
@@ -69,8 +67,7 @@ typedef struct StepTrace {
 void step_trace_begin(StepTrace *trace, const Simulation *simulation, bool all,
                       bool last);
 
-/* Whether E along p is to be drawn in the round of a place, but was not
- * sampled.
+/* Whether samples of E along p are missing in the round of a place.
  *   place  index of the place; -1: the last round */
 bool step_trace_lacks_samples(const StepTrace *trace, int place);
 

@@ -1,6 +1,4 @@
-/* view.h - shows the window, on a computer (window_sdl.c) or in a web page
- * (window_web.c), and reads its inputs.
- */
+/* view.h - shows the window, by SDL or in a web page, and reads its inputs. */
 #ifndef ELASTO_VIEW_H
 #define ELASTO_VIEW_H
 

@@ -1,6 +1,4 @@
-/* body.h - the body that options describe: a square or a beam of square cells,
- * its start, its obstacles and its energy terms.
- */
+/* body.h - the body of the options, with mesh, start, obstacles and terms. */
 #ifndef ELASTO_BODY_H
 #define ELASTO_BODY_H
 
@@ -45,9 +43,8 @@ Status body_check(const Options *options, Message message);
 
 /* Reads positions and velocities of a run from options->state, a table that
  * --states wrote, or which of its springs are broken and have yielded from
- * options->state_springs, a table of --springs.  Columns are found by their
- * names, so that a table may have more.  A table with several panes gives
- * its first pane.
+ * options->state_springs, a table of --springs.  Columns are found by name.  A
+ * table with several panes gives its first pane.
  *   nodes    nodes of each run; the rows of run r follow those of run r - 1
  *   x, v     [2 nodes] out, m, m/s
  *   system   in/out, with all its terms

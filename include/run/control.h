@@ -1,6 +1,4 @@
-/* control.h - the inputs of a step: the control, which is all that a user
- * decides (options, pins, what the mouse holds), and the state before the step.
- */
+/* control.h - the inputs of a step: control (a user's decisions) and state. */
 #ifndef ELASTO_CONTROL_H
 #define ELASTO_CONTROL_H
 
@@ -20,9 +18,8 @@ typedef struct Control {
     unsigned char pinned[]; /* [nodes] 1: pinned, 0: free */
 } Control;
 
-/* Return a new control, either of a simulation in which the mouse holds nothing
- * or as a copy.  The caller may change it until control_retain adds a second
- * user.  NULL: no memory. */
+/* Return a new control of a simulation, nothing held, or a copy.  The caller
+ * may change it until control_retain adds a second user.  NULL: no memory. */
 Control *control_from_simulation(const Simulation *simulation);
 Control *control_copy(const Control *from);
 

@@ -1,6 +1,5 @@
-/* exhibit.h - data of the lecture's small scenes besides positions and
- * velocities, and the points and switches that a user can move in them.  The
- * data are plain numbers and part of the saved state.
+/* exhibit.h - data of the lecture's small scenes, which are part of the saved
+ * state, and the points and switches that a user can move in them.
  */
 #ifndef ELASTO_EXHIBIT_H
 #define ELASTO_EXHIBIT_H

@@ -1,5 +1,4 @@
-/* options.h - the options of a run as a struct, and a table that describes
- * them.
+/* options.h - the options of a run as a struct, and a table about them.
  *
  * A row of the table is the only description of an option: the command line,
  * --help, the window's row of numbers, scripts and labels of panes read it.
@@ -209,9 +208,8 @@ bool option_allows(const OptionRow *row, double number);
 /* Returns how many values a text with separators has. */
 int option_count_values(const char *text, char separator);
 
-/* Reads a value as users type it: numbers such as "1/60" and "4 ms", each in
- * the row's range, or a name.  A single number may have a decimal comma,
- * "0,02".
+/* Reads a value as users type it: numbers such as "1/60", "4 ms", and "0,02" if
+ * there is only one, each in the row's range, or a name.
  *   count   expected numbers; a value may have fewer if the row says so
  *   number  [count] out; the index of a name
  * Returns whether the text is such a value. */

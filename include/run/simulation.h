@@ -1,7 +1,5 @@
-/* simulation.h - a scene while it runs: a system and one or more runs of it,
+/* simulation.h - a scene while it runs: a system and one to three runs of it,
  * each with its integrator and its state.
- *
- * Most scenes have one run; circle and slope compare three runs.
  */
 #ifndef ELASTO_SIMULATION_H
 #define ELASTO_SIMULATION_H
@@ -148,9 +146,8 @@ Effect simulation_find_option_effect(const Simulation *simulation,
 Status simulation_check_clearance(const Simulation *simulation,
                                   const Options *options, Message message);
 
-/* Returns the part of the straight way to a point that an obstacle of these
- * options can move: 1 if there is room at the end, else the part up to the
- * first body.
+/* Returns the part of the straight way to a point that an obstacle can move: 1
+ * if there is room at the end, else the part up to the first body.
  *   number  of the obstacle: grounds first, then balls
  *   to      [2] m, in, the point */
 double simulation_find_free_way(const Simulation *simulation,

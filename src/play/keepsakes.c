@@ -102,8 +102,7 @@ static void put_word(FILE *file, const char *word)
     fputs(bare ? "" : "'", file);
 }
 
-/* Returns the command line that leads to the present step, to be freed, or NULL
- * if memory is missing.
+/* Returns the command line of the present step, to be freed; NULL: no memory.
  *   script  in, name of the session's script; NULL: no commands yet */
 static char *write_command_line(const Player *player, const char *script)
 {

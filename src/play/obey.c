@@ -136,9 +136,8 @@ static Status abandon_step(Player *player)
     return status;
 }
 
-/* Begins a gesture, which is undone as a whole, unless the command joins the
- * present one; a drag belongs to the gesture of its grab.  Clears the messages
- * of the last command. */
+/* Begins a gesture, which is undone as a whole, unless the command joins one; a
+ * drag joins its grab.  Clears the messages of the last command. */
 static void begin_command(Player *player, const Command *command)
 {
     unsigned flags = command_rows[command->kind].flags;

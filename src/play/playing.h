@@ -1,6 +1,4 @@
-/* playing.h - functions that the sources of play share, in an order in which a
- * file calls only files before it.
- */
+/* playing.h - functions that files of play share; a file calls those above. */
 #ifndef ELASTO_PLAYING_H
 #define ELASTO_PLAYING_H
 
@@ -149,8 +147,7 @@ void player_store_own_options(Player *player, const Options *options);
 /* Whether the page in the window waits for a guess. */
 bool player_hides_answer(const Player *player);
 
-/* Shows the answer of the page, judges the guess, and puts the page's commands
- * for the answer into the queue.
+/* Shows the answer of the page, judges the guess, enqueues the page's commands.
  *   typed  in, the guess, or NULL */
 Status player_reveal_answer(Player *player, const char *typed);
 

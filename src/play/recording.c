@@ -141,7 +141,7 @@ Status png_file_write(const char *name, char *message, const Canvas *canvas)
     return status;
 }
 
-/* Finds the frames that are in the folder before the first one is written. */
+/* Finds the frames that an earlier run has left in the folder. */
 static void find_old_frames(Recording *recording)
 {
     DIR *folder = opendir(recording->folder);

@@ -116,9 +116,8 @@ void sheet_fill(const Player *player, FrameContent *content)
     snprintf(content->strip.state, VALUE_SIZE, "digits: a page of the tour");
 }
 
-/* Closes the sheet, and opens the scene or page of the chosen cell by a
- * command, which scripts can repeat.  If the chosen cell is the tour and a page
- * is open already, the page stays. */
+/* Opens the scene or page of the chosen cell by a command, which scripts can
+ * repeat.  An open page stays if the chosen cell is the tour. */
 Status obey_open(Player *player, const Command *command)
 {
     char line[32] = "page-on";

@@ -1,7 +1,4 @@
-/* steps.c - goes through time: works until a step is shown, and records it;
- * stops runs that have ended; goes on and back by steps, Newton's updates or
- * lines of Algorithm 3; makes the shown step once more; undoes edits.
- */
+/* steps.c - goes through time by steps, updates or lines, and undoes edits. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,7 +1,4 @@
-/* window_web.c - the window in a web page: shows the paper in the page's
- * canvas, and queues the inputs of mouse, touch and keys.  src/web/page.js has
- * the object Page.
- */
+/* window_web.c - the window in a web page, whose object Page is in src/web. */
 #include <emscripten.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -227,10 +227,8 @@ static Status set_self_contact(const Options *options, const SquareMesh *mesh,
                                        options->slip_speed);
 }
 
-/* Adds the terms of the options, changes the numbers of terms that the system
- * has, and removes terms whose option is off.  Obstacles, self-contact and
- * cells depend on several options each; every other term belongs to one row of
- * option_rows. */
+/* Adds, changes and removes terms as the options say.  Obstacles, self-contact
+ * and cells depend on several options; each other term belongs to one row. */
 static Status set_terms(const Options *options, System *system)
 {
     const SquareMesh shape = body_make_mesh(options);
@@ -252,8 +250,7 @@ static Status set_terms(const Options *options, System *system)
 }
 
 /* Computes the start of a run: a step of a table, or the rest shape stretched,
- * turned and moved by the options; a turn of 0 degrees changes no bit.  The
- * scene's ball starts at its place in the scene.
+ * turned and moved.  The scene's ball starts at its place in the scene.
  *   x, v  [2 nodes] out, m, m/s */
 static Status place_body(const Options *options, int run, double *x, double *v,
                          Message message)

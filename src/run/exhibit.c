@@ -87,9 +87,8 @@ unsigned exhibit_find_flips(const Simulation *simulation)
     return simulation->exhibit.switches ^ at_start;
 }
 
-/* The energy that a kind of springs takes away is booked as work.  At least one
- * part of E stays on.  A switch changes the function that is minimised, so the
- * updates so far are no longer shown. */
+/* The energy that springs take away is booked as work.  The last part stays on.
+ * A switch changes E, so the updates so far are no longer shown. */
 void exhibit_flip_switch(Simulation *simulation, int number)
 {
     const Scene *scene = simulation->scene;

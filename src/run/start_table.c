@@ -132,9 +132,8 @@ typedef struct TablePart {
     int run;  /* index of the run that is read */
 } TablePart;
 
-/* Reads the rows of one run at the step options->state_step; -1 is the last
- * step of the table.  A table has a step several times if the user went back;
- * the last rows of a step count.
+/* Reads the rows of one run at the step options->state_step; -1: at the last
+ * step.  If the user went back, the last rows of a step count.
  *   row  [part->size] out */
 static void read_rows(TableReader *reader, const Options *options,
                       const TablePart *part, TableRow *row)
