@@ -2,9 +2,7 @@
  *
  * The origin is the upper left corner, y points down, and pixel (i, j) covers
  * [i, i+1) x [j, j+1).  A shape adds its colour in proportion to the part of
- * the pixel that it covers.  Shapes are clipped; NaN and infinite
- * coordinates draw nothing.
- */
+ * the pixel that it covers.  NaN and infinite coordinates draw nothing. */
 #ifndef ELASTO_CANVAS_H
 #define ELASTO_CANVAS_H
 
@@ -26,8 +24,7 @@ typedef struct Box {
  * becomes the nearest safe number, NaN the least one. */
 int pixel_from_coordinate(double place);
 
-/* Returns the box without a margin on each side; width and height are at least
- * 0. */
+/* Returns the box without a margin on each side; sizes are at least 0. */
 Box box_inset(Box box, int margin);
 bool box_contains(Box box, double x, double y);
 
@@ -78,15 +75,13 @@ void canvas_line(Canvas *canvas, double x0, double y0, double x1, double y1,
 void canvas_dashes(Canvas *canvas, const double a[2], const double b[2],
                    double width, double unit, double *phase, Colour colour);
 
-/* A line with a filled head at (x1, y1), which is `head` pixels long, or
- * shorter on a short line. */
+/* A line with a filled head at (x1, y1), at most `head` pixels long. */
 void canvas_arrow(Canvas *canvas, double x0, double y0, double x1, double y1,
                   double width, double head, Colour colour);
 
 /* A filled triangle.
  *   c       corners x, y, x, y, x, y
- *   smooth  anti-aliases the edges; else triangles with a common edge have no
- *           seam between them */
+ *   smooth  anti-aliases the edges; false: neighbours have no seam between */
 void canvas_triangle(Canvas *canvas, const double c[6], bool smooth,
                      Colour colour);
 

@@ -3,8 +3,7 @@
  *
  * The same contents and size of the paper give the same pixels.  Pointers are
  * not owned; an element whose pointer is NULL is not drawn.  A zeroed struct
- * with one pane is valid.  Texts are in the markup of text.h.
- */
+ * with one pane is valid.  Texts are in the markup of text.h. */
 #ifndef ELASTO_FRAME_CONTENT_H
 #define ELASTO_FRAME_CONTENT_H
 
@@ -299,8 +298,7 @@ typedef struct FrameContent {
     LectureContent lecture;
 } FrameContent;
 
-/* Fills the contents with one pane that shows the simulation; the view fits the
- * scene. */
+/* Fills the contents with one pane that shows all of the simulation. */
 void frame_create(const Simulation *simulation, FrameContent *content);
 
 /* Returns the pane whose numbers the cards show. */
@@ -369,9 +367,8 @@ double frame_find_number(FrameContent *content, const char *name);
  *   toggled  bit c: card c was opened or closed by hand */
 bool cards_need_line_energy(const Simulation *simulation, unsigned toggled);
 
-/* Samples the energies that the scene's picture plots over time.  Returns the
- * number of quantities.
- *   row  [HISTORY_SERIES] out */
+/* Samples what the scene's picture plots over time.  Returns the number of
+ * quantities. */
 int picture_sample_energies(const Simulation *simulation,
                             Energy row[HISTORY_SERIES]);
 

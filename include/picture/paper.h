@@ -1,8 +1,7 @@
 /* paper.h - a canvas, and texts on it in a size that fits the window.
  *
  * Sizes are in ems.  An em is the size of plain text; layout_create chooses its
- * pixels.  Widths of lines are in units; a unit is 1/14 em.
- */
+ * pixels.  Widths of lines are in units; a unit is 1/14 em. */
 #ifndef ELASTO_PAPER_H
 #define ELASTO_PAPER_H
 
@@ -24,8 +23,8 @@ void paper_free(Paper *paper);
 /* Converts ems to whole pixels. */
 int paper_pixels(const Paper *paper, double ems);
 
-/* Draws a line of markup, formatted as by printf; y is the upper edge.  Returns
- * the width in pixels. */
+/* Draws a line of markup, formatted as by printf, below y.  Returns its width
+ * in pixels. */
 int paper_write(Paper *paper, Face face, double size, Colour colour, double x,
                 double y, Align align, const char *format, ...);
 

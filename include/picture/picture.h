@@ -1,8 +1,7 @@
 /* picture.h - a picture of a scene, or a card, is a row of functions.
  *
  * A scene names its picture.  A new picture is one source file and one row in
- * cards.txt, from which the tables are generated.
- */
+ * cards.txt, from which the tables are generated. */
 #ifndef ELASTO_PICTURE_H
 #define ELASTO_PICTURE_H
 

@@ -1,16 +1,14 @@
 /* text.h - words and formulas: FreeType with DejaVu Sans.
  *
  * Letters are drawn once for each size and kept in a cache.  Texts are UTF-8.
- * A combining mark such as U+0303 stands over the middle of the letter before
- * it.  Markup:
+ * A combining mark (U+0303) stands over the letter before it.  Markup:
  *     ^{...} _{...}            superscript, subscript
  *     frac{a over b}           fraction
  *     matrix{a & b; c & d}     matrix in brackets, row by row
  *     #p{...}                  text in the colour of this name (colour_map.h)
  *     {x} {xt} {p} {alpha}     letters of the slides in their colours (xt is x
  *                              with a tilde); in COLOUR_GREY they stay grey
- * Any other brace is an ordinary character.
- */
+ * Any other brace is an ordinary character. */
 #ifndef ELASTO_TEXT_H
 #define ELASTO_TEXT_H
 
@@ -51,8 +49,8 @@ typedef struct TextExtent {
 } TextExtent;
 TextExtent text_extent(Text *text, const TextStyle *style, const char *markup);
 
-/* Draws one line.  The words' upper edge is at y; fractions and matrices reach
- * higher.  Returns the width. */
+/* Draws one line.  Words are below y; fractions and matrices reach higher.
+ * Returns the width. */
 int text_draw(Text *text, Canvas *canvas, const TextStyle *style, double x,
               double y, Align align, const char *markup);
 

@@ -12,8 +12,7 @@
 enum { MAX_LINE_WIDTH = 4096 };    /* pixels, largest width of a line */
 enum { MAX_COORDINATE = 1 << 29 }; /* pixels, limit of clamped coordinates */
 
-/* Fixed point numbers have 16 bits before and 16 bits after the binary point.
- */
+/* Fixed point numbers have 16 bits before and after the binary point. */
 enum { FIXED_BITS = 16, FIXED_ONE = 1 << FIXED_BITS };
 
 /* Blends two colours: below + (above - below) amount / 256.  Red and blue share
@@ -63,8 +62,7 @@ void canvas_free(Canvas *canvas)
     *canvas = (Canvas){0};
 }
 
-/* Sets row [count] to a colour.  The four bytes of white and of the greys are
- * equal, and memset is faster. */
+/* Sets row [count] to a colour; memset is faster if its bytes are equal. */
 static void fill_pixels(uint32_t *row, size_t count, uint32_t colour)
 {
     if (colour == (colour & 0xff) * 0x01010101u)
@@ -91,8 +89,7 @@ static inline double max_double(double a, double b)
     return a > b ? a : b;
 }
 
-/* Returns the pixels that a rectangle touches inside of `clip`, whose corner
- * must be >= 0. */
+/* Returns the pixels of `clip` (corner >= 0) that a rectangle touches. */
 static Box find_touched_pixels(Box clip, double left, double top, double right,
                                double bottom)
 {
@@ -214,8 +211,7 @@ bool box_clip_line(const Box *box, double margin, double line[4])
     return t0 <= t1;
 }
 
-/* Blends the colour into the pixels between low and high > low.
- *   column     first pixel of the column
+/* Blends the colour into the pixels of a column between low and high > low.
  *   across     distance of neighbouring pixels in memory
  *   low, high  fixed point */
 static inline void blend_column(uint32_t *column, ptrdiff_t across, int low,
@@ -245,8 +241,7 @@ static inline int max_int(int a, int b)
     return a > b ? a : b;
 }
 
-/* Loops over columns of pixels; over rows if the line is steep.  Axis k is
- * along the loop, axis j across. */
+/* Loops over columns, or rows if steep: axis k is along the loop, j across. */
 void canvas_line(Canvas *canvas, double x0, double y0, double x1, double y1,
                  double width, Colour colour)
 {

@@ -19,8 +19,7 @@ static int row_of_node(const System *system, int node, bool natural)
 /* Computes the pattern of the first springs' matrix in natural order, else of
  * its factor (George and Liu 1981). Block [j n + i] is row i > j of column j.
  * Each column of the factor adds its pattern to its parent's column; the parent
- * is the first non-zero row below the diagonal.  Returns NULL if memory runs
- * out. */
+ * is the first non-zero row below the diagonal.  NULL: out of memory. */
 static unsigned char *compute_pattern(const System *system, bool natural,
                                       int springs)
 {

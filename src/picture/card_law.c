@@ -74,8 +74,7 @@ static double flow_force_at(const void *data, double s)
     return flow_law_slope(now->spring, s - now->spring.ep);
 }
 
-/* Returns force over strain as a multiple of both at the spring's strength; a
- * broken spring has no force. */
+/* Returns the spring's force over its strength; a broken spring has none. */
 static double breaking_force_ratio(const void *now, double part)
 {
     (void)now;
@@ -112,9 +111,8 @@ static void fill_spring_point(LawPoint *now, int s)
         now->axis_unit = fmax(4 * now->spring.yield, 1.2 * fabs(now->x));
 }
 
-/* Returns the law's value at the dot.  A spring beyond its strength keeps its
- * force until it breaks: in a step a spring at one of its nodes may break
- * first. */
+/* Returns the law's value at the dot.  A spring beyond its strength has its
+ * full force until it breaks, since a neighbour may break first. */
 static double law_value_at(const Law *law, const LawPoint *now)
 {
     return law->evaluate == breaking_force_ratio ? now->x

@@ -1,5 +1,4 @@
-/* card_line.c - the card of E along the search direction, with the trials of
- * the line search. */
+/* card_line.c - the card of E along p, with the trials of the line search. */
 #include <math.h>
 #include <stdio.h>
 
@@ -58,8 +57,7 @@ static void fill_curves(const Trace *trace, const Trace *other,
             : fmin(fmax(high, 0.25 * depth), MAX_ABOVE * depth);
 }
 
-/* Draws a trial of the line search.  A trial above the axis is a small arrow at
- * the upper edge, with its value. */
+/* Draws a trial of the line search; above the axis as an arrow with a value. */
 static void draw_trial(const Plot *plot, double alpha, double value,
                        bool accepted)
 {

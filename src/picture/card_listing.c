@@ -103,8 +103,7 @@ void card_write_rows(const Plot *card, const ListingRow *row)
     lay_out_listing(card->content, row, card, line);
 }
 
-/* Fills a row for each update of the step, and a last row that tells why the
- * loop ended. */
+/* Fills a row for each update, and a last row: why the loop has ended. */
 bool residuals_fill_row(const FrameContent *content, int row,
                         CardTableRow *cells)
 {

@@ -1,5 +1,4 @@
-/* card_page.c - the card with the texts of a page, and the claim below a page's
- * code. */
+/* card_page.c - the texts of a page, and the claim below a page's code. */
 #include <limits.h>
 
 #include "picture/cards.h"

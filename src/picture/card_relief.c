@@ -13,13 +13,11 @@ enum {
 
 static const double REACH = 1.87; /* m, half the width of the surface */
 static const double HEIGHT = 1.5; /* m, drawn height of the rim above E = 0 */
-/* The surface is cut off at the rim.  The rim's height is the inertia
- * RIM_INERTIA metres from x_tilde, plus RIM_PASS times the elasticity at the
- * pass between the two valleys. */
+/* The surface ends at the rim.  The rim's height is the inertia RIM_INERTIA
+ * metres from x_tilde, plus RIM_PASS times the elasticity at the saddle. */
 static const double RIM_INERTIA = 1.5, RIM_PASS = 1.7;
-/* Cosine and sine of the angles of view, around the axis of E and above the
- * ground.  The x axis points to the viewer and the right, the y axis away and
- * to the right. */
+/* Cosine and sine of the angles of view: around the axis of E, above the plane.
+ * The x axis points forwards and right, the y axis backwards and right. */
 static const double TURN[2] = {0.85, 0.5268}, RISE[2] = {0.7, 0.7141};
 static const Colour LEVEL_COLOUR = 0x90606060u;
 static const double LIGHT[3] = {0.30, -0.45, 0.84}; /* unit vector to light */
@@ -75,8 +73,7 @@ static Corner find_edge_crossing(const Corner *a, const Corner *b, double E)
                     a->convex};
 }
 
-/* Finds the contour line of this value in a triangle.  Returns false if there
- * is none. */
+/* Finds the contour line of this value in a triangle.  False: no such line. */
 static bool find_contour(const Corner corner[3], double E, Corner end[2])
 {
     int ends = 0;
@@ -88,8 +85,7 @@ static bool find_contour(const Corner corner[3], double E, Corner end[2])
     return ends == 2;
 }
 
-/* Returns the colour of a triangle: brighter if turned to the light, yellow
- * where E is not convex. */
+/* Returns a colour: bright in the light, yellow where E is not convex. */
 static Colour colour_of_face(const Relief *relief, const Corner corner[3])
 {
     const Corner *o = &corner[0], *a = &corner[1], *b = &corner[2];
@@ -107,9 +103,8 @@ static Colour colour_of_face(const Relief *relief, const Corner corner[3])
     return colour_mix(dark, bright, fmin(fmax(1.1 * light, 0), 1));
 }
 
-/* Draws the part of a triangle below the rim, with its contour lines.
- * Triangles seen from below are part of the front wall, which would hide the
- * valleys, and are left out. */
+/* Draws the part of a triangle below the rim, with its contour lines.  Not if
+ * the triangle is seen from below: the front wall would hide the valleys. */
 static void draw_face(const Relief *relief, const Corner corner[3])
 {
     const Plot *plot = &relief->plot;
@@ -160,8 +155,7 @@ static void draw_surface(const Relief *relief)
     }
 }
 
-/* Draws the curve of the surface above a straight line of the plane.  Points
- * above the rim are left out. */
+/* Draws the surface's curve above a line of the plane, where below the rim. */
 static void draw_surface_line(const Relief *relief, const double *a,
                               const double *b, double width, Colour colour)
 {
@@ -189,8 +183,7 @@ static void draw_surface_point(const Relief *relief, const double *x,
         plot_label(&relief->plot, 1, at.at, colour, "%s", word);
 }
 
-/* Draws the updates so far, and the next direction as a thin line.  Directions
- * that point uphill are red. */
+/* Draws the updates so far, and the next p as a thin line; uphill is red. */
 static void draw_newton_path(const Relief *relief)
 {
     const Descent *descent = &relief->simulation->descent;
@@ -219,8 +212,7 @@ static void draw_dial_curve(const Relief *relief)
                        NULL);
 }
 
-/* Draws arrows along x, y and E in one lower corner, and the distance of the
- * contours in the other. */
+/* Draws arrows along x, y and E, and writes the distance of the contours. */
 static void draw_relief_axes(const Relief *relief)
 {
     static const char *const names[] = {"x", "y", "E"};

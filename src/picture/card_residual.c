@@ -1,5 +1,4 @@
-/* card_residual.c - the card that plots the residual of each update of a step.
- */
+/* card_residual.c - the card that plots the residual of each update. */
 #include <math.h>
 
 #include "picture/cards.h"
@@ -27,8 +26,7 @@ void residual_draw(const Plot *card)
             high = fmax(high, residual);
         }
     }
-    /* A page's main card counts iterations from 0, other cards updates from 1.
-     */
+    /* A page's main card counts iterations from 0, others updates from 1. */
     bool is_main = card->simulation->options.main_card;
     double most = fmax(updates + pending, 4);
     Axis x = {0.5 - is_main, most + 0.5 - 0.4 * is_main, false, true,

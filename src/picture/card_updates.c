@@ -1,6 +1,4 @@
-/* card_updates.c - cards of E and its parts in a step, and of the step's
- * updates.
- */
+/* card_updates.c - cards of E and its parts in a step, and of its updates. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -102,8 +100,7 @@ static void draw_remaining_decrease(const Plot *card, const Trace *trace)
     }
 }
 
-/* Draws E along the line from x_tilde to x; in a wide card also E before each
- * update. */
+/* Draws E from x_tilde to x; in a wide card also E before each update. */
 void step_energy_draw(const Plot *card)
 {
     const Pane *pane = card->pane;
@@ -172,8 +169,7 @@ bool updates_fill_row(const FrameContent *content, int row, CardTableRow *cells)
 
 static const double UPDATE_PITCH = 1.45; /* ems, height of a row of the table */
 
-/* Returns the height of the card, ems, with a row for each update so far, at
- * least six. */
+/* Returns the height of the card in ems; the table has at least six rows. */
 double updates_needed_height(const FrameContent *content, double wide,
                              double em)
 {
@@ -182,8 +178,7 @@ double updates_needed_height(const FrameContent *content, double wide,
     return UPDATE_PITCH * (1 + fmax(6, trace ? trace->updates : 0)) + 2.8;
 }
 
-/* Draws the table.  If not all updates fit, draws update 1 and the newest ones.
- */
+/* Draws the table; if too long, update 1 and the newest updates. */
 void updates_draw(const Plot *card)
 {
     static const double ends[2][6] = {{0.05, 0.25, 0.52, 0.63, 1},

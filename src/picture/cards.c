@@ -137,9 +137,8 @@ double code_needed_width(const LecturePage *page)
     return CODE_LETTER * measure_code(page, &lines, &indent) + margins;
 }
 
-/* Draws code in letters as large as fit, and lights the lines at work.  If not
- * all lines fit, lines after the first one are left out, so that the last lit
- * line is seen. */
+/* Draws code in letters as large as fit, and lights the lines at work.  If the
+ * code is too long, lines after the first one are left out, but no lit line. */
 static void draw_code(Paper *paper, Box inside, const FrameContent *content)
 {
     const char *const *code = content->lecture.page->code;

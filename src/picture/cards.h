@@ -10,13 +10,12 @@ static const double TITLE_BAR = 2.0;      /* ems, height of a card's title */
 
 /* A line of an algorithm.  The strings are texts of live_values.h. */
 typedef struct ListingRow {
-    /* The row is shown if a line of this text has known values; NULL: end of
-     * the listing. */
-    const char *shown_if;
-    Line line; /* the slides' line of Algorithm 3 */
+    const char *shown_if;  /* the row is shown if a line of this text is known;
+                              NULL: end of the listing */
+    const char *struck_if; /* the row is struck out if a line of this text is
+                              known */
+    Line line;             /* the slides' line of Algorithm 3 */
     bool indented;
-    /* The row is struck out if a line of this text has known values. */
-    const char *struck_if;
     const char *text;
     const char *value; /* text at the right, once this line has been executed */
 } ListingRow;
@@ -73,8 +72,7 @@ Box page_draw_claim(Paper *paper, Box inside, const FrameContent *content);
 /* Whether the Hessian before projection is positive definite. */
 bool landscape_is_convex(const LocalModel *E);
 
-/* Adds the values of the law that the scene draws, for the element with the
- * largest load. */
+/* Adds the values of the scene's law, for the element with the largest load. */
 void law_add_values(const Simulation *simulation, LiveValues *values);
 
 /* A contact between a node and a wall or an edge. */
@@ -89,9 +87,8 @@ typedef struct LawGap {
  * below d_hat, or if the law is not about contact. */
 bool law_find_gap(const Simulation *simulation, LawGap *gap);
 
-/* Finds how far the last body has slid, and how far a rigid body would slide.
- * Returns false if the scene does not draw the law of friction.
- *   distance  [2] m, out */
+/* Finds how far the last body has slid, and how far a rigid body would slide,
+ * m.  Returns false if the scene does not draw the law of friction. */
 bool law_find_slide(const Simulation *simulation, double distance[2]);
 
 /* Whether the picture has a card of this name that is not hidden. */
@@ -101,22 +98,19 @@ bool frame_has_card(const FrameContent *content, const char *name);
  * In a walk through Algorithm 3 the text depends on the present line. */
 const char *lecture_lit_code(const FrameContent *content);
 
-/* Returns the index of the spring of the present step, on pages where each step
- * adds one spring to the Hessian. */
+/* Returns the spring that the present step adds to the Hessian. */
 int find_newest_spring(const Simulation *simulation);
 
 /* Returns the box inside a card, below the title; em in pixels. */
 Box card_inner_box(Box card, double em);
 
-/* Writes the first line of a text that has known values, in the middle of an
- * empty card. */
+/* Writes the first known line of a text in the middle of an empty card. */
 void card_write_hint(const Plot *card, const char *text);
 
 /* Returns what a row of a listing shows. */
 ShownRow listing_show_row(const Pane *pane, const ListingRow *row);
 
-/* Writes the rows of a listing that are shown now; the row of the present line
- * is lit. */
+/* Writes the rows of a listing that are shown now; the present line is lit. */
 void card_write_rows(const Plot *card, const ListingRow *row);
 
 /* Returns the width that the code of a page needs, ems. */
@@ -130,8 +124,7 @@ void cards_draw(Paper *paper, const Layout *layout,
                 const FrameContent *content);
 
 /* On a page of the lecture, highlights all pixels in the colour of the term
- * under the mouse.  Without such a term, highlights the term that the present
- * line of Algorithm 3 computes. */
+ * under the mouse, or else of the term that the present line computes. */
 void highlight_draw(Paper *paper, const FrameContent *content);
 
 /* Draws strip, settings, time line and chips. */

@@ -1,8 +1,7 @@
 /* colour_map.h - the colours of the pictures.
  *
  * Each colour has one meaning.  Colours that appear side by side can be told
- * apart by colour-blind people (Okabe and Ito 2008).
- */
+ * apart by colour-blind people (Okabe and Ito 2008). */
 #ifndef ELASTO_COLOUR_MAP_H
 #define ELASTO_COLOUR_MAP_H
 

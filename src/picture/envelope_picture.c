@@ -1,5 +1,4 @@
-/* envelope_picture.c - the map of time steps and stiffnesses for which the
- * square converges. */
+/* envelope_picture.c - the map of h and k for which the square converges. */
 #include <math.h>
 
 #include "picture/cards.h"
@@ -43,8 +42,7 @@ static Box find_cell_box(const Plot *stage, int column, int row)
                  pixel_from_coordinate(ceil(p[1])) - top - 1};
 }
 
-/* Draws the line h^2 k = ratio m, where elasticity is `ratio` times as stiff as
- * inertia. */
+/* Draws the line h^2 k = ratio m: elasticity is `ratio` times inertia. */
 static void draw_ratio_line(const Plot *plot, double ratio)
 {
     double m = plot->simulation->system.m[0];
@@ -58,8 +56,7 @@ static void draw_ratio_line(const Plot *plot, double ratio)
     plot_label(plot, 1, ends[1], COLOUR_TEXT, "%s", format_number(ratio).text);
 }
 
-/* Draws the cells over the lines of the axes, the selected one with a border.
- */
+/* Draws the cells over the lines of the axes; the selected one has a border. */
 void envelope_draw(Plot *stage)
 {
     const EnvelopeMap *map = &stage->simulation->exhibit.envelope;

@@ -15,8 +15,7 @@ typedef struct Glyph {
     uint8_t *mask; /* [height width] coverage; NULL: no pixel is covered */
 } Glyph;
 
-/* Finds the letter in the cache, or draws it; size in pixels.  The pointer is
- * valid until the next call. */
+/* Finds or draws a letter; size in pixels.  Valid until the next call. */
 const Glyph *font_get_glyph(Text *text, Face face, int size, uint32_t letter);
 
 #endif

@@ -153,8 +153,7 @@ Plot stage_create(Paper *paper, const FrameContent *content,
     stage.camera = camera_create(room, bounds, stretched, lens);
     if (list_switches(&stage, switches) == 0)
         return stage;
-    /* The picture moves left of the switches, unless it would become smaller.
-     */
+    /* The picture moves left of the switches if it stays as large. */
     box_cut_off(&room, EDGE_RIGHT, (int)(SWITCH_WIDTH * layout->em));
     const Camera left = camera_create(room, bounds, stretched, lens);
     if (room.width > 0 && left.scale[0] >= stage.camera.scale[0])
@@ -281,8 +280,7 @@ Pick frame_pick(const FrameContent *content, const Layout *layout, double x,
     return pick;
 }
 
-/* ---- small queries --------------------------------------------------------
- */
+/* ---- small queries ------------------------------------------------------- */
 
 long frame_find_step(const FrameContent *content, const Layout *layout,
                      double x)
@@ -335,14 +333,12 @@ void history_add_point(History *history, double time, int rows,
     }
 }
 
-/* ---- drawing --------------------------------------------------------------
- */
+/* ---- drawing ------------------------------------------------------------- */
 
 enum { LABEL_SIZE = 4 * VALUE_SIZE };
 
-/* Copies the first parts of a label, separated by ", ", that fit into a line.
- * Returns the rest of the label.
- *   line  [LABEL_SIZE] out */
+/* Copies the first parts of a label, separated by ", ", that fit into a line
+ * [LABEL_SIZE].  Returns the rest of the label. */
 static const char *take_label_line(const Plot *stage, const char *label,
                                    char *line)
 {

@@ -1,6 +1,5 @@
-/* landscape_picture.c - maps of E over the position of one free node: with
- * Newton's path (scene landscape), or with the minimiser for every h (scene
- * dial). */
+/* landscape_picture.c - maps of E over the position of one free node, with
+ * Newton's path (scene landscape) or the minimisers of all h (scene dial). */
 #include <math.h>
 #include <string.h>
 
@@ -12,8 +11,7 @@ static const double map_levels[] = {0.1, 0.2, 0.4, 0.6, 1,  1.5, 2,
                                     3,   5,   7,   10,  15, 30,  50};
 enum { MAP_LEVELS = sizeof map_levels / sizeof *map_levels };
 
-/* Colours of the curves g1 = 0 and g2 = 0, where g = grad E: green and purple,
- * as cards.txt says. */
+/* Colours of g1 = 0 and g2 = 0, g = grad E; "green", "purple" in cards.txt. */
 static const Colour curve_colour[2] = {0xff009e73u, 0xffb0559au};
 
 /* ---- the map ------------------------------------------------------------ */
@@ -27,8 +25,7 @@ static double distance_to_contour(double value)
     return nearest;
 }
 
-/* Returns the factor of the contours' levels.  With long steps the factor grows
- * as elasticity does, with h^2. */
+/* Returns the factor of the contours' levels, which grows with elasticity. */
 static double find_contour_scale(const Simulation *simulation)
 {
     double h = simulation->run[0].h / 0.2;
@@ -76,8 +73,7 @@ static bool shows_layer(const Plot *plot, Layer layer)
     return plot->revealed && plot->simulation->options.layers & layer;
 }
 
-/* Draws the region where E is not convex, contours of E, and the curves g1 = 0
- * and g2 = 0. */
+/* Draws the region where E is not convex, contours, and g1 = 0 and g2 = 0. */
 static void draw_contour_map(const Plot *plot)
 {
     const Simulation *simulation = plot->simulation;
@@ -152,8 +148,7 @@ static Plot draw_map(const Plot *stage)
     return plot;
 }
 
-/* ---- Newton's path --------------------------------------------------------
- */
+/* ---- Newton's path ------------------------------------------------------- */
 
 /* Finds and marks the minima and the saddle by Newton's method. */
 static void mark_stationary_points(const Plot *plot)
@@ -177,8 +172,7 @@ static void mark_stationary_points(const Plot *plot)
 }
 
 /* Draws the direction p of the run, red if uphill.  If `both`, and if inertia
- * and elasticity are switched on, also draws p with the other choice of
- * projection, with the slope. */
+ * and elasticity are on, also draws p with the other choice of projection. */
 static void draw_directions(const Plot *plot, bool both)
 {
     const Simulation *simulation = plot->simulation;
@@ -225,8 +219,7 @@ static void draw_negative_gradient(const Plot *plot, const LocalModel *E)
                "\u2212\u2207E");
 }
 
-/* Draws the forces of inertia and elasticity, if switched on, and their sum; 1
- * m of arrow is 1 kg m. */
+/* Draws the forces of the parts of E that are on; 1 m of arrow is 1 kg m. */
 static void draw_forces(const Plot *plot, const LocalModel *E)
 {
     const Simulation *simulation = plot->simulation;
@@ -260,9 +253,8 @@ static void add_part_name(unsigned parts, LiveValues *values)
                                              : "elasticity");
 }
 
-/* Adds the number of updates that Algorithm 1 makes from the start of the
- * descent.  At the end of the descent also adds the new velocity, the last line
- * of Algorithm 1. */
+/* Adds the number of updates that Algorithm 1 makes from the descent's start,
+ * and at the end of the descent the new velocity. */
 static void add_algorithm1(const Simulation *simulation, LiveValues *values)
 {
     const Descent *descent = &simulation->descent;
@@ -359,8 +351,8 @@ static void draw_model_ellipses(const Plot *plot, const LocalModel *E)
     }
 }
 
-/* Draws dashed lines where the linearised components of the gradient are 0. The
- * lines cross at x + p. */
+/* Draws lines where the linearised gradient's components are 0; they cross at
+ * x + p. */
 static void draw_linearised_zeros(const Plot *plot, const LocalModel *E)
 {
     const double *x = plot->simulation->descent.point;
@@ -436,8 +428,7 @@ void landscape_draw(Plot *stage)
 
 /* ---- the dial ----------------------------------------------------------- */
 
-/* Draws the path of the minimiser over h, with a disc at every power of ten of
- * h. */
+/* Draws the path of the minimiser over h, with discs at powers of ten of h. */
 void dial_draw(Plot *stage)
 {
     const Simulation *simulation = stage->simulation;

@@ -1,6 +1,4 @@
-/* live_values.c - collects the live values of a frame, and fills them into
- * texts.
- */
+/* live_values.c - the live values of a frame, which are filled into texts. */
 #include <limits.h>
 #include <math.h>
 #include <stdio.h>
@@ -11,8 +9,7 @@
 #include "picture/cards.h"
 #include "picture/colour_map.h"
 
-/* ---- values ----------------------------------------------------------------
- */
+/* ---- values -------------------------------------------------------------- */
 
 static LiveValue *add_value(LiveValues *values, const char *name)
 {
@@ -122,8 +119,7 @@ static void add_setting_values(const Simulation *simulation, LiveValues *values)
 }
 
 /* Adds why a step has converged with a large residual: a bound shows that the
- * next direction is small enough, or the last one changes E by less than
- * rounding. */
+ * next p is small enough, or the last p changes E by less than rounding. */
 static void add_step_end_values(const Trace *trace, LiveValues *values)
 {
     const NewtonRecord *last = trace->record + trace->updates - 1;
@@ -134,8 +130,7 @@ static void add_step_end_values(const Trace *trace, LiveValues *values)
                     last->alpha == 0 && trace->trials == last->trials);
 }
 
-/* Adds the values of the current step so far, or of the last update of a
- * descent. */
+/* Adds the values of the current step, or of the last update of a descent. */
 static void add_trace_values(const Simulation *simulation, const Trace *trace,
                              LiveValues *values)
 {
@@ -192,9 +187,8 @@ static double compute_energy_change(const void *function, double alpha)
     return there.value - space->value;
 }
 
-/* Makes the trace of a descent's last update.  If this update had no step, or
- * if there is no update, makes the trace of the next one, from the present
- * iterate. */
+/* Makes the trace of a descent's last update; without updates, or if the last
+ * one had no step, of the next update, from the present iterate. */
 static const Trace *make_descent_trace(const Simulation *simulation,
                                        DescentTrace *space)
 {
@@ -321,8 +315,7 @@ static void format_value(const LiveValue *one, const char *format, char *out,
         snprintf(out, size, apart ? "(%s)" : "%s", number[0].text);
 }
 
-/* Fills the values into a line of `length` bytes.  Returns false if a value is
- * unknown. */
+/* Fills the values into a line of `length` bytes.  False: one is unknown. */
 static bool fill_line(TextLine *line, const char *text, size_t length)
 {
     const LiveValues *values = line->values;
@@ -449,11 +442,9 @@ int card_write_flow(const Plot *card, int at[2], double size, double gap,
     return at[1] + paper_pixels(paper, 1.5 * size);
 }
 
-/* ---- the strip -------------------------------------------------------------
- */
+/* ---- the strip ----------------------------------------------------------- */
 
-/* If the string is empty, fills it with the first line that has known values.
- */
+/* Fills an empty string with the text's first line with known values. */
 static void fill_text(const LiveValues *values, const char *text, char *string,
                       size_t size)
 {

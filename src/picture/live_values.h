@@ -7,11 +7,9 @@
  *   - {-H} is the negative of H.  After a colon: the number of digits (else 3),
  *     / to write 1/4 instead of 0.25, ' to put a negative number in
  *     parentheses.  Braces of the markup (text.h) stay markup.
- *   - "#warning " before a line sets its colour, "#warning* " makes it bold,
- *     too.
+ *   - "#warning " before a line sets its colour; "#warning* ": bold, too.
  *   - Lines after a line "@" are repeated with the values of the runs 1, 2, 3;
- *     "#run " is the run's colour.
- */
+ *     "#run " is the run's colour. */
 #ifndef ELASTO_LIVE_VALUES_H
 #define ELASTO_LIVE_VALUES_H
 
@@ -35,8 +33,7 @@ void values_add_matrix(LiveValues *values, const char *const names[3],
 /* Returns the number with this name; NaN: unknown. */
 double values_find_number(const LiveValues *values, const char *name);
 
-/* A line of a text after its values are filled in, and the position in the
- * text. */
+/* A line of a text with its values filled in, and the position in the text. */
 typedef struct TextLine {
     Colour colour;
     Face face;
@@ -58,9 +55,8 @@ TextLine text_first_line(const LiveValues *values, const char *text);
 /* Whether a text has a line with known values. */
 bool text_has_line(const LiveValues *values, const char *text);
 
-/* Writes all lines with known values into a card, as large as they fit.  The
- * largest size is that of plain text, on a page 1.2 times, in its main card 1.6
- * times that size. */
+/* Writes all lines with known values into a card, as large as they fit: up to
+ * the size of plain text, on a page up to 1.2, in its main card 1.6 times. */
 void card_write_text(const Plot *card, const LiveValues *values,
                      const char *text);
 

@@ -1,5 +1,4 @@
-/* mass_picture.c - pictures of single masses: on the circle, and with the
- * arrows of one step. */
+/* mass_picture.c - pictures of masses: on a circle, with arrows of one step. */
 #include <math.h>
 #include <string.h>
 
@@ -23,8 +22,7 @@ static const double EIGEN_MAX = 5;      /* largest eigenvalue that is shown */
 static const double MATRIX_WIDE = 16.4, MATRIX_HIGH = 12;
 static const double origin[2] = {0, 0};
 
-/* Returns the colour of a run's method.  In the scene arrows a single mass has
- * the colour of x. */
+/* Returns the colour of a run's method, or of x for the scene arrows' mass. */
 static Colour colour_of_mass(const Simulation *simulation, int run)
 {
     return simulation->runs == 1 && simulation->scene->picture == PICTURE_MASS
@@ -59,8 +57,7 @@ static double compute_energy(const double *x, const double *v)
     return 0.5 * (x[0] * x[0] + x[1] * x[1] + v[0] * v[0] + v[1] * v[1]);
 }
 
-/* Samples the radius (scene circle) or the energy of each run, followed by the
- * positions of all runs. */
+/* Samples the radius (scene circle) or energy of each run, then positions. */
 int mass_sample_energies(const Simulation *simulation, Energy *row)
 {
     static const char *const places[] = {"x0", "y0", "x1", "y1", "x2", "y2"};
@@ -182,8 +179,7 @@ static void draw_eigenvalues(const Plot *plot, const IntegratorMethod *method,
         plot_disc(plot, step.lambda[k], 5, colour);
 }
 
-/* Draws the complex plane with the unit circle and the eigenvalues of all runs.
- */
+/* Draws the complex plane, the unit circle and the eigenvalues of all runs. */
 static void draw_complex_plane(const Plot *card)
 {
     static const double one[2] = {1, 0}, i[2] = {0, 1};

@@ -31,8 +31,7 @@ static LocalModel evaluate_scalar(const Simulation *simulation, double x)
     return descent_evaluate(simulation, PROJECTION_NONE, x, 0);
 }
 
-/* Returns update i = 0, 1, ...; -1: the next update, which starts from the
- * present iterate. */
+/* Returns update i = 0, 1, ...; -1: the next one, from the present iterate. */
 static ScalarUpdate find_update(const Simulation *simulation, int i)
 {
     const Descent *descent = &simulation->descent;
@@ -79,11 +78,9 @@ static double iterate_at(const Descent *descent, int i)
     return i == descent->count ? descent->point[0] : descent->record[i].from[0];
 }
 
-/* ---- function, model and iterates -----------------------------------------
- */
+/* ---- function, model and iterates ---------------------------------------- */
 
-/* Draws the model, its minimum (or the tangent's zero), and a line from there
- * to the curve. */
+/* Draws the model (or tangent), and a line from its minimum (or zero) to f. */
 static void draw_scalar_model(const Plot *plot, const ScalarUpdate *update,
                               double width, double radius, Colour colour)
 {
@@ -246,8 +243,7 @@ void tangent_draw(Plot *stage)
                 "E(x) = m/2 (x \u2212 {xt}^{n})\u00b2 + h\u00b2 P(x)");
 }
 
-/* Returns the zero of g that full updates find from the present iterate; NaN:
- * full updates do not converge. */
+/* Returns the zero of g that full updates find from here; NaN: no zero. */
 static double find_root(const Simulation *simulation)
 {
     double x = simulation->descent.point[0], p = INFINITY;
@@ -268,8 +264,7 @@ static void write_digits(double x, char text[ITERATE_TEXT])
              x < 0 ? "\u2212" : "", fabs(x));
 }
 
-/* Fills a row for each iterate.  Digits that differ from those of the zero of g
- * are grey. */
+/* Fills a row for each iterate; digits that differ from the zero's are grey. */
 bool iterates_fill_row(const FrameContent *content, int row,
                        CardTableRow *cells)
 {

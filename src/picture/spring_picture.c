@@ -1,6 +1,4 @@
-/* spring_picture.c - the picture of a spring, and of its energy over its
- * length.
- */
+/* spring_picture.c - a spring, and its energy over its length. */
 #include <math.h>
 
 #include "model/spring_law.h"

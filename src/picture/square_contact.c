@@ -1,5 +1,4 @@
-/* square_contact.c - walls, balls and contact forces in the picture of the
- * square. */
+/* square_contact.c - walls, balls and contact forces around the square. */
 #include <math.h>
 #include <stdio.h>
 

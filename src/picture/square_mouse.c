@@ -1,5 +1,4 @@
-/* square_mouse.c - picks the part of the square under the mouse, and writes a
- * note about the part. */
+/* square_mouse.c - the part of the square under the mouse, and its note. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -71,8 +70,7 @@ void square_pick(const Plot *stage, double x, double y, Pick *pick)
 
 /* ---- the note ----------------------------------------------------------- */
 
-/* Writes a text into the lower corner of the stage that is away from the mouse.
- */
+/* Writes a text into the lower corner that is farther from the mouse. */
 static void draw_note(const Plot *stage, const LiveValues *values,
                       const char *text)
 {
@@ -99,8 +97,7 @@ static void draw_note(const Plot *stage, const LiveValues *values,
     card_write_text(&note, values, text);
 }
 
-/* Writes the note about a node.  The force is m g - grad P, without friction.
- */
+/* Writes the note about a node; the force m g - grad P has no friction. */
 static void note_node(Plot *stage, const Pane *pane, int node)
 {
     const Simulation *simulation = pane->simulation;

@@ -1,5 +1,4 @@
-/* square_pen.c - the layers of the square's picture: springs, nodes, faces,
- * outlines. */
+/* square_pen.c - springs, nodes, faces and outlines of the square's picture. */
 #include "picture/square_pen.h"
 
 #include <math.h>
@@ -90,9 +89,8 @@ SquarePen square_pen_create(Plot *stage, int run)
     return pen;
 }
 
-/* Returns the colour of a spring or face by plastic strain or by strain.  While
- * projection is shown, springs shorter than at rest have COLOUR_PROJECT. 0: the
- * state has no colour. */
+/* Returns the colour of a spring or face by plastic strain or by strain; 0: no
+ * colour.  While projection is shown, short springs have COLOUR_PROJECT. */
 static Colour colour_of_state(const SquarePen *pen, double plastic,
                               double strain, bool shorter)
 {
@@ -137,8 +135,8 @@ void square_draw_springs(const SquarePen *pen)
 
 /* ---- cells -------------------------------------------------------------- */
 
-/* Whether one of the two triangles of a face has turned over.  The nodes are
- * anticlockwise at rest. */
+/* Whether a triangle of the face has turned over, whose nodes are anticlockwise
+ * at rest. */
 static bool face_is_folded(const double *x, const int node[4])
 {
     return twice_signed_area(x + 2 * node[0], x + 2 * node[1],

@@ -1,25 +1,21 @@
 /* square_pen.h - the layers from which square_picture.c draws a body of springs
- * or triangles: springs, nodes, faces, outlines, obstacles, contact forces.
- */
+ * or triangles: springs, nodes, faces, outlines, obstacles, contact forces. */
 #ifndef ELASTO_SQUARE_PEN_H
 #define ELASTO_SQUARE_PEN_H
 
 #include "model/contact.h"
 #include "picture/plot.h"
 
-/* A run on the stage, and how to draw its springs and nodes.  Widths and radii
- * are in units of the paper. */
+/* A run on the stage, and how it is drawn; sizes in units of the paper. */
 typedef struct SquarePen {
     Plot *stage;
     const Simulation *simulation; /* simulation of the stage */
     const System *system;
     const double *x, *v;    /* [2n] m, m/s */
-    double spacing;         /* pixels between two nodes at rest, or more if the
-                               nodes have flown apart */
+    double spacing;         /* pixels between two nodes, mostly at rest */
     double width;           /* width of a spring */
     double radius;          /* radius of a node */
-    double shade_strain;    /* scale of the shades of faces: stretched ones are
-                               lighter, pressed ones darker */
+    double shade_strain;    /* strain of the lightest shade of a face */
     double colour_range;    /* strain of the end colours; 0: no colours */
     Colour below, above;    /* end colours of negative, positive strain */
     bool shows_plastic;     /* colours show plastic strain */
@@ -36,13 +32,11 @@ SquarePen square_pen_create(Plot *stage, int run);
 void square_draw_spring(const SquarePen *pen, int s, double width,
                         Colour colour);
 
-/* Draws all unbroken springs, or all nodes.  The nodes of a fine mesh are left
- * out, as springs hide them. */
+/* Draws all unbroken springs, or all nodes except those of a fine mesh. */
 void square_draw_springs(const SquarePen *pen);
 void square_draw_nodes(const SquarePen *pen);
 
-/* Draws a fine mesh as shaded faces, each a few pixels large; folded cells are
- * dark. */
+/* Draws a fine mesh as shaded faces of a few pixels; folded cells are dark. */
 void square_draw_faces(const SquarePen *pen);
 
 /* Fills the unbroken cells in a pale colour, folded ones in red.  A neo-Hookean
@@ -55,8 +49,7 @@ int square_fill_cells(const SquarePen *pen, bool all);
 void square_draw_outline(const SquarePen *pen, const double *x, bool dashed,
                          Colour colour);
 
-/* Draws a ghost at positions x: the dashed outline, and of a coarse mesh also
- * faint springs. */
+/* Draws a ghost: the dashed outline, and faint springs of a coarse mesh. */
 void square_draw_ghost(const SquarePen *pen, const double *x, Colour colour);
 
 /* Draws the walls and balls of a run.  If there are several runs, walls are

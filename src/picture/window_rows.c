@@ -1,5 +1,4 @@
-/* window_rows.c - the strip, the settings, the time line and the chips around
- * the stage. */
+/* window_rows.c - the strip, the settings, the time line and the chips. */
 #include "picture/cards.h"
 
 #include <math.h>
@@ -71,8 +70,7 @@ static void draw_strip(Paper *paper, Box room, const Strip *strip)
 
 /* ---- settings ------------------------------------------------------------ */
 
-/* Draws name and value of a setting.  A value that can be changed is underlined
- * by dots. */
+/* Draws name and value of a setting; dashes below the value: it can change. */
 static void draw_setting(Paper *paper, Box box, const Setting *setting,
                          bool selected, bool over)
 {
@@ -111,8 +109,7 @@ long time_line_steps(const FrameContent *content)
     return steps > MIN_STEPS ? steps : MIN_STEPS;
 }
 
-/* Draws a bar for each step.  If steps are too narrow, a bar shows the largest
- * step of a group. */
+/* Draws a bar for each step, or for the largest step of each group. */
 static void draw_bars(Paper *paper, Box bars, double pitch,
                       const TimeLine *line)
 {

@@ -1,5 +1,4 @@
-/* words.c - words of a plot: legend, scale, labels that avoid drawn pixels, and
- * numbers as people write them. */
+/* words.c - words of a plot: legend, scale, numbers, labels on free ground. */
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
