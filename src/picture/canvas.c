@@ -56,8 +56,6 @@ Status canvas_create(int width, int height, Canvas *canvas)
 
 void canvas_free(Canvas *canvas)
 {
-    if (!canvas)
-        return;
     free(canvas->pixels);
     *canvas = (Canvas){0};
 }

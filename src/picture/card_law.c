@@ -4,7 +4,6 @@
  * The curve evaluates the term for this element while one of the element's
  * numbers varies along the axis.  Therefore the dot lies on the curve. */
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "model/fracture.h"
@@ -21,11 +20,9 @@ typedef struct LawPoint {
     EvalPoint eval;
     Element element;   /* contact or triangle */
     FlowLaw spring;    /* law of the spring */
-    double axis_unit;  /* unit of axis_low and axis_high */
-    double d_hat;      /* m, gap at which contact forces begin */
+    double axis_unit;  /* unit of axis_low and axis_high; of contact: d_hat */
     double x;          /* value on the axis; NaN: there is no element */
     double load;       /* the card shows the element with the largest load */
-    double normal_sum; /* N, sum of the normal forces added so far */
 } LawPoint;
 
 typedef struct Law {
@@ -119,31 +116,31 @@ static double law_value_at(const Law *law, const LawPoint *now)
                                                  : law->evaluate(now, now->x);
 }
 
-/* Finds the law that the scene draws, and the point of the run's most loaded
- * element on its curve; for friction the point of the mean slip speed of all
- * contacts, weighted by normal force.  Returns NULL if the scene has no law. */
-static const Law *find_law(const Simulation *simulation, int run,
-                           LawPoint *most)
+/* Finds the law that the scene draws, and the point of the most loaded element
+ * on its curve; for friction the point of the mean slip speed of all contacts,
+ * weighted by normal force.  Returns NULL if the scene has no law. */
+static const Law *find_law(const Simulation *simulation, LawPoint *most)
 {
     const char *name = simulation->options.law;
-    const System *system = simulation->run[run].system;
-    const double *x = simulation->run[run].x, *v = simulation->run[run].v;
+    const System *system = &simulation->system;
+    const double *x = simulation->run[0].x, *v = simulation->run[0].v;
     const Law *law = name ? laws : NULL;
     while (law && strcmp(law->name, name) != 0)
         law++;
     const Term *term = law ? system_find_term(system, law->law_term) : NULL;
     if (!term)
         return NULL;
+    bool rubs = law->evaluate == friction_force_ratio;
     *most = (LawPoint){.eval = eval_point_at(system, x, NULL, x),
                        .axis_unit = 1,
                        .x = NAN,
                        .load = -INFINITY};
-    if (law->element_term == &contact_energy)
-        most->axis_unit = most->d_hat = contact_of(system)->barrier.d_hat;
-    if (law->element_term == &self_contact_energy)
-        most->axis_unit = most->d_hat = self_contact_of(system)->d_hat;
-    if (law->evaluate == friction_force_ratio)
+    if (rubs)
         most->axis_unit = ((const Friction *)term->data)->slip_speed;
+    else if (law->element_term == &contact_energy)
+        most->axis_unit = contact_of(system)->barrier.d_hat;
+    else if (law->element_term == &self_contact_energy)
+        most->axis_unit = self_contact_of(system)->d_hat;
     LawPoint now = *most;
     for (int s = 0; s < system->springs && !law->element_term; s++) {
         fill_spring_point(&now, s);
@@ -151,38 +148,39 @@ static const Law *find_law(const Simulation *simulation, int run,
     }
     if (!law->element_term)
         return law;
+    double force = 0, mean = NAN; /* sum of normal forces, N; mean slip, m/s */
     most->eval.term = now.eval.term =
         system_find_term(system, law->element_term);
     for (ElementIterator walk = elements_begin(&now.eval, NULL, 0);
          elements_next(&walk);) {
         const Element *element = &walk.element;
-        double t[4], w[4], slip, mean = now.normal_sum > 0 ? now.x : 0;
+        double t[4], w[4], slip;
         now.element = *element;
         now.load = -element->s;
         now.x = element->s;
-        if (law->evaluate == friction_force_ratio) {
+        if (rubs) {
             now.load = walk.kind->friction_limit(&now.eval, element, t, &slip);
             element_vectors(element, v, w);
             for (int i = 0; i < 2 * element->vectors; i++)
                 slip -= t[i] * w[i];
-            now.normal_sum += now.load;
-            now.x = mean + (fabs(slip) - mean) * now.load / now.normal_sum;
+            mean = force > 0 ? mean : 0;
+            force += now.load;
+            mean += (fabs(slip) - mean) * now.load / force;
         }
         *most = now.load > most->load ? now : *most;
     }
-    most->x = law->evaluate == friction_force_ratio ? now.x : most->x;
+    most->x = rubs ? mean : most->x;
     return law;
 }
 
 bool law_find_gap(const Simulation *simulation, LawGap *gap)
 {
     LawPoint now;
-    const Law *law = find_law(simulation, 0, &now);
-    if (!law || simulation->runs > 1 || isnan(now.x) ||
-        law->evaluate != element_energy_at)
+    const Law *law = find_law(simulation, &now);
+    if (!law || isnan(now.x) || law->evaluate != element_energy_at)
         return false;
     bool self = law->element_term == &self_contact_energy;
-    gap->d_hat = now.d_hat;
+    gap->d_hat = now.axis_unit;
     gap->d = self ? sqrt(now.element.s) * gap->d_hat : now.element.s;
     for (int c = 0; c < 2; c++) {
         gap->node[c] = now.eval.x[2 * now.element.node[0] + c];
@@ -233,20 +231,20 @@ bool law_find_slide(const Simulation *simulation, double distance[2])
 void law_add_values(const Simulation *simulation, LiveValues *values)
 {
     LawPoint now;
-    const Law *law = find_law(simulation, 0, &now);
-    if (!law || simulation->runs > 1)
+    const Law *law = find_law(simulation, &now);
+    if (!law)
         return;
-    bool is_there = !isnan(now.x),
-         self = law->element_term == &self_contact_energy;
-    bool still = law->evaluate == flow_force_at && now.spring.ep == 0;
+    bool self = law->element_term == &self_contact_energy;
+    bool flows = law->evaluate == flow_force_at;
+    bool still = flows && now.spring.ep == 0;
+    double from[2], to[2], way[2];
+    bool has_path = find_flow_path(&now, from, to);
     values_add_flag(values, "law", true);
     values_add_flag(values, "unflowed", still);
     values_add_flag(values, "bodies apart", self);
-    double ends[2][2];
-    values_add_flag(values, law->name, is_there && !still);
-    values_add_words(
-        values, "its way",
-        find_flow_path(&now, ends[0], ends[1]) ? "; its path is violet" : "");
+    values_add_flag(values, law->name, !isnan(now.x) && !still);
+    values_add_words(values, "its way",
+                     has_path ? "; its path is violet" : "");
     if (law->evaluate == element_energy_at) {
         const System *system = now.eval.system;
         values_add(values, "c",
@@ -257,60 +255,24 @@ void law_add_values(const Simulation *simulation, LiveValues *values)
         values_add(values, "law force", contact_force_at(&now));
     }
     values_add(values, "law x", now.x);
-    values_add(values, "law y", is_there ? law_value_at(law, &now) : NAN);
-    values_add(values, "s_p",
-               law->evaluate == flow_force_at ? now.spring.ep : NAN);
+    if (!isnan(now.x))
+        values_add(values, "law y", law_value_at(law, &now));
+    if (flows)
+        values_add(values, "s_p", now.spring.ep);
     Energies energies = simulation_energies(simulation, 0);
     for (int i = 0; i < energies.rows; i++)
         values_add(values, energies.row[i].name, energies.row[i].value);
-    double way[2];
-    bool slides = law_find_slide(simulation, way);
-    values_add(values, "gone", slides ? way[0] : NAN);
-    values_add(values, "rigid", slides ? way[1] : NAN);
+    if (law_find_slide(simulation, way))
+        values_add(values, "rigid", way[1]);
 }
 
-/* Draws a dot for each run, at the end of the axis if the value lies beyond.
- * With several runs, dots close together share one label. */
-static void draw_law_points(const Plot *plot, const Law *law, int runs,
-                            const LawPoint *now)
-{
-    static const char *const names[] = {"upper", "middle", "lower"};
-    static const double dot = 6; /* units of the paper, radius of a dot */
-    double at[SIMULATION_MAX_RUNS][2];
-    for (int i = 0; i < runs; i++) {
-        at[i][0] = fmin(fmax(now[i].x, plot->x.low), plot->x.high);
-        at[i][1] = law_value_at(law, &now[i]);
-        plot_disc(plot, at[i], isnan(now[i].x) ? 0 : dot, COLOUR_P);
-    }
-    for (int i = 0, with = 0; i < runs && runs > 1; i++) {
-        const double across = 0.2 * (plot->x.high - plot->x.low);
-        const double place[4] = {at[i][0], at[i][1], at[i][0] + across,
-                                 at[i][1]};
-        char words[40] = "";
-        for (int k = i; k < runs; k++)
-            if (!(with >> k & 1) && !isnan(now[k].x) &&
-                fabs(at[i][0] - at[k][0]) < 0.5 * across) {
-                with |= 1 << k;
-                snprintf(words + strlen(words), sizeof words - strlen(words),
-                         "%s%s", words[0] ? ", " : "", names[k]);
-            }
-        if (words[0])
-            plot_label(plot, 2, place, COLOUR_P, "%s%s", words,
-                       now[i].x > plot->x.high ? " \u2192" : "");
-    }
-    if (runs == 1 && now->x > plot->x.high)
-        plot_label(plot, 1, at[0], COLOUR_P, "\u2192");
-}
-
-/* Draws the law's curve for the first run's element.  A contact also has the
- * tangent, whose slope is the force; a spring its plastic flow and strain. */
+/* Draws the law's curve for the shown element.  A contact also has the tangent,
+ * whose slope is the force; a spring its plastic flow and strain.  The dot of
+ * the element is at the end of the axis if its value lies beyond. */
 void law_draw(const Plot *card)
 {
-    const Simulation *simulation = card->simulation;
-    LawPoint now[SIMULATION_MAX_RUNS];
-    const Law *law = NULL;
-    for (int run = simulation->runs - 1; run >= 0; run--)
-        law = find_law(simulation, run, &now[run]);
+    LawPoint point, *now = &point;
+    const Law *law = find_law(card->simulation, now);
     if (!law)
         return;
     bool both = law->axis_low < 0;
@@ -320,11 +282,12 @@ void law_draw(const Plot *card)
                        : fmax(law->evaluate(now, 0.9 * low + 0.1 * high),
                               law->evaluate(now, 0.25 * low + 0.75 * high));
     double x = now->x, y = law_value_at(law, now);
+    const double rest[2] = {now->spring.ep, 0};
+    const double dot[2] = {fmin(fmax(x, low), high), y};
     most = plot_round_axis_end(1.1 * fmax(most, fabs(y)));
     Plot plot = plot_create(
-        card, (Axis){low, high, false, false, law->x_label},
-        (Axis){both ? -most : -0.02 * most, most, false, false, law->y_label});
-    const double rest[2] = {now->spring.ep, 0};
+        card, (Axis){low, high, .label = law->x_label},
+        (Axis){both ? -most : -0.02 * most, most, .label = law->y_label});
     plot_graph(&plot, law->evaluate, now, 2.4, COLOUR_X);
     LawPoint other = *now; /* each spring has a small dot on its own law */
     for (int s = 0; s < other.eval.system->springs && !law->element_term; s++) {
@@ -348,5 +311,8 @@ void law_draw(const Plot *card)
         plot_ring(&plot, rest, 4, 2, COLOUR_PLASTIC);
         plot_label(&plot, 1, rest, COLOUR_PLASTIC, "s_{p}");
     }
-    draw_law_points(&plot, law, simulation->runs, now);
+    if (!isnan(x))
+        plot_disc(&plot, dot, 6, COLOUR_P);
+    if (x > high)
+        plot_label(&plot, 1, dot, COLOUR_P, "\u2192");
 }

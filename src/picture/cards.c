@@ -193,7 +193,6 @@ void card_draw(Paper *paper, Box inside, const FrameContent *content, int card)
         card_write_rows(&plot, row->rows);
 }
 
-/* Draws the code or list in the column. */
 static void draw_code_or_list(Paper *paper, const Layout *layout,
                               const FrameContent *content)
 {

@@ -1,22 +1,14 @@
-/* colour_map.c - colours of strains, methods and runs. */
+/* colour_map.c - colours of words, methods and runs. */
 #include "picture/colour_map.h"
 
-#include <math.h>
 #include <string.h>
-
-Colour colour_of_strain(double strain, double range, Colour below, Colour above)
-{
-    double part = fabs(strain) / range;
-    return colour_mix(COLOUR_REST, strain < 0 ? below : above,
-                      fmin(fmax(part, 0), 1));
-}
 
 Colour colour_of_run(int run)
 {
     /* vermilion, green, blue, purple, brown, sky blue */
     static const Colour colours[] = {0xffd55e00u, 0xff009e73u, 0xff0072b2u,
                                      0xffb0559au, 0xff7a5c2eu, 0xff56b4e9u};
-    return colours[run < 0 ? 0 : run % 6];
+    return colours[run % 6];
 }
 
 /* The first TERMS colours are those of letters and energies: the row of a new

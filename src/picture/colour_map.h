@@ -61,9 +61,4 @@ Colour colour_of_term(int term);
 /* Returns the colour of an energy or an integrator by name. */
 Colour colour_of_name(const char *name);
 
-/* Interpolates from `below` at strain -range over COLOUR_REST at 0 to `above`
- * at strain range > 0. Larger strains have the colour of the nearer end. */
-Colour colour_of_strain(double strain, double range, Colour below,
-                        Colour above);
-
 #endif

@@ -35,21 +35,21 @@ int picture_find_card(const Picture *picture, const char *name)
     return -1;
 }
 
-/* Finds the cards that the page, or else the scene, hides or closes at first.
- *   hidden, closed  out, bit c: card c */
-static void find_hidden_cards(const Simulation *simulation, unsigned *hidden,
-                              unsigned *closed)
+/* Returns the cards that the page, or else the scene, hides or closes. */
+static CardSets find_first_sets(const Simulation *simulation)
 {
     const Picture *picture = picture_of_scene(simulation->scene);
     const LecturePage *page = simulation->options.page;
+    CardSets sets = {.enlarged = -1};
     for (int c = 0; c < picture->count; c++) {
         /* No card's name is part of another card's name. */
         const Card *card = picture->cards[c];
         bool has = page ? strstr(page->cards, card->name) != NULL
                         : !card->only_in_lecture;
-        *hidden |= (unsigned)!has << c;
-        *closed |= (unsigned)(card->starts_closed && !page) << c;
+        sets.hidden |= (unsigned)!has << c;
+        sets.closed |= (unsigned)(card->starts_closed && !page) << c;
     }
+    return sets;
 }
 
 void frame_create(const Simulation *simulation, FrameContent *content)
@@ -58,23 +58,19 @@ void frame_create(const Simulation *simulation, FrameContent *content)
     *content = (FrameContent){.panes = 1,
                               .view = &whole,
                               .settings.selected = -1,
-                              .cards.enlarged = -1};
+                              .cards = find_first_sets(simulation)};
     content->pane[0].simulation = simulation;
-    find_hidden_cards(simulation, &content->cards.hidden,
-                      &content->cards.closed);
 }
 
 bool cards_need_line_energy(const Simulation *simulation, unsigned toggled)
 {
     const Picture *picture = picture_of_scene(simulation->scene);
-    unsigned hidden = 0, closed = 0;
-    bool needs = false;
-    find_hidden_cards(simulation, &hidden, &closed);
-    closed ^= toggled;
+    const CardSets sets = find_first_sets(simulation);
+    unsigned shut = sets.hidden | (sets.closed ^ toggled);
     for (int c = 0; c < picture->count; c++)
-        needs = needs || (picture->cards[c]->needs_line_energy &&
-                          !((hidden | closed) >> c & 1));
-    return needs;
+        if (picture->cards[c]->needs_line_energy && !(shut >> c & 1))
+            return true;
+    return false;
 }
 
 /* Returns the box of a pane without its rows of words above and below the
@@ -254,9 +250,10 @@ Pick frame_pick(const FrameContent *content, const Layout *layout, double x,
                 double y)
 {
     Hit hit = layout_hit(layout, x, y);
-    Pick pick = {.kind = PICK_NONE, .nearest_node = -1, .pane = hit.index};
+    Pick pick = {.kind = PICK_NONE, .nearest_node = -1};
     if (hit.zone != ZONE_STAGE || hit.index >= content->panes)
-        return (Pick){.kind = PICK_NONE, .nearest_node = -1};
+        return pick;
+    pick.pane = hit.index;
     Plot stage = stage_create(NULL, content, layout, hit.index);
     const Picture *picture = picture_of_scene(stage.simulation->scene);
     double at[SCENE_MAX_HANDLES][2];
@@ -335,44 +332,27 @@ void history_add_point(History *history, double time, int rows,
 
 /* ---- drawing ------------------------------------------------------------- */
 
-enum { LABEL_SIZE = 4 * VALUE_SIZE };
-
-/* Copies the first parts of a label, separated by ", ", that fit into a line
- * [LABEL_SIZE].  Returns the rest of the label. */
-static const char *take_label_line(const Plot *stage, const char *label,
-                                   char *line)
-{
-    int room = (int)(stage->box.width - stage->em);
-    char *comma;
-    snprintf(line, LABEL_SIZE, "%s", label);
-    while (paper_width(stage->paper, FACE_BOLD, 1, line) > room &&
-           (comma = strrchr(line, ',')))
-        *comma = '\0';
-    label += strlen(line);
-    return label + strspn(label, ", ");
-}
-
-/* Writes the label of a pane, which says how panes differ, in up to three lines
- * below the picture; a wide label stands above the scale. */
+/* Writes the label of a pane, which says how panes differ, below the picture; a
+ * wide label stands above the scale.  If the label is wider than the pane, each
+ * of its parts, separated by ", ", has a line. */
 static void draw_pane_label(const Plot *stage, const char *label)
 {
-    enum { LINES = 3 };
-    Paper *paper = stage->paper;
     const Box *box = &stage->box;
-    char line[LINES][LABEL_SIZE];
-    int lines = 0, wide = 0;
-    while (*label && lines < LINES) {
-        label = take_label_line(stage, label, line[lines]);
-        int own = paper_width(paper, FACE_BOLD, 1, line[lines++]);
-        wide = own > wide ? own : wide;
+    double em = stage->em, pitch = 1.36 * em;
+    int wide = paper_width(stage->paper, FACE_BOLD, 1, label), more = 0;
+    bool high = wide > box->width - 10 * em, split = wide > box->width - em;
+    for (const char *at = label; split && (at = strchr(at, ',')); at++)
+        more++;
+    double y = box->y + box->height - (high ? 4.2 : 1.7) * em - more * pitch;
+    for (; *label; label += strspn(label, ", "), y += pitch) {
+        char line[4 * VALUE_SIZE];
+        size_t length = strcspn(label, split ? "," : "");
+        snprintf(line, sizeof line, "%.*s", (int)length, label);
+        paper_write_on_panel(stage->paper, FACE_BOLD, 1,
+                             colour_of_run(plot_pane_index(stage)),
+                             box->x + 0.5 * box->width, y, ALIGN_CENTRE, line);
+        label += length;
     }
-    bool high = wide > box->width - 10 * paper->em;
-    double low = box->y + box->height - (high ? 4.2 : 1.7) * paper->em;
-    for (int i = 0; i < lines; i++)
-        paper_write_on_panel(
-            paper, FACE_BOLD, 1, colour_of_run(plot_pane_index(stage)),
-            box->x + 0.5 * box->width, low - 1.36 * (lines - 1 - i) * paper->em,
-            ALIGN_CENTRE, line[i]);
 }
 
 /* Draws the picture of a pane with its words, and the note at the mouse. */
@@ -432,7 +412,6 @@ static void draw_sheet_cell(Paper *paper, Box box, const SheetCell *cell,
                        cell->name);
 }
 
-/* Makes the paper white, and sets the pixels of an em. */
 static void prepare_paper(Paper *paper, double em, const FrameContent *content)
 {
     paper->em = em;
@@ -443,12 +422,9 @@ static void prepare_paper(Paper *paper, double em, const FrameContent *content)
 
 void frame_draw_card(Paper *paper, const FrameContent *content, int card)
 {
-    const Canvas *canvas = &paper->canvas;
     prepare_paper(paper, content->min_em, content);
-    card_draw(paper,
-              box_inset((Box){0, 0, canvas->width, canvas->height},
-                        paper_pixels(paper, 0.4)),
-              content, card);
+    Box inside = box_inset(paper->canvas.clip, paper_pixels(paper, 0.4));
+    card_draw(paper, inside, content, card);
     highlight_draw(paper, content);
 }
 

@@ -51,7 +51,6 @@ void values_add_matrix(LiveValues *values, const char *const names[3],
         values_add(values, names[k], fabs(H[k]) < tiny ? 0 : H[k]);
 }
 
-/* Adds the values of the lecture and of the window. */
 static void add_window_values(const FrameContent *content, LiveValues *values)
 {
     const LectureContent *lecture = &content->lecture;
@@ -68,7 +67,6 @@ static void add_window_values(const FrameContent *content, LiveValues *values)
     values_add_flag(values, content->view->held.on ? "held" : "free", true);
 }
 
-/* Adds scene, methods and settings. */
 static void add_setting_values(const Simulation *simulation, LiveValues *values)
 {
     const Scene *scene = simulation->scene;
@@ -460,7 +458,7 @@ void frame_fill_texts(FrameContent *content)
     Strip *strip = &content->strip;
     frame_fill_values(content);
     if (!strip->topic)
-        strip->topic = scene->title ? scene->title : scene->name;
+        strip->topic = scene->title;
     fill_text(values, text_sentences, strip->sentence, sizeof strip->sentence);
     fill_text(values, text_methods, strip->method, sizeof strip->method);
     fill_text(values, text_states, strip->state, sizeof strip->state);

@@ -106,13 +106,11 @@ void circle_bounds(const Plot *stage, double bounds[4])
     bounds_make_square(CIRCLE_REACH, 1.4 * most, 1.2, bounds);
 }
 
-/* Picks the mass of a run under the mouse. */
 void circle_pick(const Plot *stage, double x, double y, Pick *pick)
 {
-    const Simulation *simulation = stage->simulation;
-    for (int r = 0; r < simulation->runs; r++)
-        if (plot_pick_point(stage, 1, simulation->run[r].x, 16, x, y, PICK_NODE,
-                            pick))
+    for (int r = 0; r < stage->simulation->runs; r++)
+        if (plot_pick_point(stage, 1, stage->simulation->run[r].x, 16, x, y,
+                            PICK_NODE, pick))
             pick->index = r;
 }
 
@@ -288,7 +286,6 @@ void mass_bounds(const Plot *stage, double bounds[4])
     bounds_make_square(MASS_REACH, 1.1 * most, sqrt(2), bounds);
 }
 
-/* Returns the exact position after time h. */
 static Point find_exact_position(const MassStep *step, double h)
 {
     const Point x = point_along(origin, cos(h), step->x);
@@ -312,34 +309,30 @@ static void draw_step_error(const Plot *stage, const MassStep *step, double h,
 /* Draws what a page explains: the exact end of the step; for forward Euler its
  * error; for backward Euler the fixed-point iterates; for symplectic Euler the
  * ellipse through the steps, or the next steps if h >= 2. */
-static void draw_mass_lesson(Plot *stage)
+static void draw_mass_lesson(Plot *stage, const MassStep *step)
 {
-    MassStep step;
     double h = stage->simulation->run[0].h;
+    double near = 1.5 * stage->em / stage->camera.scale[0]; /* m */
     bool implicit = stage->simulation->run[0].method->implicit;
-    if (!mass_find_next_step(stage->simulation, 0, &step))
-        return;
-    const Point end = find_exact_position(&step, h);
+    const Point end = find_exact_position(step, h);
     plot_hollow_disc(stage, end.at, 6, 3.4, COLOUR_GREY);
-    if (step.by_old_v) {
-        draw_step_error(stage, &step, 0.5 * h, "with h/2: a quarter");
-        draw_step_error(stage, &step, h, "\u00bdh\u00b2 a^{n}");
+    if (step->by_old_v) {
+        draw_step_error(stage, step, 0.5 * h, "with h/2: a quarter");
+        draw_step_error(stage, step, h, "\u00bdh\u00b2 a^{n}");
     }
     plot_label(stage, 1, end.at, COLOUR_FAINT, "exact");
-    Point x = point_along(step.x, 0, step.v),
-          v = point_along(step.v, 0, step.x);
+    Point x = {{step->x[0], step->x[1]}}, v = {{step->v[0], step->v[1]}};
     for (int k = 0; k < FIXED_POINT_ITERATES && implicit; k++) {
         const Point from = x,
-                    pulled = point_along(step.v, k > 0 ? -h : 0, from.at);
-        x = point_along(step.x, h, pulled.at);
+                    pulled = point_along(step->v, k > 0 ? -h : 0, from.at);
+        x = point_along(step->x, h, pulled.at);
         if (k > 0)
             plot_line(stage, from.at, x.at, 1.4, COLOUR_GREY);
         plot_hollow_disc(stage, x.at, 5, 3, COLOUR_GREY);
-        if (point_distance(step.new_x, x.at) * stage->camera.scale[0] >
-            1.5 * stage->em)
+        if (point_distance(step->new_x, x.at) > near)
             plot_label(stage, 1, x.at, COLOUR_FAINT, "%d", k + 1);
     }
-    bool symplectic = !step.by_old_v && !implicit;
+    bool symplectic = !step->by_old_v && !implicit;
     for (int k = 0; k < STEPS_AHEAD && symplectic && h >= 2; k++) {
         const Point from = x;
         v = point_along(v.at, -h, x.at);
@@ -348,10 +341,10 @@ static void draw_mass_lesson(Plot *stage)
         plot_hollow_disc(stage, x.at, 4, 2.4, COLOUR_GREY);
     }
     double turn = 1 - 0.5 * h * h, reach = sqrt(1 - turn * turn);
-    const Point side = point_along(step.new_x, -turn, step.x);
+    const Point side = point_along(step->new_x, -turn, step->x);
     const Point across = point_along(origin, 1 / reach, side.at);
     if (symplectic && h < 2)
-        plot_ellipse(stage, origin, step.x, across.at, 2.4, false,
+        plot_ellipse(stage, origin, step->x, across.at, 2.4, false,
                      COLOUR_ALPHA);
 }
 
@@ -388,7 +381,7 @@ static void draw_mass_step(Plot *stage)
     plot_ring(stage, step.new_x, 9, 2.4, COLOUR_X);
     plot_disc(stage, step.x, 8, COLOUR_X);
     if (stage->content->lecture.page)
-        draw_mass_lesson(stage);
+        draw_mass_lesson(stage, &step);
     plot_label(stage, 1, step.new_x, COLOUR_X, "x^{n+1}");
     for (int i = 0; i < 4 + backward; i++) {
         const struct MassArrow *now = &arrow[order[i]];

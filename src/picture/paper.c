@@ -22,8 +22,6 @@ Status paper_create(int width, int height, Paper *paper)
 
 void paper_free(Paper *paper)
 {
-    if (!paper)
-        return;
     canvas_free(&paper->canvas);
     text_free(paper->text);
     *paper = (Paper){0};

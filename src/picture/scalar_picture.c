@@ -156,7 +156,6 @@ static double find_first_length(const Simulation *simulation)
     return alpha;
 }
 
-/* Adds the values of the shown update. */
 void scalar_add_values(const Simulation *simulation, LiveValues *values)
 {
     ScalarUpdate update =

@@ -94,9 +94,11 @@ SquarePen square_pen_create(Plot *stage, int run)
 static Colour colour_of_state(const SquarePen *pen, double plastic,
                               double strain, bool shorter)
 {
+    double value = pen->shows_plastic ? plastic : strain;
+    double part = fmin(fabs(value) / pen->colour_range, 1);
     if (pen->colour_range > 0)
-        return colour_of_strain(pen->shows_plastic ? plastic : strain,
-                                pen->colour_range, pen->below, pen->above);
+        return colour_mix(COLOUR_REST, value < 0 ? pen->below : pen->above,
+                          isnan(value) ? 0 : part);
     return pen->shows_projected && shorter ? COLOUR_PROJECT : 0;
 }
 

@@ -34,7 +34,6 @@ static void draw_strip(Paper *paper, Box room, const Strip *strip)
     double em = paper->em;
     bool low = room.height <= 2.6 * em, message = strip->message[0];
     const char *said = message ? strip->message : strip->sentence;
-    const char *topic = strip->topic ? strip->topic : "";
     Colour colour = !message            ? COLOUR_TEXT
                     : strip->is_warning ? COLOUR_WARNING
                                         : COLOUR_VALUE;
@@ -50,17 +49,13 @@ static void draw_strip(Paper *paper, Box room, const Strip *strip)
     room.width -= paper_write_in_box(paper, FACE_REGULAR, 1, COLOUR_FAINT, room,
                                      ALIGN_RIGHT, words);
     room.width -= (int)(1.4 * em);
-    double wide = paper_width(paper, FACE_REGULAR, 1, said);
-    bool beside =
-        !low || !message ||
-        paper_width(paper, FACE_BOLD, TOPIC_SIZE, topic) + wide + 1.1 * em <
-            room.width;
-    if (strip->topic && beside)
-        box_cut_off(&room, EDGE_LEFT,
-                    (int)(1.1 * em) + paper_write_in_box(paper, FACE_BOLD,
-                                                         TOPIC_SIZE,
-                                                         COLOUR_TEXT, room,
-                                                         ALIGN_LEFT, topic));
+    int wide = paper_width(paper, FACE_REGULAR, 1, said);
+    int topic = paper_width(paper, FACE_BOLD, TOPIC_SIZE, strip->topic);
+    if (!low || !message || topic + wide + 1.1 * em < room.width) {
+        topic = paper_write_in_box(paper, FACE_BOLD, TOPIC_SIZE, COLOUR_TEXT,
+                                   room, ALIGN_LEFT, strip->topic);
+        box_cut_off(&room, EDGE_LEFT, topic + (int)(1.1 * em));
+    }
     bool two = !low && wide > room.width;
     room.y += (int)(0.5 * room.height - (two ? 1.27 : 0.65) * em);
     if (room.width > 6 * em)
