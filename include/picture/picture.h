@@ -41,8 +41,9 @@ typedef struct Card {
     /* Fills row 0, 1, ... of the card's table; row 0 has the heads.  Returns
      * false after the last row.  NULL: the card has no table. */
     bool (*table)(const FrameContent *content, int row, CardTableRow *cells);
-    /* Fills a row of the legend: a name, and perhaps a value.  Returns false
-     * after the last row.  NULL: the graph has no legend. */
+    const char *legend; /* text: the legend of the graph, or NULL */
+    /* Fills a row of a legend with values: a name and a value.  Returns false
+     * after the last row.  NULL: the graph has no such legend. */
     bool (*legend_row)(const FrameContent *content, int row,
                        CardTableRow *cells);
     /* Draws the content: curves, words, table and legend; on the web page

@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "picture/cards.h"
-#include "picture/colour_map.h"
 
 /* The axis covers the whole run, unless its largest energy is this many times
  * the largest one until now. */

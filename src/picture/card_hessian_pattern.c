@@ -3,7 +3,6 @@
 #include <stdlib.h>
 
 #include "picture/cards.h"
-#include "picture/colour_map.h"
 
 /* Kinds of blocks: zero in the factor, non-zero in the factor alone, non-zero
  * in the matrix, too. */
@@ -59,12 +58,11 @@ static Box find_block_box(Box square, int n, int i, int j, int least)
 static void draw_pattern(const Plot *card, Box square, bool natural,
                          int springs)
 {
-    Paper *paper = card->paper;
     const System *system = &card->simulation->system;
     const Pick *hover = &card->content->view->hover;
     unsigned char *block = compute_pattern(system, natural, springs);
-    Canvas *canvas = &paper->canvas;
-    int n = system->nodes;
+    Canvas *canvas = &card->paper->canvas;
+    int n = system->nodes, least = paper_pixels(card->paper, 0.35);
     int lit = hover->kind == PICK_SPRING    ? hover->index
               : card->content->lecture.page ? springs - 1
                                             : -1;
@@ -81,9 +79,9 @@ static void draw_pattern(const Plot *card, Box square, bool natural,
     free(block);
     for (int k = 0; k < 4 && lit >= 0 && lit < system->springs; k++) {
         const int *e = system->e + 2 * lit;
-        Box box = find_block_box(
-            square, n, row_of_node(system, e[k / 2], natural),
-            row_of_node(system, e[k % 2], natural), paper_pixels(paper, 0.35));
+        int i = row_of_node(system, e[k / 2], natural);
+        int j = row_of_node(system, e[k % 2], natural);
+        Box box = find_block_box(square, n, i, j, least);
         canvas_framed_box(canvas, box_inset(box, -1), COLOUR_PROJECT,
                           COLOUR_WHITE);
     }
@@ -96,14 +94,13 @@ void hessian_pattern_draw(const Plot *card)
     Paper *paper = card->paper;
     const System *system = &card->simulation->system;
     bool writes = card->simulation->options.next == NEXT_SPRING;
+    bool has_text = !card->content->in_document;
     Box inside = card->box;
-    int line = paper_pixels(paper, 1.4), gap = line;
-    int side = (inside.width - gap) / 2;
-    int below =
-        writes && !card->content->in_document ? paper_pixels(paper, 9) : 0;
-    below = 2 * below < inside.height ? below : 0;
-    if (side > inside.height - line - below)
-        side = inside.height - line - below;
+    int line = paper_pixels(paper, 1.4), below = paper_pixels(paper, 9);
+    int high = inside.height - line, side = (inside.width - line) / 2;
+    if (writes && has_text && 2 * below < inside.height)
+        high -= below;
+    side = side < high ? side : high;
     int springs =
         writes ? find_newest_spring(card->simulation) + 1 : system->springs;
     if (side < 4 * line || system->nodes > side) {
@@ -112,7 +109,7 @@ void hessian_pattern_draw(const Plot *card)
         return;
     }
     for (int k = 0; k < 2; k++) {
-        int x = inside.x + k * (side + gap);
+        int x = inside.x + k * (side + line);
         paper_write(paper, FACE_REGULAR, 0.9, COLOUR_FAINT, x, inside.y,
                     ALIGN_LEFT,
                     k ? "order of elimination" : "node i: rows 2i, 2i + 1");
@@ -120,6 +117,6 @@ void hessian_pattern_draw(const Plot *card)
     }
     Plot rest = *card; /* below the patterns: text on the newest spring */
     box_cut_off(&rest.box, EDGE_TOP, 2 * line + side);
-    if (rest.box.height > 7 * paper->em && !card->content->in_document)
+    if (rest.box.height > 7 * paper->em && has_text)
         card_write_text(&rest, &card->pane->values, card_hessian_pattern.words);
 }

@@ -13,7 +13,6 @@
 #include "model/self_contact.h"
 #include "model/spring_law.h"
 #include "picture/cards.h"
-#include "picture/colour_map.h"
 
 /* An element, and its place on the curve of the law. */
 typedef struct LawPoint {

@@ -1,9 +1,7 @@
 /* card_line.c - the card of E along p, with the trials of the line search. */
 #include <math.h>
-#include <stdio.h>
 
 #include "picture/cards.h"
-#include "picture/colour_map.h"
 
 enum { LINE_POINTS = 161 };
 
@@ -80,25 +78,13 @@ static void draw_trial(const Plot *plot, double alpha, double value,
                    format_number(value).text);
 }
 
-/* Fills a row with what a curve is, or with the last trial. */
-bool line_legend_row(const FrameContent *content, int row, CardTableRow *cells)
-{
-    TextLine line = text_begin(&active_pane(content)->values, text_trials);
-    for (int i = 0; i <= row; i++)
-        if (!text_next_line(&line))
-            return false;
-    *cells = (CardTableRow){1, line.colour, {""}};
-    snprintf(cells->cell[0], CARD_CELL, "%.*s", CARD_CELL - 1, line.words);
-    return true;
-}
-
 /* Writes the legend above the plot, in a room of fixed height. */
 static void draw_legend(const Plot *card, Box *rest)
 {
     Paper *paper = card->paper;
     int rows = card->box.width / paper->em < WORDS_WIDTH ? 2 : 1;
     int high = paper_pixels(paper, rows * ROW_HEIGHT), at[2] = {0, 0};
-    TextLine line = text_begin(&card->pane->values, text_trials);
+    TextLine line = text_begin(&card->pane->values, card_line.legend);
     int air = paper_pixels(paper, 0.4); /* room for superscripts */
     Box words = box_cut_off(rest, EDGE_TOP, high);
     words.y -= air;
@@ -128,8 +114,8 @@ void line_energy_draw(const Plot *card)
                           other.p);
     other.trace.difference_data = &other;
     fill_curves(trace, both ? &other.trace : NULL, &curves);
-    Axis x = {0, curves.alpha[LINE_POINTS - 1], false, false, "{alpha}"};
-    Axis y = {curves.low, curves.high, false, false, NULL};
+    Axis x = {0, curves.alpha[LINE_POINTS - 1], .label = "{alpha}"};
+    Axis y = {curves.low, curves.high, .label = NULL};
     Plot rest = *card;
     if (!card->content->in_document)
         draw_legend(card, &rest.box);

@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "picture/cards.h"
-#include "picture/colour_map.h"
 
 /* Height of a row on a page of the lecture, and otherwise, ems. */
 static const double PAGE_PITCH = 2.1, PITCH = 1.75;
@@ -84,7 +83,6 @@ static double find_row_pitch(const FrameContent *content)
     return content->lecture.page ? PAGE_PITCH : PITCH;
 }
 
-/* Returns the height of the card, ems. */
 double listing_needed_height(const FrameContent *content, double wide,
                              double em)
 {
@@ -144,7 +142,7 @@ void residual_log_draw(const Plot *card)
     Box inside = card->box;
     CardTableRow cells;
     const Trace *trace = card->pane->shown_trace;
-    bool is_main = inside.height > 14 * paper->em;
+    bool plots = trace && inside.height > 14 * paper->em;
     double size = fmin(inside.width / (PRINT_WIDTH * paper->em), 1.5);
     bool narrow = size < 1; /* leaves words out */
     size = narrow ? 0.95 : size;
@@ -152,14 +150,14 @@ void residual_log_draw(const Plot *card)
         residual_draw(card);
         return;
     }
-    if (is_main && trace) {
+    if (plots) {
         inside = box_cut_off(&below.box, EDGE_TOP, inside.height / 2);
         residual_draw(&below);
     }
     int pitch = paper_pixels(paper, 1.5 * size), room = inside.height / pitch;
     int count = trace ? trace->updates : 0,
         first = count > room - 1 ? count - (room - 1) : 0;
-    if (count == 0 && !(is_main && trace))
+    if (count == 0 && !plots)
         card_write_hint(card, text_undrawn);
     for (int i = 0; i < room; i++) {
         double y = inside.y + i * pitch;

@@ -2,7 +2,6 @@
 #include <limits.h>
 
 #include "picture/cards.h"
-#include "picture/colour_map.h"
 
 /* A text of the card, with a heading on its left side. */
 typedef struct PageText {

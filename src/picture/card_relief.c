@@ -3,7 +3,6 @@
 #include <math.h>
 
 #include "picture/cards.h"
-#include "picture/colour_map.h"
 
 enum {
     SURFACE_CELLS = 96, /* cells of the surface along one side */

@@ -2,7 +2,6 @@
 #include <math.h>
 
 #include "picture/cards.h"
-#include "picture/colour_map.h"
 
 /* Draws the residuals of the updates, and of the next update if p is known. */
 void residual_draw(const Plot *card)
@@ -12,15 +11,14 @@ void residual_draw(const Plot *card)
         card_write_hint(card, text_undrawn);
         return;
     }
-    const NewtonRecord now = {.residual = trace->residual};
+    const double now = trace->residual;
     int updates = trace->updates;
     bool known = trace->line >= LINE_SOLVE || trace->line == LINE_NONE;
-    bool pending =
-        known && now.residual > 0 && isfinite(now.residual) &&
-        !(updates > 0 && trace->record[updates - 1].residual == now.residual);
+    bool pending = known && now > 0 && isfinite(now) &&
+                   (updates == 0 || trace->record[updates - 1].residual != now);
     double low = 0.3 * trace->tolerance, high = 30 * trace->tolerance;
     for (int i = 0; i < updates + pending; i++) {
-        double residual = (i < updates ? &trace->record[i] : &now)->residual;
+        double residual = i < updates ? trace->record[i].residual : now;
         if (residual > 0 && isfinite(residual)) {
             low = fmin(low, residual);
             high = fmax(high, residual);
@@ -38,10 +36,9 @@ void residual_draw(const Plot *card)
     const double right[2] = {x.high, trace->tolerance};
     double at[2] = {0, 0}, before[2];
     for (int i = 0; i < updates + pending; i++) {
-        const NewtonRecord *record = i < updates ? &trace->record[i] : &now;
         before[0] = at[0], before[1] = at[1];
         at[0] = i + x.low + 0.5;
-        at[1] = record->residual;
+        at[1] = i < updates ? trace->record[i].residual : now;
         if (i > 0)
             plot_line(&plot, before, at, 1.3, COLOUR_P);
         plot_disc(&plot, at, 3.5, COLOUR_P);

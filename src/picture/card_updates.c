@@ -6,7 +6,6 @@
 
 #include "model/inertia_energy.h"
 #include "picture/cards.h"
-#include "picture/colour_map.h"
 
 /* Counts the updates whose alpha p is already part of the shown positions. */
 static int count_added_updates(const Trace *trace)
@@ -45,8 +44,8 @@ static void draw_energy_parts(const Plot *card, const System *system,
     free(at);
     const double *E = part[2];
     Plot plot = plot_create(
-        card, (Axis){t[0], t[POINTS - 1], false, false, "t"},
-        (Axis){0, 1.4 * fmax(E[START], E[END]), false, false, "J s\u00b2"});
+        card, (Axis){t[0], t[POINTS - 1], .label = "t"},
+        (Axis){0, 1.4 * fmax(E[START], E[END]), .label = "J s\u00b2"});
     for (int k = 0; k < 3; k++)
         plot_curve(&plot, POINTS, t, part[k], k < 2 ? 1.6 : 2.4,
                    parts[k].colour);
@@ -151,19 +150,19 @@ bool updates_fill_row(const FrameContent *content, int row, CardTableRow *cells)
     snprintf(cells->cell[0], CARD_CELL, "%d", row);
     snprintf(cells->cell[1], CARD_CELL, "%d",
              raw ? update->negative_pivots : update->projected);
-    if (line >= LINE_SOLVE)
+    if (line >= LINE_SOLVE) {
         snprintf(cells->cell[2], CARD_CELL, "%s %s \u03b5",
                  format_number(update->residual).text,
                  update->residual > trace->tolerance ? ">" : "\u2264");
+        snprintf(cells->cell[5], CARD_CELL, "%s",
+                 format_number(update->slope).text);
+    }
     if (line > LINE_SEARCH || (line == LINE_SEARCH && trace->accepted))
         snprintf(cells->cell[3], CARD_CELL, "%s",
                  format_number(update->alpha).text);
     if (line >= LINE_UPDATE)
         snprintf(cells->cell[4], CARD_CELL, "%s",
                  format_number(update->change).text);
-    if (line >= LINE_SOLVE)
-        snprintf(cells->cell[5], CARD_CELL, "%s",
-                 format_number(update->slope).text);
     return true;
 }
 

@@ -5,8 +5,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "picture/colour_map.h"
-
 static const double CODE_LETTER = 0.7; /* ems, width of a letter of code */
 
 double trace_step_length(const Trace *trace, int trial)

@@ -2,6 +2,7 @@
 #ifndef ELASTO_CARDS_H
 #define ELASTO_CARDS_H
 
+#include "picture/colour_map.h"
 #include "picture/live_values.h"
 #include "picture/plot.h"
 
@@ -29,12 +30,11 @@ typedef struct ShownRow {
 
 /* Tables and texts that cards.awk generates from cards.txt. */
 extern const Picture pictures[PICTURE_COUNT];
-extern const Card card_law, card_matrix, card_tangent_numbers,
+extern const Card card_law, card_line, card_matrix, card_tangent_numbers,
     card_hessian_pattern;
 extern const ListingRow rows_listing[];
 extern const char text_sentences[], text_methods[], text_states[],
-    text_eigenvalues[], text_trials[], text_undrawn[], text_node[],
-    text_spring[];
+    text_eigenvalues[], text_undrawn[], text_node[], text_spring[];
 
 /* Functions that cards.txt names; picture.h describes each kind. */
 typedef void StageBounds(const Plot *stage, double bounds[4]);
@@ -61,7 +61,7 @@ extern CardDraw page_draw, residual_log_draw, line_energy_draw, residual_draw,
     radius_draw, relief_draw, step_matrix_draw, tangent_numbers_draw, law_draw,
     hessian_pattern_draw, spring_profile_draw, race_table_draw;
 extern CardTable residuals_fill_row, updates_fill_row, iterates_fill_row,
-    race_fill_row, energies_legend_row, line_legend_row;
+    race_fill_row, energies_legend_row;
 extern CardHeight page_needed_height, listing_needed_height,
     energies_needed_height, updates_needed_height;
 

@@ -2,7 +2,6 @@
 #include <math.h>
 
 #include "picture/cards.h"
-#include "picture/colour_map.h"
 
 /* Shades from few updates (light) to many (dark), by powers of two. */
 enum { ENVELOPE_SHADES = 6 };

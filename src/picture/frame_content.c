@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "picture/cards.h"
-#include "picture/colour_map.h"
 
 static const double LEGEND_ROOM = 1.8; /* ems, height of a line of the legend */
 /* On a page a pane lower than LOW_PANE keeps room for words above the picture;
@@ -316,14 +315,14 @@ void history_add_point(History *history, double time, int rows,
     for (int s = 0; s < history->series; s++)
         history->value[s][last] = 0;
     for (int i = 0; i < rows; i++) {
-        const char *name = row[i].name; /* mostly the name of series i */
-        int s = i < history->series && history->name[i] == name ? i : 0;
-        while (s < history->series && strcmp(history->name[s], name) != 0)
+        int s = 0;
+        while (s < history->series &&
+               strcmp(history->name[s], row[i].name) != 0)
             s++;
         if (s == HISTORY_SERIES)
             continue; /* the history has no room for more quantities */
         if (s == history->series) {
-            history->name[history->series++] = name;
+            history->name[history->series++] = row[i].name;
             memset(history->value[s], 0, sizeof history->value[s]);
         }
         history->value[s][last] = row[i].value;

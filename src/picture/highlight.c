@@ -7,7 +7,6 @@
 #include <string.h>
 
 #include "picture/cards.h"
-#include "picture/colour_map.h"
 
 static const double HIGHLIGHT_RADIUS = 4; /* units of paper around each pixel */
 static const double MOUSE_REACH = 0.5;    /* ems, from the mouse to a term */
@@ -59,10 +58,10 @@ static void highlight_colour(Canvas *canvas, Colour colour, int radius)
         Colour pixel = canvas->pixels[i], lit = 0xff000000u;
         if (!map[i] || get_channel(pixel, 1) < 128)
             continue; /* dark pixels keep their colour */
-        for (int k = 0; k < 3; k++)
-            lit |= (Colour)(get_channel(pixel, k) *
-                            get_channel(COLOUR_HIGHLIGHT, k) / 255)
-                   << 8 * k;
+        for (int k = 0; k < 3; k++) {
+            int part = get_channel(pixel, k) * get_channel(COLOUR_HIGHLIGHT, k);
+            lit |= (Colour)(part / 255) << 8 * k;
+        }
         canvas->pixels[i] = lit;
     }
     free(map);

@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "picture/cards.h"
-#include "picture/colour_map.h"
 
 /* Levels of the contours, J s^2; the bottom of both valleys is below 1. */
 static const double map_levels[] = {0.1, 0.2, 0.4, 0.6, 1,  1.5, 2,
@@ -294,17 +293,18 @@ void landscape_add_values(const Simulation *simulation, LiveValues *values)
     values_add_point(values, "g", E.g);
     values_add_point(values, "solution", descent->direction);
     values_add(values, "slope", descent->slope != 0 ? descent->slope : NAN);
+    unsigned layers = simulation->options.layers;
+    bool raw_start = simulation->options.projection == PROJECTION_NONE &&
+                     descent->count == 0;
     if (parts == PART_BOTH) {
         LocalModel P =
             descent_evaluate(simulation, PROJECTION_CLAMP, x[0], x[1]);
         values_add_matrix(values, projected, P.H, 0);
         values_add_flag(values, "directions",
-                        simulation->options.layers & LAYER_DOWNHILL &&
-                            descent->count == 0 &&
-                            simulation->options.projection == PROJECTION_NONE);
+                        raw_start && layers & LAYER_DOWNHILL);
     }
-    values_add_flag(values, landscape_is_convex(&E) ? "convex" : "shaded",
-                    true);
+    bool convex = landscape_is_convex(&E);
+    values_add_flag(values, convex ? "convex" : "shaded", true);
     values_add_flag(values, "moves", descent->slope != 0);
     values_add(values, "E", energy_of_parts(simulation, parts, x));
     values_add(values, "bowl", energy_of_parts(simulation, PART_INERTIA, x));
@@ -316,7 +316,6 @@ void landscape_add_values(const Simulation *simulation, LiveValues *values)
     values_add_flag(values, "both", parts == PART_BOTH);
     values_add_flag(values, "elastic", parts != PART_INERTIA);
     values_add_flag(values, "inertial", parts != PART_ELASTICITY);
-    unsigned layers = simulation->options.layers;
     bool pulls = layers & LAYER_FORCES, up = descent->slope > 0;
     bool down = descent->slope < 0 && parts == PART_BOTH && !pulls;
     for (int i = 0; i < descent->count; i++) {
@@ -351,8 +350,7 @@ static void draw_model_ellipses(const Plot *plot, const LocalModel *E)
     }
 }
 
-/* Draws lines where the linearised gradient's components are 0; they cross at
- * x + p. */
+/* Draws lines where the linearised components of the gradient are 0. */
 static void draw_linearised_zeros(const Plot *plot, const LocalModel *E)
 {
     const double *x = plot->simulation->descent.point;
@@ -390,7 +388,6 @@ void landscape_draw(Plot *stage)
 {
     const Simulation *simulation = stage->simulation;
     const LectureContent *lecture = &stage->content->lecture;
-    bool revealed = stage->revealed;
     const Descent *descent = &simulation->descent;
     const LocalModel E = evaluate_energy(simulation, descent->point);
     Plot plot = draw_map(stage);
@@ -409,7 +406,7 @@ void landscape_draw(Plot *stage)
     }
     bool raw = simulation->options.projection == PROJECTION_NONE;
     bool both = !lecture->page || (raw && halves);
-    if (revealed && raw && !simulation->done)
+    if (stage->revealed && raw && !simulation->done)
         draw_model_ellipses(&plot, &E);
     if (shows_layer(&plot, LAYER_CURVES) && !simulation->done)
         draw_linearised_zeros(&plot, &E);
@@ -419,7 +416,7 @@ void landscape_draw(Plot *stage)
         draw_directions(&plot, plot.has_text && both);
     if (halves)
         draw_negative_gradient(&plot, &E);
-    if (revealed && plot.has_text &&
+    if (stage->revealed && plot.has_text &&
         simulation->exhibit.switches != PART_INERTIA)
         mark_stationary_points(&plot);
     plot_disc(&plot, descent->point, 7, COLOUR_TEXT);

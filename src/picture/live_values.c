@@ -7,7 +7,6 @@
 
 #include "model/neo_hookean.h"
 #include "picture/cards.h"
-#include "picture/colour_map.h"
 
 /* ---- values -------------------------------------------------------------- */
 
@@ -54,9 +53,8 @@ void values_add_matrix(LiveValues *values, const char *const names[3],
 static void add_window_values(const FrameContent *content, LiveValues *values)
 {
     const LectureContent *lecture = &content->lecture;
-    values_add(values, "page",
-               lecture->page ? (double)(lecture->page - lecture_pages + 1)
-                             : NAN);
+    if (lecture->page)
+        values_add(values, "page", (int)(lecture->page - lecture_pages) + 1);
     values_add(values, "pages", lecture_count_pages());
     values_add(values, "panes", content->panes > 1 ? content->panes : NAN);
     values_add_flag(values, "paused", content->time_line.paused);
@@ -147,17 +145,16 @@ static void add_trace_values(const Simulation *simulation, const Trace *trace,
     values_add(values, "nth", trace->iteration + 1);
     values_add_words(values, "way", trace->slope > 0 ? "uphill" : "downhill");
     values_add_flag(values, "uphill", trace->slope > 0);
+    int trial = trace->trials > 1 ? trace->trials : 1;
+    double alpha = trace_step_length(trace, trial);
     if (trace->trials > 0 || trace->line)
-        values_add(
-            values, "length",
-            trace_step_length(trace, trace->trials > 1 ? trace->trials : 1));
-    values_add_flag(values, "taken", trace->trials > 0 && trace->accepted);
-    values_add_flag(values, "refused", trace->trials > 0 && !trace->accepted);
+        values_add(values, "length", alpha);
+    if (trace->trials > 0)
+        values_add_flag(values, trace->accepted ? "taken" : "refused", true);
     values_add_flag(values, "given up", trace->given_up);
     if (simulation->scene->needs & NEEDS_TIME)
         add_step_end_values(trace, values);
     if (trace->trials > 0 && trace->difference) {
-        double alpha = trace_step_length(trace, trace->trials);
         double change = trace->difference(trace->difference_data, alpha);
         values_add(values, "change", change);
         values_add_words(values, "change", "no number");
@@ -179,10 +176,11 @@ static void add_trace_values(const Simulation *simulation, const Trace *trace,
 static double compute_energy_change(const void *function, double alpha)
 {
     const DescentTrace *space = function;
-    LocalModel there = descent_evaluate(space->simulation, PROJECTION_NONE,
-                                        space->from[0] + alpha * space->p[0],
-                                        space->from[1] + alpha * space->p[1]);
-    return there.value - space->value;
+    const Point x = point_along(space->from, alpha, space->p);
+    return descent_evaluate(space->simulation, PROJECTION_NONE, x.at[0],
+                            x.at[1])
+               .value -
+           space->value;
 }
 
 /* Makes the trace of a descent's last update; without updates, or if the last
@@ -214,9 +212,9 @@ static const Trace *make_descent_trace(const Simulation *simulation,
         .iteration = descent->count,
         .residual = given_up ? record->residual : descent->residual,
         .given_up = given_up,
-        .slope = !aims  ? 0
-                 : made ? record->slope
-                        : descent->slope,
+        .slope = taken  ? record->slope
+                 : aims ? descent->slope
+                        : 0,
         .projected = taken ? record->projected : -1,
         .difference = aims ? compute_energy_change : NULL,
         .difference_data = space,
@@ -313,7 +311,7 @@ static void format_value(const LiveValue *one, const char *format, char *out,
         snprintf(out, size, apart ? "(%s)" : "%s", number[0].text);
 }
 
-/* Fills the values into a line of `length` bytes.  False: one is unknown. */
+/* Fills the values into a line of `length` bytes.  False: unknown values. */
 static bool fill_line(TextLine *line, const char *text, size_t length)
 {
     const LiveValues *values = line->values;

@@ -3,7 +3,6 @@
 #include <string.h>
 
 #include "picture/cards.h"
-#include "picture/colour_map.h"
 
 enum {
     TRAIL = 256,              /* most steps of a drawn path */
@@ -101,9 +100,8 @@ void circle_bounds(const Plot *stage, double bounds[4])
     const Simulation *simulation = stage->simulation;
     double most = 0;
     for (int r = 0; r < simulation->runs; r++)
-        most =
-            fmax(most, fmin(vector_length(simulation->run[r].x), CIRCLE_MAX));
-    bounds_make_square(CIRCLE_REACH, 1.4 * most, 1.2, bounds);
+        most = fmax(most, vector_length(simulation->run[r].x));
+    bounds_make_square(CIRCLE_REACH, 1.4 * fmin(most, CIRCLE_MAX), 1.2, bounds);
 }
 
 void circle_pick(const Plot *stage, double x, double y, Pick *pick)
@@ -188,9 +186,8 @@ static void draw_complex_plane(const Plot *card)
     for (int r = 0; r < simulation->runs; r++)
         for (int k = 0; k < 2; k++)
             if (find_step_matrix(simulation->run[r].method, turn, &step))
-                most =
-                    fmax(most, fmin(vector_length(step.lambda[k]), EIGEN_MAX));
-    bounds_make_square(EIGEN_REACH, 1.1 * most, 1.2, bounds);
+                most = fmax(most, vector_length(step.lambda[k]));
+    bounds_make_square(EIGEN_REACH, 1.1 * fmin(most, EIGEN_MAX), 1.2, bounds);
     Plot plot = *card;
     plot.camera = camera_create(card->box, bounds, false, &LENS_FITS);
     for (int k = 0; k < 2; k++) {

@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "picture/cards.h"
-#include "picture/colour_map.h"
 
 enum { HALVED = 4 }; /* number of the table's columns for halved time steps */
 static const double NAMES_WIDTH = 45;    /* ems; a narrower plot has no names */

@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "picture/cards.h"
-#include "picture/colour_map.h"
 
 enum { ROOT_UPDATES = 60, ITERATE_TEXT = 48 };
 

@@ -3,7 +3,6 @@
 
 #include "model/spring_law.h"
 #include "picture/cards.h"
-#include "picture/colour_map.h"
 
 enum { SPRING_COILS = 12 };
 
@@ -179,9 +178,8 @@ void spring_profile_draw(const Plot *card)
     bool both = card->simulation->exhibit.switches;
     double reach = fmax(1.5, 1.1 * now.length) * sqrt(system->l2[0]);
     double tip = (both ? root_energy_at_length : energy_at_length)(system, 0);
-    Axis x = {-reach, reach, false, false, "d in m"};
-    Axis y = {0, 1.12 * fmax(tip, now.energy), false, false, NULL};
-    Plot plot = plot_create(card, x, y);
+    Axis y = {0, 1.12 * fmax(tip, now.energy), .label = NULL};
+    Plot plot = plot_create(card, (Axis){-reach, reach, .label = "d in m"}, y);
     const double at[2] = {now.length, now.energy};
     const double root[2] = {now.length, now.root_energy};
     plot_graph(&plot, energy_at_length, system, 2.4, COLOUR_X);

@@ -6,7 +6,6 @@
 #include "model/neo_hookean.h"
 #include "model/plasticity.h"
 #include "model/spring_law.h"
-#include "picture/colour_map.h"
 #include "picture/cards.h"
 
 static const double NOTE_SIZE = 0.9; /* ems, size of the note's letters */
@@ -78,18 +77,18 @@ static void draw_note(const Plot *stage, const LiveValues *values,
     Plot note = *stage;
     Box *box = &note.box;
     double middle = stage->box.x + 0.5 * stage->box.width, mouse[2];
-    double size = fmax(NOTE_SIZE, paper->min_letter),
-           wide = NOTE_WIDTH * paper->em, high = 0;
-    int margin = paper_pixels(paper, 0.7);
+    double size = fmax(NOTE_SIZE, paper->min_letter);
+    double wide = NOTE_WIDTH * paper->em;
+    int margin = paper_pixels(paper, 0.7), high = 2 * margin;
     for (TextLine line = text_begin(values, text); text_next_line(&line);) {
         wide = fmax(wide, paper_width(paper, line.face, size, line.words));
         high += paper_write_paragraph(paper, line.face, size, line.colour, *box,
-                                      0, line.words) +
-                paper_pixels(paper, 0.2 * size);
+                                      0, line.words);
+        high += paper_pixels(paper, 0.2 * size);
     }
     plot_to_pixel(stage, stage->content->view->hover.point, mouse);
     box->width = (int)wide + 2 * margin;
-    box->height = (int)high + 2 * margin;
+    box->height = high;
     box->x += mouse[0] > middle ? 0 : stage->box.width - box->width;
     box->y += stage->box.height - box->height;
     canvas_framed_box(&paper->canvas, *box, COLOUR_NOTE, COLOUR_GREY);
@@ -102,13 +101,12 @@ static void note_node(Plot *stage, const Pane *pane, int node)
 {
     const Simulation *simulation = pane->simulation;
     const System *system = &simulation->system;
-    const double *x = pane_positions(pane) + 2 * (size_t)node;
+    const double *all = pane_positions(pane), *x = all + 2 * (size_t)node;
     const double *v = simulation->run[0].v + 2 * (size_t)node;
     const double *ghost = pane->trace ? pane->trace->x_tilde : NULL;
     double h = simulation->options.timestep, force[2], tilde[2];
     double *f = calloc(2 * (size_t)system->nodes, sizeof *f);
-    EvalPoint at =
-        eval_point_at(system, pane_positions(pane), NULL, pane_positions(pane));
+    EvalPoint at = eval_point_at(system, all, NULL, all);
     LiveValues values = {0};
     at.weight = -1;
     for (const TermKind *kind; f && (kind = eval_point_next_term(&at));)

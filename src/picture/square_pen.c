@@ -67,14 +67,11 @@ SquarePen square_pen_create(Plot *stage, int run)
         if (!system->pinned[i])
             pen.fixed_bodies &= ~(1u << square_mesh_locate_body(mesh, &node));
     }
-    pen.width = fmin(fmax(0.06 * pen.spacing / unit, 1.1), 1.9);
-    pen.width = fmax(1 / unit, pen.width);
+    pen.width = fmax(fmin(fmax(0.06 * pen.spacing / unit, 1.1), 1.9), 1 / unit);
     pen.radius = NODE_RADIUS * pen.spacing / unit;
     if (!content->bare)
         pen.radius = fmin(pen.radius, 6.5);
     pen.shows_plastic = !content->shows_strain && !content->bare && pen.ep;
-    pen.below = pen.shows_plastic ? COLOUR_PLASTIC : COLOUR_COMPRESS;
-    pen.above = pen.shows_plastic ? COLOUR_PLASTIC : COLOUR_STRETCH;
     if (pen.shows_plastic || content->shows_strain)
         pen.colour_range = pen.shows_plastic
                                ? find_strain_range(simulation, pen.ep)
@@ -96,9 +93,11 @@ static Colour colour_of_state(const SquarePen *pen, double plastic,
 {
     double value = pen->shows_plastic ? plastic : strain;
     double part = fmin(fabs(value) / pen->colour_range, 1);
+    Colour end = pen->shows_plastic ? COLOUR_PLASTIC
+                 : value < 0        ? COLOUR_COMPRESS
+                                    : COLOUR_STRETCH;
     if (pen->colour_range > 0)
-        return colour_mix(COLOUR_REST, value < 0 ? pen->below : pen->above,
-                          isnan(value) ? 0 : part);
+        return colour_mix(COLOUR_REST, end, isnan(value) ? 0 : part);
     return pen->shows_projected && shorter ? COLOUR_PROJECT : 0;
 }
 
@@ -194,11 +193,9 @@ int square_fill_cells(const SquarePen *pen, bool all)
         double J = fabs(twice_signed_area(pen->x + 2 * n[0], pen->x + 2 * n[1],
                                           pen->x + 2 * n[2])) /
                    (2 * solid->triangles.area);
-        Colour colour = shade_of_blue(fmin(fmax(0.6 + 0.5 * log(J), 0), 1));
-        fill_face(pen, face,
-                  node_is_fixed(pen, n[0])
-                      ? COLOUR_SOLID
-                      : colour_mix(colour, COLOUR_WHITE, 0.6));
+        Colour shade = shade_of_blue(fmin(fmax(0.6 + 0.5 * log(J), 0), 1));
+        Colour colour = colour_mix(shade, COLOUR_WHITE, 0.6);
+        fill_face(pen, face, node_is_fixed(pen, n[0]) ? COLOUR_SOLID : colour);
     }
     for (int c = 0; !solid && c < pen->simulation->mesh.cells; c++) {
         if (!cell_is_whole(pen->simulation, c, node))
@@ -238,13 +235,12 @@ static Colour choose_face_colour(const SquarePen *pen, const int node[4],
 void square_draw_faces(const SquarePen *pen)
 {
     const SquareMesh *mesh = &pen->simulation->mesh;
-    int wide = (int)fmin(fmax(MIN_FACE / pen->spacing, 1), mesh->cells),
-        node[4];
+    int wide = (int)fmin(fmax(MIN_FACE / pen->spacing, 1), mesh->cells);
+    double side = wide * mesh->spacing;
+    int node[4];
     for (int cell = 0; cell < mesh->cells; cell++)
         if (square_mesh_get_patch(mesh, cell, wide, node))
-            fill_face(
-                pen, node,
-                choose_face_colour(pen, node, wide * mesh->spacing, cell));
+            fill_face(pen, node, choose_face_colour(pen, node, side, cell));
     for (int cell = 0; cell < mesh->cells; cell++)
         if (square_mesh_get_patch(mesh, cell, 1, node) &&
             face_is_folded(pen->x, node))

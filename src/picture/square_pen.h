@@ -17,7 +17,6 @@ typedef struct SquarePen {
     double radius;          /* radius of a node */
     double shade_strain;    /* strain of the lightest shade of a face */
     double colour_range;    /* strain of the end colours; 0: no colours */
-    Colour below, above;    /* end colours of negative, positive strain */
     bool shows_plastic;     /* colours show plastic strain */
     const double *ep;       /* [springs] plastic strain; NULL: no plasticity */
     const Contact *contact; /* NULL: the scene has no contact */

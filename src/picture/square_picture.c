@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "picture/cards.h"
-#include "picture/colour_map.h"
 #include "model/fracture.h"
 #include "model/spring_law.h"
 #include "picture/square_pen.h"

@@ -6,8 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "picture/colour_map.h"
-
 enum {
     MIN_STEPS = 60, /* least number of steps that the time line has room for */
     MIN_BAR = 3,    /* pixels, least width of a bar; narrower bars are merged */
@@ -65,7 +63,7 @@ static void draw_strip(Paper *paper, Box room, const Strip *strip)
 
 /* ---- settings ------------------------------------------------------------ */
 
-/* Draws name and value of a setting; dashes below the value: it can change. */
+/* Draws name and value of a setting; a value that can change has dashes. */
 static void draw_setting(Paper *paper, Box box, const Setting *setting,
                          bool selected, bool over)
 {

@@ -221,6 +221,10 @@ static void put_card(Writer *to, const FrameContent *content, int index,
         for (int i = 0; card->legend_row && card->legend_row(content, i, &row);
              i++)
             put_cells(to, "legend", index, &row);
+        TextLine line = text_begin(&pane->values, card->legend);
+        while (text_next_line(&line))
+            print(to, "legend\t%d\t#%06x\t%s\n", index,
+                  document_colour(line.colour), line.words);
     }
     if (graph && !card->table && !text_has_line(&pane->values, card->words))
         return;
