@@ -38,8 +38,9 @@ typedef struct Card {
     bool only_in_lecture;   /* is hidden outside of the lecture */
     const char *words;      /* text; lines with unknown values are left out */
     const struct ListingRow *rows; /* lines of an algorithm (cards.h) */
-    /* Fills row 0, 1, ... of the card's table; row 0 has the heads.  Returns
-     * false after the last row.  NULL: the card has no table. */
+    const char *heads; /* text: the heads of the table, with | between */
+    /* Fills row 1, 2, ... of the table.  Returns false after the last row, for
+     * row 0 if the table is empty.  NULL: the card has no table. */
     bool (*table)(const FrameContent *content, int row, CardTableRow *cells);
     const char *legend; /* text: the legend of the graph, or NULL */
     /* Fills a row of a legend with values: a name and a value.  Returns false

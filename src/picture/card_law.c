@@ -70,7 +70,7 @@ static double flow_force_at(const void *data, double s)
     return flow_law_slope(now->spring, s - now->spring.ep);
 }
 
-/* Returns the spring's force over its strength; a broken spring has none. */
+/* Returns the force over that at which the spring breaks; then 0. */
 static double breaking_force_ratio(const void *now, double part)
 {
     (void)now;

@@ -63,7 +63,7 @@ static void draw_trial(const Plot *plot, double alpha, double value,
     const double point[2] = {alpha, value};
     Colour colour = accepted ? COLOUR_ALPHA : COLOUR_WARNING;
     double at[2], unit = paper->unit;
-    bool inside = value <= plot->y.high && value >= plot->y.low;
+    bool inside = value <= plot->y.high;
     plot_to_pixel(plot, (double[2]){alpha, inside ? value : plot->y.high}, at);
     if (inside && accepted)
         plot_disc(plot, point, 5.5, colour);

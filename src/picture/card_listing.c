@@ -2,7 +2,6 @@
  * that the slides' program prints. */
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 #include "picture/cards.h"
 
@@ -105,18 +104,12 @@ void card_write_rows(const Plot *card, const ListingRow *row)
 bool residuals_fill_row(const FrameContent *content, int row,
                         CardTableRow *cells)
 {
-    static const CardTableRow heads = {
-        4,
-        COLOUR_TEXT,
-        {"iteration", "residual, m/s", "step size", "divided by"}};
     const Trace *trace = active_pane(content)->shown_trace;
     int count = trace ? trace->updates : 0;
-    *cells = heads;
     if (count == 0 || row == 0)
         return count > 0;
     const NewtonRecord *now =
         &trace->record[row <= count ? row - 1 : count - 1];
-    memset(cells->cell, 0, sizeof cells->cell);
     if (row > count) {
         snprintf(cells->cell[1], CARD_CELL, "%s\u2264 %s: the loop ends",
                  now->residual > trace->tolerance ? "the next is " : "",
@@ -161,7 +154,7 @@ void residual_log_draw(const Plot *card)
         card_write_hint(card, text_undrawn);
     for (int i = 0; i < room; i++) {
         double y = inside.y + i * pitch;
-        if (!residuals_fill_row(card->content, first + i + 1, &cells))
+        if (!card_fill_row(card->content, &card_prints, first + i + 1, &cells))
             return;
         if (first + i == count) {
             paper_write(paper, FACE_MONO, size, COLOUR_FAINT, inside.x, y,

@@ -102,8 +102,8 @@ static Colour colour_of_face(const Relief *relief, const Corner corner[3])
     return colour_mix(dark, bright, fmin(fmax(1.1 * light, 0), 1));
 }
 
-/* Draws the part of a triangle below the rim, with its contour lines.  Not if
- * the triangle is seen from below: the front wall would hide the valleys. */
+/* Draws the part of a triangle below the rim, with its contour lines.  A face
+ * seen from below is left out: the front wall would hide the valleys. */
 static void draw_face(const Relief *relief, const Corner corner[3])
 {
     const Plot *plot = &relief->plot;
@@ -154,7 +154,7 @@ static void draw_surface(const Relief *relief)
     }
 }
 
-/* Draws the surface's curve above a line of the plane, where below the rim. */
+/* Draws the surface's curve above a line of the plane, up to the rim. */
 static void draw_surface_line(const Relief *relief, const double *a,
                               const double *b, double width, Colour colour)
 {

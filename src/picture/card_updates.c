@@ -124,19 +124,9 @@ void step_energy_draw(const Plot *card)
  * the number of negative eigenvalues of the Hessian, and the slope along p. */
 bool updates_fill_row(const FrameContent *content, int row, CardTableRow *cells)
 {
-    static const CardTableRow heads[] = {
-        {5,
-         COLOUR_TEXT,
-         {"update", "projected", "\u2016{p}\u2016_{\u221e}/h, m/s", "{alpha}",
-          "change of E, J s\u00b2"}},
-        {6,
-         COLOUR_TEXT,
-         {"update", "\u03bb < 0", "\u2016{p}\u2016_{\u221e}/h, m/s", "{alpha}",
-          "change of E, J s\u00b2", "g \u00b7 {p}, J s\u00b2"}}};
     const Pane *pane = active_pane(content);
     const Trace *trace = pane->trace;
     bool raw = pane->simulation->options.projection == PROJECTION_NONE;
-    *cells = heads[raw];
     if (!trace || row == 0)
         return trace;
     int made = count_added_updates(trace);
@@ -146,7 +136,6 @@ bool updates_fill_row(const FrameContent *content, int row, CardTableRow *cells)
     Line line = row <= made ? LINE_END : trace->line;
     if (row > made + now)
         return false;
-    memset(cells->cell, 0, sizeof cells->cell);
     snprintf(cells->cell[0], CARD_CELL, "%d", row);
     snprintf(cells->cell[1], CARD_CELL, "%d",
              raw ? update->negative_pivots : update->projected);
@@ -177,7 +166,7 @@ double updates_needed_height(const FrameContent *content, double wide,
     return UPDATE_PITCH * (1 + fmax(6, trace ? trace->updates : 0)) + 2.8;
 }
 
-/* Draws the table; if too long, update 1 and the newest updates. */
+/* Draws all updates, or update 1 and the newest updates that fit. */
 void updates_draw(const Plot *card)
 {
     static const double ends[2][6] = {{0.05, 0.25, 0.52, 0.63, 1},
@@ -185,12 +174,13 @@ void updates_draw(const Plot *card)
     double pitch = UPDATE_PITCH * card->em, y = card->box.y + 0.2 * card->em;
     int room = (int)(card->box.height / pitch - 1), rows = 0;
     CardTableRow cells;
-    while (updates_fill_row(card->content, rows, &cells))
+    while (card_fill_row(card->content, &card_updates, rows, &cells))
         rows++;
     int skipped = rows - 1 > room ? rows - 1 - room : 0;
     const double *right = ends[cells.columns > 5];
     for (int i = 0; i < rows - skipped; i++) {
-        updates_fill_row(card->content, i > 1 ? i + skipped : i, &cells);
+        card_fill_row(card->content, &card_updates, i > 1 ? i + skipped : i,
+                      &cells);
         for (int c = i == 0; c < cells.columns; c++)
             paper_write(card->paper, i ? FACE_REGULAR : FACE_BOLD, 1,
                         COLOUR_TEXT, card->box.x + right[c] * card->box.width,

@@ -65,7 +65,7 @@ function end_row()
 }
 
 BEGIN {
-    texts["title"] texts["legend"] texts["words"]
+    texts["title"] texts["legend"] texts["words"] texts["heads"]
     texts["text"] texts["value"] texts["struck_if"]
     values["min_height"] values["needed_height"] values["weight"] values["default_bounds"]
     values["draw"] values["table"] values["bounds"] values["add_values"] values["pick"]

@@ -111,28 +111,20 @@ static void draw_list(Paper *paper, Box inside, const List *list)
 
 /* ---- code --------------------------------------------------------------- */
 
-/* Measures the code of a page.  Returns the letters of its widest line.
- *   lines   out, number of lines
- *   indent  out, number of blanks before every line */
-static double measure_code(const LecturePage *page, int *lines, size_t *indent)
+/* Counts the lines of a page's code.  Returns the letters of the widest one. */
+static double measure_code(const LecturePage *page, int *lines)
 {
-    size_t widest = 0;
-    *indent = SIZE_MAX;
-    for (*lines = 0; page->code[*lines]; ++*lines) {
-        const char *line = page->code[*lines];
-        size_t length = strlen(line), blanks = strspn(line, " ");
-        *indent = length > 0 && blanks < *indent ? blanks : *indent;
-        widest = length > widest ? length : widest;
-    }
-    return (double)widest - (double)*indent;
+    double widest = 0;
+    for (*lines = 0; page->code[*lines]; ++*lines)
+        widest = fmax(widest, (double)strlen(page->code[*lines]));
+    return widest;
 }
 
 double code_needed_width(const LecturePage *page)
 {
-    size_t indent;
     int lines;
     const double margins = 4.4; /* ems */
-    return CODE_LETTER * measure_code(page, &lines, &indent) + margins;
+    return CODE_LETTER * measure_code(page, &lines) + margins;
 }
 
 /* Draws code in letters as large as fit, and lights the lines at work.  If the
@@ -142,9 +134,8 @@ static void draw_code(Paper *paper, Box inside, const FrameContent *content)
     const char *const *code = content->lecture.page->code;
     const char *mark = lecture_lit_code(content);
     const double letter = 0.603, high = 1.3, low = 1.17, most = 1.9; /* ems */
-    size_t indent;
     int lines;
-    double letters = measure_code(content->lecture.page, &lines, &indent);
+    double letters = measure_code(content->lecture.page, &lines);
     double air = 0.3 * paper->em;
     /* The width of a letter is a whole number of pixels. */
     double cell = floor((inside.width - 2 * air) / letters);
@@ -158,23 +149,41 @@ static void draw_code(Paper *paper, Box inside, const FrameContent *content)
     TextStyle style = {FACE_MONO, size * paper->em, COLOUR_TEXT, true, 0};
     for (int i = 0; i < lines; i++)
         lit = strstr(code[i], mark) ? i : lit;
-    int gone = fit >= lines ? 0 : (int)fmax(fmin(lit + 2, lines) - fit, 0);
+    int gone = (int)fmax(fmin(lit + 2, lines) - fit, 0);
     fit = fit < lines ? fit : lines;
     /* The grounds of lit lines come first, then all letters. */
     for (int k = 0; k < 2 * fit; k++) {
         int row = k % fit, y = inside.y + row * line;
-        bool more = gone > 0 && row == 1;
-        const char *words = more ? "..." : code[row + (row ? gone : 0)];
+        const char *words = gone > 0 && row == 1 ? "..."
+                            : row > 0            ? code[row + gone]
+                                                 : code[0];
         if (k < fit && strstr(words, mark))
             canvas_fill(&paper->canvas, (Box){inside.x, y, inside.width, line},
                         COLOUR_LIT);
         if (k >= fit && words[0])
             text_draw(paper->text, &paper->canvas, &style, inside.x + air, y,
-                      ALIGN_LEFT, words + (more ? 0 : indent));
+                      ALIGN_LEFT, words);
     }
 }
 
 /* ---- cards -------------------------------------------------------------- */
+
+bool card_fill_row(const FrameContent *content, const Card *card, int row,
+                   CardTableRow *cells)
+{
+    const LiveValues *values = &active_pane(content)->values;
+    const TextLine heads = text_first_line(values, card->heads);
+    size_t length;
+    *cells = (CardTableRow){.colour = COLOUR_TEXT};
+    for (const char *at = heads.words; *at; cells->columns++) {
+        length = strcspn(at, "|");
+        if (row == 0)
+            snprintf(cells->cell[cells->columns], CARD_CELL, "%.*s",
+                     (int)length, at);
+        at += length + (at[length] == '|');
+    }
+    return card->table(content, row, cells);
+}
 
 void card_draw(Paper *paper, Box inside, const FrameContent *content, int card)
 {

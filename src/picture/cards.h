@@ -30,8 +30,8 @@ typedef struct ShownRow {
 
 /* Tables and texts that cards.awk generates from cards.txt. */
 extern const Picture pictures[PICTURE_COUNT];
-extern const Card card_law, card_line, card_matrix, card_tangent_numbers,
-    card_hessian_pattern;
+extern const Card card_hessian_pattern, card_law, card_line, card_matrix,
+    card_prints, card_race_table, card_tangent_numbers, card_updates;
 extern const ListingRow rows_listing[];
 extern const char text_sentences[], text_methods[], text_states[],
     text_eigenvalues[], text_undrawn[], text_node[], text_spring[];
@@ -115,6 +115,11 @@ void card_write_rows(const Plot *card, const ListingRow *row);
 
 /* Returns the width that the code of a page needs, ems. */
 double code_needed_width(const LecturePage *page);
+
+/* Fills row 0, 1, ... of a card's table; row 0 has the heads.  Returns false
+ * after the last row. */
+bool card_fill_row(const FrameContent *content, const Card *card, int row,
+                   CardTableRow *cells);
 
 /* Draws the content of the picture's card with this index into a box. */
 void card_draw(Paper *paper, Box inside, const FrameContent *content, int card);

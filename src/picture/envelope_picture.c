@@ -41,7 +41,7 @@ static Box find_cell_box(const Plot *stage, int column, int row)
                  pixel_from_coordinate(ceil(p[1])) - top - 1};
 }
 
-/* Draws the line h^2 k = ratio m: elasticity is `ratio` times inertia. */
+/* Draws the line h^2 k = ratio m of a constant ratio of stiffnesses. */
 static void draw_ratio_line(const Plot *plot, double ratio)
 {
     double m = plot->simulation->system.m[0];

@@ -183,8 +183,8 @@ static double compute_energy_change(const void *function, double alpha)
            space->value;
 }
 
-/* Makes the trace of a descent's last update; without updates, or if the last
- * one had no step, of the next update, from the present iterate. */
+/* Makes the trace of a descent's last update.  Without updates, or if the last
+ * one had no step, makes the trace of the next update. */
 static const Trace *make_descent_trace(const Simulation *simulation,
                                        DescentTrace *space)
 {

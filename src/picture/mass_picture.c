@@ -21,7 +21,8 @@ static const double EIGEN_MAX = 5;      /* largest eigenvalue that is shown */
 static const double MATRIX_WIDE = 16.4, MATRIX_HIGH = 12;
 static const double origin[2] = {0, 0};
 
-/* Returns the colour of a run's method, or of x for the scene arrows' mass. */
+/* Returns the colour of a run's method; a single mass with arrows has that of
+ * x. */
 static Colour colour_of_mass(const Simulation *simulation, int run)
 {
     return simulation->runs == 1 && simulation->scene->picture == PICTURE_MASS
@@ -93,8 +94,7 @@ void circle_draw(Plot *stage)
                   colour_of_mass(simulation, r));
 }
 
-/* Finds a view of the runs.  Runs farther away than CIRCLE_MAX do not count, so
- * that the exact circle stays visible. */
+/* Finds a view of the runs up to CIRCLE_MAX; the exact circle stays visible. */
 void circle_bounds(const Plot *stage, double bounds[4])
 {
     const Simulation *simulation = stage->simulation;
@@ -149,7 +149,6 @@ static void add_step_matrix(const IntegratorMethod *method, double t,
     bool pair = most[1] > 0;
     values_add(values, "Sxx", step.xx);
     values_add(values, "Sxv", step.xv);
-    values_add(values, "Svx", -step.xv);
     values_add(values, "Svv", step.vv);
     values_add(values, "re", pair ? most[0] : NAN);
     values_add(values, "im", most[1]);

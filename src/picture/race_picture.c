@@ -155,21 +155,14 @@ static void format_cell(char cell[CARD_CELL], const char *sign, double value,
  * longest stable h; the run time. */
 bool race_fill_row(const FrameContent *content, int row, CardTableRow *cells)
 {
-    static const CardTableRow heads = {CARD_COLUMNS,
-                                       COLOUR_TEXT,
-                                       {"", "4 ms", "2 ms", "1 ms", "0.5 ms",
-                                        "0.25 ms", "energy", "stable h",
-                                        "time"}};
     const Race *race = &active_pane(content)->simulation->exhibit.race;
     int method = row - 1;
-    *cells = heads;
     if (row == 0 || row > RACE_METHODS)
         return row == 0;
     const IntegratorMethod *shown = race_get_method(method);
     const RacePoint *point =
         &race->point[RACE_SHOWN_ROW * RACE_METHODS + method];
     char(*cell)[CARD_CELL] = cells->cell;
-    memset(cells->cell, 0, sizeof cells->cell);
     cells->colour = colour_of_name(shown->name);
     snprintf(cell[0], CARD_CELL, "%s", shown->label);
     if (race->count > point - race->point) {
@@ -231,7 +224,8 @@ void race_table_draw(const Plot *card)
         shown[next[count]] = true;
     }
     gap += (rest + gap) / fmax(count - 1, 1);
-    for (int row = 0; race_fill_row(card->content, row, &cells); row++) {
+    for (int row = 0;
+         card_fill_row(card->content, &card_race_table, row, &cells); row++) {
         double right = inside.x - gap;
         for (int c = 0; c < CARD_COLUMNS; c++) {
             if (!shown[c])

@@ -241,7 +241,7 @@ void tangent_draw(Plot *stage)
                 "E(x) = m/2 (x \u2212 {xt}^{n})\u00b2 + h\u00b2 P(x)");
 }
 
-/* Returns the zero of g that full updates find from here; NaN: no zero. */
+/* Returns the zero of g that full updates find; NaN: no convergence. */
 static double find_root(const Simulation *simulation)
 {
     double x = simulation->descent.point[0], p = INFINITY;
@@ -262,16 +262,13 @@ static void write_digits(double x, char text[ITERATE_TEXT])
              x < 0 ? "\u2212" : "", fabs(x));
 }
 
-/* Fills a row for each iterate; digits that differ from the zero's are grey. */
+/* Fills a row for each iterate; digits unlike those of the zero are grey. */
 bool iterates_fill_row(const FrameContent *content, int row,
                        CardTableRow *cells)
 {
-    static const CardTableRow heads = {
-        2, COLOUR_TEXT, {"iterate", "its digits"}};
     const Simulation *simulation = active_pane(content)->simulation;
     char root[ITERATE_TEXT], x[ITERATE_TEXT];
     int right = 0;
-    *cells = heads;
     if (row == 0 || row > simulation->descent.count + 1)
         return row == 0;
     write_digits(find_root(simulation), root);
@@ -292,7 +289,9 @@ static void draw_iterates(const Plot *card)
     int rows = (int)(card->box.height / (pitch * paper->em));
     int first = count > rows ? count - rows : 0;
     CardTableRow cells;
-    for (int i = first; iterates_fill_row(card->content, i + 1, &cells); i++) {
+    for (int i = first; card_fill_row(card->content, &card_tangent_numbers,
+                                      i + 1, &cells);
+         i++) {
         int y = card->box.y + paper_pixels(paper, pitch * (i - first));
         int right = (int)strcspn(cells.cell[1], "#");
         char words[2 * CARD_CELL];

@@ -11,40 +11,33 @@ static const double SLAB = 1;         /* ems, thickness of a thin wall */
 static const double FORCE_ARROW = 4;  /* ems, arrow of the legend's force */
 static const double MIN_FORCE = 0.02; /* smallest drawn over largest force */
 
-typedef struct ContactForce {
-    int node;
-    double force[2]; /* N, force on the node, with friction */
-    bool has_friction;
-    bool slides; /* slips faster than eps_v */
-} ContactForce;
-
-/* Computes the force of a contact from positions and velocities alone, which
- * the past keeps of each step.
+/* Computes the force of a contact on its node, with friction, from positions
+ * and velocities alone, which the past keeps of each step.  Returns the slip
+ * over the slip speed eps_v; NaN: the contact has no friction.
  *   at        evaluation point of the contact term
- *   friction  term of the friction at these contacts; NULL: none */
-static ContactForce compute_contact_force(const SquarePen *pen,
-                                          const EvalPoint *at,
-                                          const Term *friction,
-                                          const Element *element)
+ *   friction  term of the friction at these contacts; NULL: none
+ *   force     [2] N, out */
+static double compute_contact_force(const SquarePen *pen, const EvalPoint *at,
+                                    const Term *friction,
+                                    const Element *element, double force[2])
 {
     const ElementKind *kind = at->term->kind->element;
     double h = pen->simulation->options.timestep, g[4], t[4], v[4], carry;
     double grip = kind->friction_limit(at, element, t, &carry), rub = 0;
-    ContactForce contact = {.node = element->node[0],
-                            .has_friction = friction && grip > 0};
+    double part = NAN;
     kind->gradient(at, element, g);
-    if (contact.has_friction) {
+    if (friction && grip > 0) {
         double speed = ((const Friction *)friction->data)->slip_speed;
         double slip = -carry;
         element_vectors(element, pen->v, v);
         for (int i = 0; i < 2 * element->vectors; i++)
             slip += t[i] * v[i];
         rub = -grip * friction_slope(slip * h, speed * h);
-        contact.slides = fabs(slip) >= speed;
+        part = fabs(slip) / speed;
     }
     for (int c = 0; c < 2; c++)
-        contact.force[c] = rub * t[c] - g[c];
-    return contact;
+        force[c] = rub * t[c] - g[c];
+    return part;
 }
 
 /* Draws the contact forces of one kind on the nodes of a run.
@@ -63,19 +56,20 @@ static void draw_contact_term(const SquarePen *pen, bool between_bodies,
         return;
     for (ElementIterator walk = elements_begin(&at, NULL, 0);
          elements_next(&walk);) {
-        ContactForce contact =
-            compute_contact_force(pen, &at, friction, &walk.element);
-        const double *x = pen->x + 2 * contact.node, *f = contact.force;
-        double radius = fmax(pen->radius, 2), size = vector_length(f);
+        double f[2], radius = fmax(pen->radius, 2);
+        double slip =
+            compute_contact_force(pen, &at, friction, &walk.element, f);
+        const double *x = pen->x + 2 * walk.element.node[0];
+        double size = vector_length(f);
         *most = fmax(*most, size);
         if (factor == 0)
             continue;
         if (size > MIN_FORCE * *most)
             plot_arrow(pen->stage, point_along(x, -factor, f).at, f, factor,
                        1.8, COLOUR_FORCE);
-        if (contact.has_friction && contact.slides)
+        if (slip >= 1)
             plot_ring(pen->stage, x, 1.6 * radius, 1.5, COLOUR_FORCE);
-        else if (contact.has_friction)
+        else if (slip >= 0)
             plot_disc(pen->stage, x, 1.4 * radius, COLOUR_FORCE);
     }
 }

@@ -12,10 +12,11 @@ typedef struct SquarePen {
     const Simulation *simulation; /* simulation of the stage */
     const System *system;
     const double *x, *v;    /* [2n] m, m/s */
-    double spacing;         /* pixels between two nodes, mostly at rest */
+    double spacing;         /* pixels between two nodes at rest, or more if the
+                               nodes have flown apart */
     double width;           /* width of a spring */
     double radius;          /* radius of a node */
-    double shade_strain;    /* strain of the lightest shade of a face */
+    double shade_strain;    /* strain of the lightest shade of faces */
     double colour_range;    /* strain of the end colours; 0: no colours */
     bool shows_plastic;     /* colours show plastic strain */
     const double *ep;       /* [springs] plastic strain; NULL: no plasticity */

@@ -63,7 +63,7 @@ static void draw_strip(Paper *paper, Box room, const Strip *strip)
 
 /* ---- settings ------------------------------------------------------------ */
 
-/* Draws name and value of a setting; a value that can change has dashes. */
+/* Draws name and value of a setting; dashes underline a changeable value. */
 static void draw_setting(Paper *paper, Box box, const Setting *setting,
                          bool selected, bool over)
 {
@@ -121,9 +121,9 @@ static void draw_bars(Paper *paper, Box bars, double pitch,
         int high = least + (int)((bars.height - least) *
                                  sqrt((double)bar.updates / most));
         bool shown = line->step > s && line->step <= s + group;
-        canvas_fill(&paper->canvas,
-                    (Box){bars.x + left, bars.y + bars.height - high,
-                          right > left ? right - left : 1, high},
+        Box box = {bars.x + left, bars.y + bars.height - high, right - left,
+                   high};
+        canvas_fill(&paper->canvas, box,
                     bar.unconverged ? COLOUR_WARNING
                     : shown         ? COLOUR_VALUE
                                     : COLOUR_BAR);

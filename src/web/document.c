@@ -184,12 +184,12 @@ static void put_table(Writer *to, const FrameContent *content, int index,
         text_first_line(&active_pane(content)->values, text_undrawn);
     CardTableRow row;
     int rows = 0;
-    while (card->table(content, rows, &row))
+    while (card_fill_row(content, card, rows, &row))
         rows++;
     for (int i = 0; i < rows; i++) {
         if (i > 0 && i < rows - MOST_ROWS)
             continue;
-        card->table(content, i, &row);
+        card_fill_row(content, card, i, &row);
         put_cells(to, "cells", index, &row);
     }
     if (rows == 0)
