@@ -331,27 +331,44 @@ void history_add_point(History *history, double time, int rows,
 
 /* ---- drawing ------------------------------------------------------------- */
 
-/* Writes the label of a pane, which says how panes differ, below the picture; a
- * wide label stands above the scale.  If the label is wider than the pane, each
- * of its parts, separated by ", ", has a line. */
+enum { LABEL_SIZE = 4 * VALUE_SIZE };
+
+/* Copies the first parts of a label, separated by ", ", that fit into a line
+ * [LABEL_SIZE].  Returns the rest of the label. */
+static const char *take_label_line(const Plot *stage, const char *label,
+                                   char *line)
+{
+    int room = (int)(stage->box.width - stage->em);
+    char *comma;
+    snprintf(line, LABEL_SIZE, "%s", label);
+    while (paper_width(stage->paper, FACE_BOLD, 1, line) > room &&
+           (comma = strrchr(line, ',')))
+        *comma = '\0';
+    label += strlen(line);
+    return label + strspn(label, ", ");
+}
+
+/* Writes the label of a pane, which says how panes differ, in up to three lines
+ * below the picture; a wide label stands above the scale. */
 static void draw_pane_label(const Plot *stage, const char *label)
 {
+    enum { LINES = 3 };
+    Paper *paper = stage->paper;
     const Box *box = &stage->box;
-    double em = stage->em, pitch = 1.36 * em;
-    int wide = paper_width(stage->paper, FACE_BOLD, 1, label), more = 0;
-    bool high = wide > box->width - 10 * em, split = wide > box->width - em;
-    for (const char *at = label; split && (at = strchr(at, ',')); at++)
-        more++;
-    double y = box->y + box->height - (high ? 4.2 : 1.7) * em - more * pitch;
-    for (; *label; label += strspn(label, ", "), y += pitch) {
-        char line[4 * VALUE_SIZE];
-        size_t length = strcspn(label, split ? "," : "");
-        snprintf(line, sizeof line, "%.*s", (int)length, label);
-        paper_write_on_panel(stage->paper, FACE_BOLD, 1,
-                             colour_of_run(plot_pane_index(stage)),
-                             box->x + 0.5 * box->width, y, ALIGN_CENTRE, line);
-        label += length;
+    char line[LINES][LABEL_SIZE];
+    int lines = 0, wide = 0;
+    while (*label && lines < LINES) {
+        label = take_label_line(stage, label, line[lines]);
+        int own = paper_width(paper, FACE_BOLD, 1, line[lines++]);
+        wide = own > wide ? own : wide;
     }
+    bool high = wide > box->width - 10 * paper->em;
+    double low = box->y + box->height - (high ? 4.2 : 1.7) * paper->em;
+    for (int i = 0; i < lines; i++)
+        paper_write_on_panel(
+            paper, FACE_BOLD, 1, colour_of_run(plot_pane_index(stage)),
+            box->x + 0.5 * box->width, low - 1.36 * (lines - 1 - i) * paper->em,
+            ALIGN_CENTRE, line[i]);
 }
 
 /* Draws the picture of a pane with its words, and the note at the mouse. */

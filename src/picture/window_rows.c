@@ -32,6 +32,7 @@ static void draw_strip(Paper *paper, Box room, const Strip *strip)
     double em = paper->em;
     bool low = room.height <= 2.6 * em, message = strip->message[0];
     const char *said = message ? strip->message : strip->sentence;
+    const char *title = strip->topic ? strip->topic : "";
     Colour colour = !message            ? COLOUR_TEXT
                     : strip->is_warning ? COLOUR_WARNING
                                         : COLOUR_VALUE;
@@ -48,10 +49,10 @@ static void draw_strip(Paper *paper, Box room, const Strip *strip)
                                      ALIGN_RIGHT, words);
     room.width -= (int)(1.4 * em);
     int wide = paper_width(paper, FACE_REGULAR, 1, said);
-    int topic = paper_width(paper, FACE_BOLD, TOPIC_SIZE, strip->topic);
+    int topic = paper_width(paper, FACE_BOLD, TOPIC_SIZE, title);
     if (!low || !message || topic + wide + 1.1 * em < room.width) {
         topic = paper_write_in_box(paper, FACE_BOLD, TOPIC_SIZE, COLOUR_TEXT,
-                                   room, ALIGN_LEFT, strip->topic);
+                                   room, ALIGN_LEFT, title);
         box_cut_off(&room, EDGE_LEFT, topic + (int)(1.1 * em));
     }
     bool two = !low && wide > room.width;
