@@ -242,8 +242,7 @@ void law_add_values(const Simulation *simulation, LiveValues *values)
     values_add_flag(values, "unflowed", still);
     values_add_flag(values, "bodies apart", self);
     values_add_flag(values, law->name, !isnan(now.x) && !still);
-    values_add_words(values, "its way",
-                     has_path ? "; its path is violet" : "");
+    values_add_words(values, "its way", has_path ? "; its path is violet" : "");
     if (law->evaluate == element_energy_at) {
         const System *system = now.eval.system;
         values_add(values, "c",

@@ -289,8 +289,8 @@ static void draw_iterates(const Plot *card)
     int rows = (int)(card->box.height / (pitch * paper->em));
     int first = count > rows ? count - rows : 0;
     CardTableRow cells;
-    for (int i = first; card_fill_row(card->content, &card_tangent_numbers,
-                                      i + 1, &cells);
+    for (int i = first;
+         card_fill_row(card->content, &card_tangent_numbers, i + 1, &cells);
          i++) {
         int y = card->box.y + paper_pixels(paper, pitch * (i - first));
         int right = (int)strcspn(cells.cell[1], "#");
