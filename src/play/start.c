@@ -258,7 +258,7 @@ Status obey_predict(Player *player, const Command *command)
     player->tour.right_guesses += right;
     append(player->tour.verdict, VALUE_SIZE, "Your click is %s%s.",
            right ? "right" : format_number(guess->distance).text,
-           right ? "" : " m off");
+           right ? "" : "\u00a0m off");
     return status;
 }
 
