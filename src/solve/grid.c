@@ -17,7 +17,7 @@ enum { LINE = 64, SMALL_PAGE = 4096, LARGE_PAGE = 2 << 20, STAGGER = 5 };
 Rows lay_out_rows(int nodes)
 {
     int even = (nodes + 1) / 2;
-    int half = (even + PADDED) / PADDED * PADDED; /* with room for a ghost */
+    int half = (even + LANES) / LANES * LANES; /* with room for a ghost */
     return (Rows){.nodes = nodes,
                   .count = {even, nodes / 2},
                   .half = half,
@@ -64,7 +64,11 @@ void grid_lay_out(int segments, Memory *memory, Grid *grid)
     for (int kind = 0; kind < KINDS; kind++) {
         grid->c[kind] = memory_take_piece(memory, plane);
         grid->l2[kind] = memory_take_piece(memory, plane);
+        grid->single_c[kind] = memory_take_piece(memory, plane / 2);
+        grid->single_l2[kind] = memory_take_piece(memory, plane / 2);
     }
+    grid->single_m = memory_take_piece(memory, plane / 2);
+    grid->single_x = memory_take_piece(memory, plane);
     grid->m = memory_take_piece(memory, plane);
     grid->inverse_m = memory_take_piece(memory, plane);
     grid->node_shift = memory_take_piece(memory, shifts);
@@ -102,6 +106,7 @@ void grid_read_system(Grid *grid, const Iterate *at, const double *m)
     double *const masses[] = {grid->m, grid->inverse_m};
     double unit, *springs[2 * KINDS];
     grid->lightest = INFINITY;
+    grid->stiffest = 0;
     for (int k = 0; k < rows->nodes * rows->nodes; k++)
         if (!system->pinned[k])
             grid->lightest = fmin(grid->lightest, m[2 * k]);
@@ -112,6 +117,7 @@ void grid_read_system(Grid *grid, const Iterate *at, const double *m)
             int q = node_place(rows, i, j);
             grid->m[q] = grid->mass * m[2 * node];
             grid->inverse_m[q] = system->pinned[node] ? 0 : 1 / grid->m[q];
+            grid->single_m[q] = system->pinned[node] ? 0 : (float)grid->m[q];
         }
     share_rows(rows, masses, 2, grid->node_shift);
     for (int kind = 0; kind < KINDS; kind++) {
@@ -135,6 +141,13 @@ void grid_read_system(Grid *grid, const Iterate *at, const double *m)
         grid->l2[kind][q] = unit * point.l2[s];
     }
     share_rows(rows, springs, 2 * KINDS, grid->spring_shift + 1);
+    for (int kind = 0; kind < KINDS; kind++)
+        for (int q = 0; q < rows->plane; q++) {
+            double c = grid->c[kind][q], l2 = grid->l2[kind][q];
+            grid->stiffest = fmax(grid->stiffest, 8 * c * l2);
+            grid->single_c[kind][q] = (float)c;
+            grid->single_l2[kind][q] = (float)l2;
+        }
 }
 
 void grid_read_state(Grid *grid, const Iterate *at, const double *u_tilde)

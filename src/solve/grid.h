@@ -30,16 +30,8 @@
  * (i+1, j+1), (i+1, j-1). */
 enum { RIGHT, UP, DIAGONAL, ANTIDIAGONAL, KINDS };
 
-/* Nodes that a loop handles at once, in double and in single precision. */
-enum { LANES = 8, WIDE_LANES = 16 };
-
-/* Half a row is padded to a multiple of PADDED nodes, so that whole vectors
- * fit; vectors are shorter in a browser. */
-#ifdef __wasm_simd128__
-enum { PADDED = LANES };
-#else
-enum { PADDED = WIDE_LANES };
-#endif
+/* Nodes that a loop handles at once. */
+enum { LANES = 8 };
 
 /* Number of rows in a band. */
 enum { BAND = 8 };
@@ -73,6 +65,11 @@ typedef struct Grid {
     double *l2[KINDS]; /* [plane] squared rest length */
     double *m, *inverse_m; /* [plane] mass and 1/mass; inverse_m is 0 at pins */
     double lightest;       /* smallest mass of a node that moves */
+    double stiffest;       /* largest stiffness of a node's springs, 8 c l2 */
+    float *single_c[KINDS];  /* [plane] c in single precision */
+    float *single_l2[KINDS]; /* [plane] l2 in single precision */
+    float *single_m;         /* [plane] mass without node_shift; 0 at pins */
+    float *single_x; /* [2 planes] x - x of the middle node (grid_narrow_x) */
     double *x, *x_tilde, *u_tilde; /* [2 planes] u_tilde is x_tilde - x_n */
     double *from_target; /* [2 planes] x - x_tilde = u - u_tilde; 0 at pins */
 } Grid;
@@ -123,8 +120,7 @@ double grid_linear_residual(const Grid *grid, const double *g, const double *p,
                             double *largest);
 
 /* Writes the quartic E(x + a p) - E(x) = q[0] a + q[1] a^2 + ... + q[3] a^4. */
-void grid_line_polynomial(const Grid *grid, const double *g, const double *p,
-                          double quartic[4]);
+void grid_line_polynomial(const Grid *grid, const double *p, double quartic[4]);
 
 /* p += beta last_p: the direction p becomes conjugate to last_p, along which x
  * has just moved to the lowest E (Polak and Ribiere 1969).
@@ -140,5 +136,8 @@ double grid_correct_momentum(const Grid *grid);
 
 /* Adds a p to x. */
 void grid_add_step(const Grid *grid, double a, const double *p);
+
+/* Computes single_x. */
+void grid_narrow_x(const Grid *grid);
 
 #endif

@@ -89,35 +89,36 @@ FAST double grid_linear_residual(const Grid *grid, const double *g,
     return total;
 }
 
-FAST void grid_line_polynomial(const Grid *grid, const double *g,
-                               const double *p, double quartic[4])
+FAST void grid_line_polynomial(const Grid *grid, const double *p,
+                               double quartic[4])
 {
     for (int s = 0; s < 4; s++)
         quartic[s] = 0;
     BANDS
     {
-        const double *const gx = g, *const gy = gx + plane;
+        const double *const ax = local.from_target, *const ay = ax + plane;
         const double *const px = p, *const py = px + plane;
         double sum[4][LANES] = {{0}};
         EACH_NODE_OF (local, band) {
             const int q = at.first + e;
-            Pair hx = PAIR(px, q), hy = PAIR(py, q), f1 = {0}, f2 = {0};
-            Pair f3 = {0}, p2 = hx * hx + hy * hy;
+            Pair hx = PAIR(px, q), hy = PAIR(py, q), q0 = {0}, q1 = {0};
+            Pair q2 = {0}, q3 = {0}, p2 = hx * hx + hy * hy;
+            Pair mass = PAIR(local.m, q + at.node);
 #define ADD(kind, to, numbers)                                                 \
     {                                                                          \
         Spring s = evaluate_grid_spring(&local, kind, q, to, numbers);         \
         P_DIFFERENCE(to);                                                      \
-        spring_line_polynomial(s, ux, uy, &f1, &f2, &f3);                      \
-        IN_ORDER(f1, f2);                                                      \
-        IN_ORDER(f3, p2);                                                      \
+        spring_line_polynomial(s, ux, uy, &q0, &q1, &q2, &q3);                 \
+        IN_ORDER(q0, q1);                                                      \
+        IN_ORDER(q2, q3);                                                      \
     }
             OWN_SPRINGS(ADD, at)
 #undef ADD
-            PAIR(sum[0], e) += PAIR(gx, q) * hx + PAIR(gy, q) * hy;
-            PAIR(sum[1], e) +=
-                0.25 * f1 + 0.5 * PAIR(local.m, q + at.node) * p2;
-            PAIR(sum[2], e) += 0.5 * f2;
-            PAIR(sum[3], e) += 0.25 * f3;
+            PAIR(sum[0], e) +=
+                q0 + mass * (PAIR(ax, q) * hx + PAIR(ay, q) * hy);
+            PAIR(sum[1], e) += q1 + 0.5 * mass * p2;
+            PAIR(sum[2], e) += q2;
+            PAIR(sum[3], e) += 0.25 * q3;
         }
         for (int s = 0; s < 4; s++)
             quartic[s] += sum_lanes(sum[s]);
@@ -190,5 +191,15 @@ FAST void grid_add_step(const Grid *grid, double a, const double *p)
     EACH_OF (2 * grid->rows.plane) {
         away[e] += a * p[e];
         x[e] = x_tilde[e] + away[e];
+    }
+}
+
+FAST void grid_narrow_x(const Grid *grid)
+{
+    const int n = grid->segments, plane = grid->rows.plane;
+    for (int c = 0; c < 2; c++) {
+        const double *const x = grid->x + c * plane;
+        double middle = x[node_place(&grid->rows, n / 2, n / 2)];
+        narrow_numbers(x, 1, middle, plane, grid->single_x + c * plane);
     }
 }

@@ -4,6 +4,9 @@
 #define ELASTO_GRID_LOOPS_H
 
 #include <stdint.h> /* defines __GLIBC__ if the library is glibc */
+#ifdef __wasm_simd128__
+#include <wasm_simd128.h>
+#endif
 
 #include "solve/grid.h"
 
@@ -13,7 +16,7 @@
 #ifndef FAST
 #if defined(__x86_64__) && defined(__GLIBC__) && defined(__OPTIMIZE__) &&      \
     !defined(__clang__)
-#define FAST __attribute__((target_clones("avx512f", "avx2", "default")))
+#define FAST __attribute__((target_clones("arch=x86-64-v4", "avx2", "default")))
 #else
 #define FAST
 #endif
@@ -93,6 +96,31 @@ enum { PAIRED = 0 };
 #define EACH_PAIR(lanes)    EACH_OF (lanes)
 #define WHERE(condition, a) ((condition) ? (a) : 0)
 #endif
+
+/* Converts one number, or in a browser two pairs, to single precision. */
+INLINE Few narrow_to_single(Pair low, Pair high)
+{
+#ifdef __wasm_simd128__ /* intrinsics: clang does not emit demote by itself */
+    v128_t few = wasm_f32x4_demote_f64x2_zero((v128_t)low);
+    v128_t more = wasm_f32x4_demote_f64x2_zero((v128_t)high);
+    return (Few)wasm_i32x4_shuffle(few, more, 0, 1, 4, 5);
+#else
+    (void)high;
+    return (float)low;
+#endif
+}
+
+/* Computes to = factor (from - middle) in single precision.
+ *   count  of numbers, a multiple of LANES */
+INLINE void narrow_numbers(const double *from, double factor, double middle,
+                           int count, float *to)
+{
+    for (; count > 0; count -= LANES, from += LANES, to += LANES)
+        EACH_FEW (LANES)
+            FEW(to, e) =
+                narrow_to_single(factor * (PAIR(from, e) - middle),
+                                 factor * (PAIR(from, e + PAIRED) - middle));
+}
 
 /* Calls F for springs of a node, with the kind, the distance to the other node,
  * and the distance to the spring's numbers.  Two springs are in the node's row,

@@ -172,9 +172,16 @@ void incremental_potential_absorb_pulls(const Iterate *iterate, double *m,
 {
     const System *system = iterate->E.system;
     EvalPoint at = eval_point_of(&iterate->E, iterate->u, iterate->x);
+    bool pulls = false;
+    for (int t = 0; t < system->terms; t++)
+        pulls = pulls || system->term[t].kind->diagonal;
+    for (int i = 0; i < system->nodes; i++)
+        m[2 * i] = m[2 * i + 1] = system->m[i];
+    memcpy(u_tilde, iterate->E.u_tilde,
+           2 * (size_t)system->nodes * sizeof *u_tilde);
+    if (!pulls)
+        return;
     for (int i = 0; i < 2 * system->nodes; i++) {
-        m[i] = system->m[i / 2];
-        u_tilde[i] = iterate->E.u_tilde[i];
         iterate->g[i] = 0;
         iterate->p[i] = 1;
     }

@@ -15,11 +15,11 @@ static const double NEARBY = 0.02;
 
 /* A direction is poor if the bound of p after it is more than STALLS times the
  * bound before.  After the first poor direction of a step, conjugate gradients
- * find the directions.  After the second one, or if already the step's first
- * direction is poor, tiles relax, too.  A sweep of a tile is worth its time if
- * it lowers E by more than PACE times the last direction's decrease, divided by
- * the number of tiles. */
-static const double STALLS = 0.3, PACE = 0.15;
+ * find the directions.  After each further one, or if the step's first
+ * direction is poor, tiles relax in the next iteration, too.  A sweep of a tile
+ * is worth its time if it lowers E by more than PACE times the last direction's
+ * decrease, divided by the number of tiles. */
+static const double STALLS = 0.3, PACE = 0.06;
 
 /* Number of iterations after which Newton takes over; most steps need ten. */
 enum { HANDED_ITERATIONS = 200 };
@@ -47,7 +47,7 @@ struct Multigrid {
     unsigned version;        /* System.version in the grid */
     double weight;           /* s^2, weight of P in the grid */
     bool is_slow;            /* a direction of this step was poor */
-    bool stalls;             /* whether tiles relax in each iteration */
+    bool has_relaxed;        /* tiles relaxed in the last update */
     bool change_was_hidden;  /* rounding hid the last iteration's change of E */
 };
 
@@ -142,7 +142,7 @@ static Status multigrid_read_problem(Newton *newton)
     if (status)
         return status;
     Multigrid *mg = newton->multigrid;
-    mg->is_slow = mg->stalls = mg->change_was_hidden = false;
+    mg->is_slow = mg->has_relaxed = mg->change_was_hidden = false;
     mg->largest_change = mg->size = 0;
     incremental_potential_absorb_pulls(at, m, u_tilde);
     if (mg->weight != at->E.weight || mg->version != system->version) {
@@ -176,7 +176,7 @@ static Status multigrid_find_direction(Newton *newton)
     const double longest = h * newton->tolerance;
     double largest;
     if (v_cycle_solve(&mg->cycle, mg->g, mg->gradient_norm2, longest,
-                      !mg->is_slow && record->iteration > 0, mg->p, &largest)) {
+                      !mg->is_slow, mg->p, &largest)) {
         double square = grid_linear_residual(&mg->grid, mg->g, mg->p, &largest);
         newton->passes_test =
             v_cycle_passes(&mg->grid, largest, square, longest);
@@ -207,6 +207,14 @@ static double minimise_quartic(const Quartic *quartic, int *trials)
     return a > 1e-9 ? a : 0;
 }
 
+/* Computes the change of E along p. */
+static void multigrid_compute_line(Multigrid *mg)
+{
+    grid_line_polynomial(&mg->grid, mg->p, mg->line.q);
+    for (int i = 0; i < 4; i++)
+        mg->line.q[i] /= mg->grid.energy;
+}
+
 /* Makes p conjugate to the direction before, unless tiles have relaxed since.
  * Finds the step length at which E, a quartic along p, is lowest. */
 static Status multigrid_find_step_length(Newton *newton)
@@ -214,13 +222,11 @@ static Status multigrid_find_step_length(Newton *newton)
     Multigrid *mg = newton->multigrid;
     NewtonRecord *record = &newton->record;
     double beta = 0;
-    if (record->iteration > 0 && !mg->stalls)
+    if (record->iteration > 0 && !mg->has_relaxed)
         beta = grid_conjugate(&mg->grid, mg->g, mg->last_g, mg->last_p,
                               mg->line.q[0] * mg->grid.energy, mg->p);
     mg->size = record->residual * newton->settings.h + beta * mg->size;
-    grid_line_polynomial(&mg->grid, mg->g, mg->p, mg->line.q);
-    for (int i = 0; i < 4; i++)
-        mg->line.q[i] /= mg->grid.energy;
+    multigrid_compute_line(mg);
     record->slope = mg->line.q[0];
     if (!isfinite(record->slope))
         return STATUS_NOT_FINITE;
@@ -246,13 +252,15 @@ static Status multigrid_update_iterate(Newton *newton)
     newton->counters.iterations++;
     if (newton->passes_test)
         return STATUS_OK;
-    if (mg->p_bound > STALLS * mg->last_p_bound) {
-        mg->stalls = mg->is_slow || record->iteration == 1;
-        mg->is_slow = true;
-    }
-    if (mg->stalls) {
-        double pace = PACE * record->change * unit / tiles;
-        record->change += tiles_relax(&mg->tiles, pace) / unit;
+    bool poor = mg->p_bound > STALLS * mg->last_p_bound;
+    mg->has_relaxed = poor && (mg->is_slow || record->iteration == 1);
+    mg->is_slow = mg->is_slow || poor;
+    if (mg->has_relaxed) {
+        tiles_relax(&mg->tiles, PACE * record->change * unit / tiles, p);
+        multigrid_compute_line(mg);
+        double alpha = minimise_quartic(&mg->line, &(int){0});
+        grid_add_step(&mg->grid, alpha, p);
+        record->change += quartic_value(&mg->line, alpha);
         mg->way_since_setup = INFINITY;
     }
     newton->counters.tile_sweeps = mg->tiles.sweeps;

@@ -3,8 +3,8 @@
  * Newton's method for E = |u - u_tilde|_M^2/2 + w P(x_n + u).  A multigrid
  * V-cycle on the clamped Hessian finds the directions (v_cycle.h), each of
  * which is made conjugate to the one before.  E along a direction is a quartic,
- * whose minimum is the step length.  Where folds run, tiles of nodes relax
- * between the directions (tiles.h), which are then not made conjugate.  No
+ * whose minimum is the step length.  Where folds run, tiles of nodes find a
+ * second direction (tiles.h), and the next one is not made conjugate.  No
  * update raises E.
  *
  * The test of Algorithm 3 needs p = -H^-1 g, which conjugate gradients know up

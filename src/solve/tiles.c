@@ -3,24 +3,27 @@
  */
 #include "solve/tiles.h"
 
+#include <float.h>
+#include <math.h>
+
 #include "solve/grid_spring.h"
 
 /* Number of rows of a tile, whose columns are LANES even and LANES odd ones. */
 enum { TILE_ROWS = 4 };
 
 /* Step lengths that are tried for a node besides 1. */
-static const double OVER_RELAXED = 1.8, SHORTER = 0.25;
+static const float OVER_RELAXED = 1.8f, SHORTER = 0.25f;
 
 /* A node's block of the Hessian is not clamped if its determinant is larger
  * than this share of its trace's square. */
-static const double DEFINITE = 0.0025;
+static const float DEFINITE = 0.0025f;
 
 /* A round sweeps the tiles with at least SHARE of the largest activity.  A
  * sweep adds SPREAD of its change of E to the activity of the tiles around.
  * Rounds end when no activity is STANDS_OUT times the mean. */
 static const double SHARE = 0.4, SPREAD = 0.25, STANDS_OUT = 2;
 
-/* Limit of the rounds, which rounding of E could keep from ending. */
+/* Limit of the rounds, which rounding could keep from ending. */
 enum { MAX_ROUNDS = 10000 };
 
 void tiles_lay_out(const Grid *grid, Memory *memory, Tiles *tiles)
@@ -33,52 +36,118 @@ void tiles_lay_out(const Grid *grid, Memory *memory, Tiles *tiles)
         memory_take_piece(memory, count * sizeof *tiles->activity);
     tiles->change = memory_take_piece(memory, count * sizeof *tiles->change);
     tiles->chosen = memory_take_piece(memory, count * sizeof *tiles->chosen);
+    tiles->from_target = memory_take_piece(
+        memory, 2 * (size_t)grid->rows.plane * sizeof *tiles->from_target);
 }
 
 /* Returns the longest of three step lengths a that lower E, or 0; E changes by
  * a q[0] + ... + a^4 q[3].
  *   lower  out, the change of E */
-INLINE double find_lowering_step(const double q[4], double *lower)
+INLINE float find_lowering_step(const float q[4], float *lower)
 {
-    const double far[3] = {SHORTER, 1, OVER_RELAXED};
-    double go = 0;
+    const float far[3] = {SHORTER, 1, OVER_RELAXED};
+    float go = 0;
     *lower = 0;
     for (int i = 0; i < 3; i++) {
-        double a = far[i], E = a * (q[0] + a * (q[1] + a * (q[2] + a * q[3])));
+        float a = far[i], E = a * (q[0] + a * (q[1] + a * (q[2] + a * q[3])));
         go = E < 0 ? a : go;
         *lower = E < 0 ? E : *lower;
     }
     return go;
 }
 
-/* Moves LANES nodes of a row that share no spring; adds E's changes to sum. */
-INLINE void relax_nodes(const Grid *grid, NodeRun at, double *sum)
+/* Sums over a node's springs: gradient of E (GX, GY), Hessian block, not
+ * clamped (XX, XY, YY), c d (CX, CY), c (CC), and the negative f (NEGATIVE). */
+enum { GX, GY, XX, XY, YY, CX, CY, CC, NEGATIVE, SUMS };
+
+typedef float NodeSums[SUMS][LANES];
+
+/* Computes the sums of LANES nodes of a row, in a loop of its own, since steps
+ * that do not wait for each other are faster. */
+INLINE void gather_springs(const Tiles *tiles, NodeRun at, NodeSums of)
 {
+    const Grid *grid = tiles->grid;
+    const float *const ax = tiles->from_target, *const ay =
+                                                    ax + grid->rows.plane;
+    EACH_FEW (NEXT(at, LANES)) {
+        const int q = at.first + e;
+        Few mass = FEW(grid->single_m, q), iso = mass;
+        Few gx = mass * FEW(ax, q), gy = mass * FEW(ay, q);
+        Few xx = {0}, xy = {0}, yy = {0};
+        Few cx = {0}, cy = {0}, c = {0}, negative = {0};
+#define ADD(kind, to, numbers)                                                 \
+    {                                                                          \
+        SingleSpring s = evaluate_single_spring(grid, kind, q, to, numbers);   \
+        Few fx = s.c * s.dx, fy = s.c * s.dy, f = s.c * s.s;                   \
+        gx += f * s.dx;                                                        \
+        gy += f * s.dy;                                                        \
+        IN_ORDER(gx, gy);                                                      \
+        iso += f;                                                              \
+        negative += WHERE(f < 0, f);                                           \
+        IN_ORDER(iso, negative);                                               \
+        xx += fx * s.dx;                                                       \
+        xy += fx * s.dy;                                                       \
+        cx += fx;                                                              \
+        IN_ORDER(xx, xy);                                                      \
+        yy += fy * s.dy;                                                       \
+        cy += fy;                                                              \
+        IN_ORDER(yy, cy);                                                      \
+        c += s.c;                                                              \
+        IN_ORDER(c, cx);                                                       \
+    }
+        ALL_SPRINGS(ADD, at)
+#undef ADD
+        FEW(of[GX], e) = gx;
+        FEW(of[GY], e) = gy;
+        FEW(of[XX], e) = iso + 2 * xx;
+        FEW(of[XY], e) = 2 * xy;
+        FEW(of[YY], e) = iso + 2 * yy;
+        FEW(of[CX], e) = cx;
+        FEW(of[CY], e) = cy;
+        FEW(of[CC], e) = c;
+        FEW(of[NEGATIVE], e) = negative;
+    }
+}
+
+/* Writes the coefficients q of the change of E, q[0] a + ... + q[3] a^4, when
+ * the node moves by a p. */
+INLINE void node_line_polynomial(const NodeSums of, int e, float px, float py,
+                                 float q[4])
+{
+    float A = of[XX][e], B = of[XY][e], C = of[YY][e], p2 = px * px + py * py;
+    q[0] = of[GX][e] * px + of[GY][e] * py;
+    q[1] = 0.5f * (A * px * px + 2 * B * px * py + C * py * py);
+    q[2] = p2 * (of[CX][e] * px + of[CY][e] * py);
+    q[3] = 0.25f * of[CC][e] * p2 * p2;
+}
+
+/* Moves LANES nodes of a row that share no spring; adds E's changes to sum. */
+INLINE void relax_nodes(const Tiles *tiles, NodeRun at, double *sum)
+{
+    const Grid *grid = tiles->grid;
     const int plane = grid->rows.plane;
-    const double *const tx = grid->x_tilde, *const ty = tx + plane;
-    double *const x = grid->x, *const y = x + plane;
-    double *const ax = grid->from_target, *const ay = ax + plane;
+    float *const x = grid->single_x, *const y = x + plane;
+    float *const ax = tiles->from_target, *const ay = ax + plane;
     NodeSums of;
-    gather_springs(grid, at, of);
+    gather_springs(tiles, at, of);
     EACH_OF (NEXT(at, LANES)) {
         const int q = at.first + e;
-        double gx = of[GX][e], gy = of[GY][e], negative = of[NEGATIVE][e];
-        double A = of[XX][e], B = of[XY][e], C = of[YY][e], trace = A + C;
+        float gx = of[GX][e], gy = of[GY][e], negative = of[NEGATIVE][e];
+        float A = of[XX][e], B = of[XY][e], C = of[YY][e], trace = A + C;
         bool good = (trace > 0) & (A * C - B * B > DEFINITE * trace * trace);
-        double a = good ? A : A - negative, d = good ? C : C - negative;
-        double det = a * d - B * B;
-        bool moves = (det > 0) & (grid->inverse_m[q + at.node] > 0);
-        double over = moves ? -1 / (det > 0 ? det : 1) : 0;
-        double px = (d * gx - B * gy) * over, py = (a * gy - B * gx) * over;
-        double along[4], lower;
+        float a = good ? A : A - negative, d = good ? C : C - negative;
+        float det = a * d - B * B;
+        bool moves = (det > 0) & (grid->single_m[q] > 0);
+        float over = moves ? -1 / (det > 0 ? det : 1) : 0;
+        float px = (d * gx - B * gy) * over, py = (a * gy - B * gx) * over;
+        float along[4], lower;
         node_line_polynomial(of, e, px, py, along);
-        double go = find_lowering_step(along, &lower);
-        double to_x = ax[q] + go * px, to_y = ay[q] + go * py;
-        ax[q] = to_x;
-        ay[q] = to_y;
-        x[q] = tx[q] + to_x;
-        y[q] = ty[q] + to_y;
-        sum[e] += lower;
+        float go = find_lowering_step(along, &lower);
+        ax[q] += go * px;
+        ay[q] += go * py;
+        x[q] += go * px;
+        y[q] += go * py;
+        sum[e] += (double)lower;
     }
 }
 
@@ -96,7 +165,7 @@ INLINE double relax_tile(const Tiles *tiles, int tile)
             NodeRun at = grid_nodes(&grid, i, colour % 2);
             at.first += column * LANES;
             if (at.first < at.end)
-                relax_nodes(&grid, at, sum);
+                relax_nodes(tiles, at, sum);
         }
     return sum_lanes(sum);
 }
@@ -134,12 +203,32 @@ FAST static double relax_active(Tiles *tiles, double activity, int *visits)
     return change;
 }
 
-double tiles_relax(Tiles *tiles, double pace)
+/* Copies x and x - x_tilde from the grid. */
+FAST static void read_state(const Tiles *tiles)
+{
+    const Grid *grid = tiles->grid;
+    grid_narrow_x(grid);
+    narrow_numbers(grid->from_target, 1, 0, 2 * grid->rows.plane,
+                   tiles->from_target);
+}
+
+/* Writes the nodes' displacements since read_state to p. */
+FAST static void find_displacements(const Tiles *tiles, double *p)
+{
+    const double *const before = tiles->grid->from_target;
+    EACH_OF (2 * tiles->grid->rows.plane)
+        p[e] = (double)tiles->from_target[e] - (double)(float)before[e];
+}
+
+void tiles_relax(Tiles *tiles, double pace, double *p)
 {
     int count = tiles->rows * tiles->columns, visits;
+    double rounding = tiles->grid->segments * FLT_EPSILON; /* error of x */
+    pace = fmin(pace, -tiles->grid->stiffest * rounding * rounding);
+    read_state(tiles);
     for (int t = 0; t < count; t++)
         tiles->activity[t] = 0;
-    double lowered = relax_active(tiles, 0, &visits), change = lowered;
+    double lowered = relax_active(tiles, 0, &visits);
     for (int t = 0; t < count; t++)
         tiles->activity[t] = tiles->change[t];
     for (int round = 0; round < MAX_ROUNDS; round++) {
@@ -151,9 +240,8 @@ double tiles_relax(Tiles *tiles, double pace)
         if (!(most < 0 && most <= STANDS_OUT * sum / count))
             break;
         lowered = relax_active(tiles, SHARE * most, &visits);
-        change += lowered;
         if (!(lowered < pace * visits))
             break;
     }
-    return change;
+    find_displacements(tiles, p);
 }

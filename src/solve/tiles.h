@@ -1,5 +1,4 @@
-/* tiles.h - minimisation node by node where folds run, between directions of
- * the whole square.
+/* tiles.h - a direction from minimisation node by node, where folds run.
  *
  * When the square buckles, a dislocation of some ten nodes runs along a row,
  * less than a cell for each Newton direction of the whole square.  Tiles of
@@ -9,7 +8,10 @@
  * follows a fold in directions in which the clamped Hessian is flat.  Along
  * such a step E is a quartic with known coefficients.  The step may therefore
  * be longer by a factor without a rise of E, and the decrease of E in each tile
- * is known. */
+ * is known.
+ *
+ * Tiles work in single precision on a copy of x.  Their result is a direction,
+ * along which the caller minimises E in double precision. */
 #ifndef ELASTO_TILES_H
 #define ELASTO_TILES_H
 
@@ -21,6 +23,7 @@ typedef struct Tiles {
     double *activity;  /* [tiles] change of E that a sweep may bring, < 0 */
     double *change;    /* [tiles] change of E by the tile's last sweep */
     int *chosen;       /* [tiles] numbers of the tiles that are swept next */
+    float *from_target; /* [2 planes] x - x_tilde */
     long sweeps;       /* sweeps of tiles since the object was made */
 } Tiles;
 
@@ -29,8 +32,9 @@ void tiles_lay_out(const Grid *grid, Memory *memory, Tiles *tiles);
 /* Sweeps all tiles once, then in rounds those with the largest Tiles.activity,
  * until none stands out from the mean, or the sweeps of a round lower E on
  * average by less than the pace.
- *   pace  J s^2, < 0, change of E for which a tile's sweep is worth its time
- * Returns the change of E, <= 0. */
-double tiles_relax(Tiles *tiles, double pace);
+ *   pace  grid units, < 0, change of E for which a tile's sweep is worth its
+ *         time
+ *   p     [2 planes] out, displacements of the nodes */
+void tiles_relax(Tiles *tiles, double pace, double *p);
 
 #endif

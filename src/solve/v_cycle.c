@@ -7,10 +7,6 @@
 
 #include "solve/grid_spring.h"
 
-#ifdef __wasm_simd128__
-#include <wasm_simd128.h>
-#endif
-
 /* Largest number of nodes along a side of the coarsest level. */
 enum { COARSEST = 3 };
 
@@ -27,14 +23,13 @@ void v_cycle_lay_out(const Grid *grid, Memory *memory, VCycle *cycle)
             level->K[i / 3][i % 3] = memory_take_piece(memory, bytes);
         for (int i = 0; i < 3; i++)
             level->D[i] = memory_take_piece(memory, bytes);
-        level->m = memory_take_piece(memory, bytes);
+        level->m = level == cycle->level ? grid->single_m
+                                         : memory_take_piece(memory, bytes);
         float **vectors[] = {&level->x, &level->b, &level->w};
         for (int i = 0; i < 3; i++)
             *vectors[i] = memory_take_piece(memory, 2 * bytes);
     }
     size_t bytes = 2 * (size_t)grid->rows.plane * sizeof(float);
-    for (int kind = 0; kind < KINDS; kind++)
-        cycle->c[kind] = memory_take_piece(memory, bytes / 2);
     float **vectors[] = {&cycle->p, &cycle->d, &cycle->Ad};
     for (int i = 0; i < 3; i++)
         *vectors[i] = memory_take_piece(memory, bytes);
@@ -61,19 +56,6 @@ INLINE int rows_with_coarse(const Level *level)
 
 /* ---- tensors ---- */
 
-/* Converts one number, or in a browser two pairs, to single precision. */
-INLINE Few narrow_to_single(Pair low, Pair high)
-{
-#ifdef __wasm_simd128__ /* intrinsics: clang does not emit demote by itself */
-    v128_t few = wasm_f32x4_demote_f64x2_zero((v128_t)low);
-    v128_t more = wasm_f32x4_demote_f64x2_zero((v128_t)high);
-    return (Few)wasm_i32x4_shuffle(few, more, 0, 1, 4, 5);
-#else
-    (void)high;
-    return (float)low;
-#endif
-}
-
 /* Computes the tensors of the springs that start in row i, with negative
  * eigenvalues replaced by 0. */
 INLINE void compute_tensor_row(const VCycle *cycle, int i)
@@ -82,23 +64,15 @@ INLINE void compute_tensor_row(const VCycle *cycle, int i)
     const Level level = cycle->level[0];
     for (int odd = 0; odd < 2; odd++)
         for (NodeRun at = grid_nodes(&grid, i, odd); at.first < at.end;
-             at.first += WIDE_LANES) {
+             at.first += LANES) {
 #define ADD(kind, to, numbers)                                                 \
-    {                                                                          \
-        const float *const own_c = cycle->c[kind] + at.first + (numbers);      \
-        EACH_FEW (NEXT(at, WIDE_LANES)) {                                      \
-            const int q = at.first + e;                                        \
-            Spring s = evaluate_grid_spring(&grid, kind, q, to, numbers);      \
-            Spring z =                                                         \
-                evaluate_grid_spring(&grid, kind, q + PAIRED, to, numbers);    \
-            Few dx = narrow_to_single(s.dx, z.dx),                             \
-                dy = narrow_to_single(s.dy, z.dy);                             \
-            Few t = narrow_to_single(s.s, z.s), c = FEW(own_c, e);             \
-            CLAMPED_TENSOR(t, dx *dx + dy * dy + 1e-35f, iso, along);          \
-            FEW(level.K[kind][0], q) = c * (iso + along * dx * dx);            \
-            FEW(level.K[kind][1], q) = c * along * dx * dy;                    \
-            FEW(level.K[kind][2], q) = c * (iso + along * dy * dy);            \
-        }                                                                      \
+    EACH_FEW (NEXT(at, LANES)) {                                               \
+        const int q = at.first + e;                                            \
+        SingleSpring s = evaluate_single_spring(&grid, kind, q, to, numbers);  \
+        CLAMPED_TENSOR(s.s, s.d2 + 1e-35f, iso, along);                        \
+        FEW(level.K[kind][0], q) = s.c * (iso + along * s.dx * s.dx);          \
+        FEW(level.K[kind][1], q) = s.c * along * s.dx * s.dy;                  \
+        FEW(level.K[kind][2], q) = s.c * (iso + along * s.dy * s.dy);          \
     }
             OWN_SPRINGS(ADD, at)
 #undef ADD
@@ -110,8 +84,8 @@ INLINE void invert_diagonal_row(const Level *of, int i)
     const Level level = *of;
     for (int odd = 0; odd < 2; odd++)
         for (NodeRun at = nodes_in_row(&level.rows, i, odd); at.first < at.end;
-             at.first += WIDE_LANES)
-            EACH_OF (NEXT(at, WIDE_LANES)) {
+             at.first += LANES)
+            EACH_OF (NEXT(at, LANES)) {
                 const int q = at.first + e;
                 float mass = level.m[q], xx = mass, xy = 0, yy = mass;
 #define ADD(kind, to, numbers)                                                 \
@@ -129,13 +103,13 @@ INLINE void invert_diagonal_row(const Level *of, int i)
             }
 }
 
-/* Stores WIDE_LANES columns of coarse row I, from column `first` on, even
+/* Stores LANES columns of coarse row I, from column `first` on, even
  * columns apart from odd ones. */
 INLINE void split_even_odd(const Rows *rows, int I, int first,
                            const float *line, float *to)
 {
     float *even = to + node_place(rows, I, first), *odd = even + rows->half;
-    EACH_OF (AT_MOST(WIDE_LANES / 2, (rows->nodes - first + 1) / 2)) {
+    EACH_OF (AT_MOST(LANES / 2, (rows->nodes - first + 1) / 2)) {
         even[e] = line[2 * e];
         odd[e] = line[2 * e + 1];
     }
@@ -152,13 +126,13 @@ INLINE void split_even_odd(const Rows *rows, int I, int first,
 INLINE void coarsen_row(const Level *level, const Level *coarse, int I)
 {
     const Rows fine = level->rows, rows = coarse->rows;
-    for (int first = 0; first < rows.nodes; first += WIDE_LANES)
+    for (int first = 0; first < rows.nodes; first += LANES)
         for (int t = 0; t < 3; t++) {
-            float line[WIDE_LANES];
+            float line[LANES];
 #define MEAN(kind, sum)                                                        \
     {                                                                          \
         FINER(level->K[kind][t]);                                              \
-        EACH_OF (WIDE_LANES)                                                   \
+        EACH_OF (LANES)                                                        \
             line[e] = 0.25f * (sum);                                           \
         split_even_odd(&rows, I, first, line, coarse->K[kind][t]);             \
     }
@@ -179,10 +153,10 @@ INLINE void restrict_row(const Rows *finer, const Rows *coarse, int I,
                          const float *from, float *to)
 {
     const Rows fine = *finer;
-    for (int first = 0; first < coarse->nodes; first += WIDE_LANES) {
-        float line[WIDE_LANES];
+    for (int first = 0; first < coarse->nodes; first += LANES) {
+        float line[LANES];
         FINER(from);
-        EACH_OF (WIDE_LANES)
+        EACH_OF (LANES)
             line[e] =
                 EVEN(0) +
                 0.5f * ((EVEN(-1) + EVEN(1)) + (ODD(0, -1) + ODD(0, 0))) +
@@ -191,42 +165,25 @@ INLINE void restrict_row(const Rows *finer, const Rows *coarse, int I,
     }
 }
 
-FAST static void set_up_levels(VCycle *cycle)
+/* Computes the matrices of rows i and i + 1, and the coarser row on row i. */
+INLINE void set_up_rows(const VCycle *cycle, const Level *level, int i)
 {
-    for (const Level *l = cycle->level; l && !cycle->is_set_up; l = l->coarse) {
-        const int nodes = l->rows.nodes, rows = rows_with_coarse(l);
-        for (int row = 0; row < rows + 2; row++) {
-            if (l == cycle->level && has_row(nodes, row))
+    for (int row = i; row < i + 2; row++)
+        if (has_row(level->rows.nodes, row)) {
+            if (level == cycle->level)
                 compute_tensor_row(cycle, row);
-            if (has_row(nodes, row - 1))
-                invert_diagonal_row(l, row - 1);
-            int i = row - 2;
-            if (l->coarse && i % 2 == 0 && has_row(rows, i))
-                coarsen_row(l, l->coarse, i / 2);
+            invert_diagonal_row(level, row);
         }
-    }
-    cycle->is_set_up = true;
+    if (level->coarse && has_row(rows_with_coarse(level), i))
+        coarsen_row(level, level->coarse, i / 2);
 }
 
 void v_cycle_read_system(VCycle *cycle)
 {
     const Grid *grid = cycle->grid;
-    const Rows *rows = &grid->rows;
-    for (int i = 0; i < rows->nodes; i++)
-        for (int j = 0; j < rows->nodes; j++) {
-            int q = node_place(rows, i, j), at = q + grid->node_shift[i];
-            cycle->level->m[q] =
-                grid->inverse_m[at] > 0 ? (float)grid->m[at] : 0;
-        }
-    for (int kind = 0; kind < KINDS; kind++)
-        for (int k = 0; k < rows->plane; k++)
-            cycle->c[kind][k] = (float)grid->c[kind][k];
-    double m = grid->lightest, springs = 0; /* stiffness of a node's springs */
-    for (int kind = 0; kind < KINDS; kind++)
-        for (int k = 0; k < rows->plane; k++)
-            springs = fmax(springs, 8 * grid->c[kind][k] * grid->l2[kind][k]);
+    double m = grid->lightest;
     Level *l = cycle->level;
-    for (; l->rows.nodes > COARSEST && springs > m; l++, m *= 4) {
+    for (; l->rows.nodes > COARSEST && grid->stiffest > m; l++, m *= 4) {
         const Level *coarse = l->coarse = l + 1;
         int last = l->rows.nodes - 1;
         for (int I = 0; I < coarse->rows.nodes; I++) {
@@ -253,9 +210,9 @@ typedef enum PassResult {
     PRODUCT   /* w = A x; x.b and x.w are added to xb and xw */
 } PassResult;
 
-/* Makes a pass over one colour of row i.  The colour is 2 in odd rows, plus 1
- * in odd columns.  Springs lead to earlier colours along the row from odd
- * columns, and across rows from odd rows. */
+/* Makes a pass over one colour of row i, if the level has this row.  The colour
+ * is 2 in odd rows, plus 1 in odd columns.  Springs lead to earlier colours
+ * along the row from odd columns, and across rows from odd rows. */
 INLINE void visit_row(const Level *of, int i, int colour, PassResult result,
                       float *xb, float *xw)
 {
@@ -267,9 +224,11 @@ INLINE void visit_row(const Level *of, int i, int colour, PassResult result,
     float *const x = level.x, *const y = x + plane;
     float *const wx = level.w, *const wy = wx + plane;
     const float *const bx = level.b, *const by = bx + plane;
+    if (!has_row(level.rows.nodes, i))
+        return;
     for (NodeRun at = nodes_in_row(&level.rows, i, colour % 2);
-         at.first < at.end; at.first += WIDE_LANES)
-        EACH_FEW (NEXT(at, WIDE_LANES)) {
+         at.first < at.end; at.first += LANES)
+        EACH_FEW (NEXT(at, LANES)) {
             const int q = at.first + e;
             Few hx = {0}, hy = {0}, ax = {0}, ay = {0};
             if (result == FIRST) { /* ax and ay are b - A x here, else A x */
@@ -317,21 +276,14 @@ INLINE void visit_row(const Level *of, int i, int colour, PassResult result,
         }
 }
 
-/* Smooths row i backward: odd columns, then even ones. */
-INLINE void smooth_row(const Level *level, int i)
-{
-    visit_row(level, i, 1, SMOOTH, NULL, NULL);
-    visit_row(level, i, 0, SMOOTH, NULL, NULL);
-}
-
 /* Computes w = A x in row i.  Adds x.b and x.w of the row to sums [2]. */
 INLINE void multiply_row(const Level *level, int i, double *sums)
 {
-    float xb[WIDE_LANES] = {0}, xw[WIDE_LANES] = {0};
+    float xb[LANES] = {0}, xw[LANES] = {0};
     visit_row(level, i, 0, PRODUCT, xb, xw);
     visit_row(level, i, 1, PRODUCT, xb, xw);
     double row[2] = {0, 0};
-    for (int e = 0; e < WIDE_LANES; e++) {
+    for (int e = 0; e < LANES; e++) {
         row[0] += (double)xb[e];
         row[1] += (double)xw[e];
     }
@@ -350,8 +302,8 @@ INLINE void prolong_row(const Level *level, const Rows *coarse, int i,
     const int half = coarse->half, at = node_place(&fine, i, 0);
     float *const even = to + at, *const odd = even + fine.half;
     const float *const D = level->D[0] + at, *const odd_D = D + fine.half;
-    for (int first = 0; 2 * first < fine.count[0]; first += WIDE_LANES / 2)
-        EACH_OF (AT_MOST(WIDE_LANES / 2, fine.half / 2 - first)) {
+    for (int first = 0; 2 * first < fine.count[0]; first += LANES / 2)
+        EACH_OF (AT_MOST(LANES / 2, fine.half / 2 - first)) {
             const int J = first + e;
             float here = 0.5f * (a[J] + z[J]);
             float after = 0.5f * (a[half + J] + z[half + J]);
@@ -364,35 +316,26 @@ INLINE void prolong_row(const Level *level, const Rows *coarse, int i,
 }
 
 /* Makes one forward Gauss-Seidel pass from x = 0, and restricts the residual to
- * b of the coarser level.  Even rows come before odd rows, and in each row even
- * columns before odd columns. */
-FAST static void descend_level(const Level *l)
+ * b of the coarser level.  Computes the matrices before, if needed.  Even rows
+ * come before odd rows, and in each row even columns before odd columns. */
+FAST static void descend_level(const VCycle *cycle, const Level *l)
 {
-    const int nodes = l->rows.nodes, rows = rows_with_coarse(l);
-    for (int row = 0; row < rows + 3; row++) {
-        int i = row;
-        if (i % 2 == 0 && has_row(nodes, i)) {
-            visit_row(l, i, 0, FIRST, NULL, NULL);
-            visit_row(l, i, 1, FIRST, NULL, NULL);
-        }
-        i = row - 1;
-        if (i % 2 != 0 && has_row(nodes, i)) {
-            visit_row(l, i, 2, FIRST, NULL, NULL);
-            visit_row(l, i, 3, FIRST, NULL, NULL);
-            visit_row(l, i, 2, RESIDUAL, NULL, NULL);
-            visit_row(l, i, 3, RESIDUAL, NULL, NULL);
-        }
-        i = row - 2;
-        if (i % 2 == 0 && has_row(nodes, i)) {
-            visit_row(l, i, 0, RESIDUAL, NULL, NULL);
-            visit_row(l, i, 1, RESIDUAL, NULL, NULL);
-        }
-        i = row - 3;
-        if (l->coarse && i % 2 == 0 && has_row(rows, i))
-            for (int c = 0; c < 2; c++)
-                restrict_row(&l->rows, &l->coarse->rows, i / 2,
-                             l->w + c * l->rows.plane,
-                             l->coarse->b + c * l->coarse->rows.plane);
+    const int rows = rows_with_coarse(l);
+    for (int i = 0; i < rows + 4; i += 2) {
+        if (!cycle->is_set_up)
+            set_up_rows(cycle, l, i);
+        visit_row(l, i, 0, FIRST, NULL, NULL);
+        visit_row(l, i, 1, FIRST, NULL, NULL);
+        visit_row(l, i - 1, 2, FIRST, NULL, NULL);
+        visit_row(l, i - 1, 3, FIRST, NULL, NULL);
+        visit_row(l, i - 1, 2, RESIDUAL, NULL, NULL);
+        visit_row(l, i - 1, 3, RESIDUAL, NULL, NULL);
+        visit_row(l, i - 2, 0, RESIDUAL, NULL, NULL);
+        visit_row(l, i - 2, 1, RESIDUAL, NULL, NULL);
+        for (int c = 0; c < 2 && l->coarse && has_row(rows, i - 4); c++)
+            restrict_row(&l->rows, &l->coarse->rows, i / 2 - 2,
+                         l->w + c * l->rows.plane,
+                         l->coarse->b + c * l->coarse->rows.plane);
     }
 }
 
@@ -401,26 +344,25 @@ FAST static void descend_level(const Level *l)
 FAST static void ascend_level(const Level *l)
 {
     const int nodes = l->rows.nodes;
-    for (int row = 0; row < nodes + 2; row++) {
-        if (l->coarse && has_row(nodes, row))
+    for (int i = 0; i < nodes + 2; i += 2) {
+        for (int row = i; l->coarse && row < i + 2 && row < nodes; row++)
             for (int c = 0; c < 2; c++)
                 prolong_row(l, &l->coarse->rows, row,
                             l->coarse->x + c * l->coarse->rows.plane,
                             l->x + c * l->rows.plane);
-        for (int stage = 1; stage <= 2; stage++) {
-            int i = row - stage;
-            if ((i % 2 != 0) == (stage == 1) && has_row(nodes, i))
-                smooth_row(l, i);
-        }
+        visit_row(l, i - 1, 3, SMOOTH, NULL, NULL);
+        visit_row(l, i - 1, 2, SMOOTH, NULL, NULL);
+        visit_row(l, i - 2, 1, SMOOTH, NULL, NULL);
+        visit_row(l, i - 2, 0, SMOOTH, NULL, NULL);
     }
 }
 
 /* Approximates x = A^-1 b on this level and all coarser ones. */
-static void run_v_cycle(const Level *level)
+static void run_v_cycle(const VCycle *cycle, const Level *level)
 {
-    descend_level(level);
+    descend_level(cycle, level);
     if (level->coarse)
-        run_v_cycle(level->coarse);
+        run_v_cycle(cycle, level->coarse);
     ascend_level(level);
 }
 
@@ -499,14 +441,14 @@ static const double MARGIN = 1.3, HOPEFUL = 0.5, LOOSE = 0.3, LEAST = 1e-4;
 FAST static double find_largest(const Level *level)
 {
     const float *const x = level->x, *const y = x + level->rows.plane;
-    float most[WIDE_LANES] = {0};
+    float most[LANES] = {0};
     double largest = 0;
-    for (int q = 0; q < level->rows.plane; q += WIDE_LANES)
-        EACH_OF (WIDE_LANES) {
+    for (int q = 0; q < level->rows.plane; q += LANES)
+        EACH_OF (LANES) {
             float size = fabsf(x[q + e]) + fabsf(y[q + e]);
             most[e] = size > most[e] ? size : most[e];
         }
-    for (int e = 0; e < WIDE_LANES; e++)
+    for (int e = 0; e < LANES; e++)
         largest = fmax(largest, most[e]);
     return largest;
 }
@@ -521,17 +463,13 @@ FAST bool v_cycle_solve(VCycle *cycle, const double *g, double square,
     const float *found = cycle->level->x;
     double last = 0, alpha = 1;
     bool passes = false;
-    set_up_levels(cycle);
-    for (int q = 0; q < numbers; q += WIDE_LANES) {
-        float *const b = cycle->level->b + q;
-        const double *const from = g + q;
-        EACH_FEW (WIDE_LANES)
-            FEW(b, e) = narrow_to_single(-unit * PAIR(from, e),
-                                         -unit * PAIR(from, e + PAIRED));
-    }
+    if (!cycle->is_set_up)
+        grid_narrow_x(grid);
+    narrow_numbers(g, -unit, 0, numbers, cycle->level->b);
     for (int i = 0; i < MAX_CYCLES && !passes; i++) {
         double sums[2];
-        run_v_cycle(cycle->level);
+        run_v_cycle(cycle, cycle->level);
+        cycle->is_set_up = true;
         cycle->cycles++;
         if (i == 0) {
             *largest = find_largest(cycle->level) / unit;

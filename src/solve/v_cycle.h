@@ -38,7 +38,6 @@ typedef struct Level {
 typedef struct VCycle {
     const Grid *grid;
     Level level[MAX_LEVELS]; /* the finest level first */
-    float *c[KINDS];         /* [plane] Grid.c in single precision */
     float *p, *d, *Ad; /* [2 planes] solution, direction d and A d of conjugate
                           gradients */
     bool is_set_up; /* has the tensors at grid->x; set to false when x moves */

@@ -82,10 +82,10 @@ static void backward_euler_set_target(TimeIntegrator *run)
 static void backward_euler_finish(TimeIntegrator *run)
 {
     const Iterate *end = &run->newton->at;
-    for (size_t i = 0; i < run->size; i++) {
-        run->new_x[i] = end->x[i];
-        run->new_v[i] = end->u[i] / run->h;
-    }
+    double h = run->h;
+    memcpy(run->new_x, end->x, run->size * sizeof *run->new_x);
+    for (size_t i = 0; i < run->size; i++)
+        run->new_v[i] = end->u[i] / h;
 }
 
 /* BDF2 (Gear 1971): (3 x_(n+1) - 4 x_n + x_(n-1)) / (2h) = v_(n+1), the same
