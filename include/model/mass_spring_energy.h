@@ -24,8 +24,8 @@ static inline void spring_add_force(const int e[2], double factor,
 }
 
 /* Adds the block B = [[H, -H], [-H, H]] of a spring with the nodes e[0], e[1]:
- *   q = NULL   triplets ii: xx xy yy, jj: xx xy yy, ij: xx xy yx yy of B go to
- *              places of a matrix, the first to out[(*slot)[0]]
+ *   q = NULL   triplets ii: xx xy yy, jj: xx xy yy, ij: xx xy yx yy of B to
+ *              out[(*slot)[0 ... 9]]; *slot then leads to the next spring's
  *   otherwise  out += B q; q, out [2n] */
 static inline void mass_spring_add(const double H[3], const int e[2],
                                    const int **slot, const double *q,

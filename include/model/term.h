@@ -77,9 +77,8 @@ struct TermKind {
     } place;
 
     /* Kind of the elements, if the term is a sum over elements (elements.h).
-     * The functions from value to line_remainder are then elements.c's.  P may
-     * exist only where distances and areas of the elements are positive; P of
-     * other kinds exists everywhere. */
+     * The functions from value to line_remainder are then elements.c's.  Only
+     * such a term may not exist at some x (elements_are_feasible). */
     const ElementKind *element;
 
     /* Returns P(x) >= 0, J, not multiplied by weight.  NULL: the term has no
