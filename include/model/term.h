@@ -41,7 +41,7 @@ EvalPoint eval_point_at(const System *system, const double *x_n,
  * last term selects none and returns NULL. */
 const TermKind *eval_point_next_term(EvalPoint *at);
 
-/* begin_step and end_step have this argument. */
+/* The argument of begin_step and end_step. */
 typedef struct TermStep {
     System *system;
     Term *term;

@@ -28,6 +28,7 @@ typedef struct Line {
     Message message;  /* out, the first mistake */
     int words;
     Word word[MAX_WORDS];
+    char copy[512]; /* texts of the words, if they stand in one text */
 } Line;
 
 /* Returns the last word about an option; NULL: the option is not given. */
@@ -175,16 +176,14 @@ Status options_set(Options *options, const OptionRow *row, const char *text,
     char number[32] = "";
     if (check_scene(options, row, message))
         return STATUS_INVALID_INPUT;
-    if (!text[0] && row->count <= 1 && option_allows(row, value)) {
-        options->number[row->slot] = value;
-        return check_changed_option(options, row, message);
-    }
     if (!text[0] && !isnan(value))
         option_write(row, value, number, sizeof number);
     const Word word = {row, text[0] ? text : number, NULL, ""};
-    return apply_word(&line, &word)
-               ? STATUS_INVALID_INPUT
-               : check_changed_option(options, row, message);
+    if (!text[0] && row->count <= 1 && option_allows(row, value))
+        options->number[row->slot] = value;
+    else if (apply_word(&line, &word))
+        return STATUS_INVALID_INPUT;
+    return check_changed_option(options, row, message);
 }
 
 /* ---- words -------------------------------------------------------------- */
@@ -272,15 +271,15 @@ static Status read_words(int argc, char **argv, Line *line)
     return STATUS_OK;
 }
 
-/* Reads the words of a line without quotes, separated by blanks.
- *   copy  [size] out, the texts of the words */
-static Status split_words(const char *text, char *copy, size_t size, Line *line)
+/* Reads the words of a text without quotes, separated by blanks. */
+static Status split_words(const char *text, Line *line)
 {
-    char *argv[48] = {""}, *rest = NULL, *word;
-    const int most = sizeof argv / sizeof *argv;
+    enum { MOST = 48 };
+    char *argv[MOST] = {""}, *rest;
     int argc = 1;
-    snprintf(copy, size, "%s", text ? text : "");
-    for (; argc < most && (word = strtok_r(copy, " ", &rest)); copy = NULL)
+    snprintf(line->copy, sizeof line->copy, "%s", text ? text : "");
+    for (char *word = strtok_r(line->copy, " ", &rest); word && argc < MOST;
+         word = strtok_r(NULL, " ", &rest))
         argv[argc++] = word;
     return read_words(argc, argv, line);
 }
@@ -340,14 +339,13 @@ static Status check_words(Line *line)
 static Status fill_defaults(Line *line)
 {
     Options *options = line->options;
-    char copy[512];
-    Line own = {options, line->message, 0, {{0}}};
+    Line own = {.options = options, .message = line->message};
     if (options->page)
         return lecture_make_options(options->page, options, line->message);
     for (const OptionRow *row = option_rows; row->name; row++)
         if (row->default_value != 0)
             options->number[row->slot] = row->default_value;
-    Status status = split_words(options->scene->line, copy, sizeof copy, &own);
+    Status status = split_words(options->scene->line, &own);
     for (int i = 0; i < own.words && !status; i++)
         status = apply_word(&own, &own.word[i]);
     /* --body replaces the scene's body, and with the body its pins */
@@ -479,15 +477,14 @@ static Status apply_line(Line *line, int pane)
 Status options_parse(int argc, char **argv, int pane, Options *options,
                      Message message)
 {
-    Line line = {options, message, 0, {{0}}};
+    Line line = {.options = options, .message = message};
     Status status = read_words(argc, argv, &line);
     return status ? status : apply_line(&line, pane);
 }
 
 Status options_parse_line(const char *line, Options *options, Message message)
 {
-    char copy[512];
-    Line words = {options, message, 0, {{0}}};
-    Status status = split_words(line, copy, sizeof copy, &words);
+    Line words = {.options = options, .message = message};
+    Status status = split_words(line, &words);
     return status ? status : apply_line(&words, 0);
 }
