@@ -115,11 +115,14 @@ static void write_window(void)
     CHECK_STATUS(player_draw(&player), STATUS_OK);
 }
 
-/* Whether the window, or the column, has a text with these words. */
-static void read_words(const char *verb, const char *words)
+/* Whether the window, or the column, has a text with these words, or texts with
+ * \ between them, one after the other. */
+static void read_words(const char *verb, char *words)
 {
     const char *among = strcmp(verb, "list") == 0 ? listed : written;
     bool wanted = strcmp(verb, "lacks") != 0;
+    for (char *at = words; (at = strchr(at, '\\'));)
+        *at = '\n';
     write_window();
     if ((strstr(among, words) != NULL) != wanted)
         fail_msg("%s '%s':\n%s", wanted ? "no" : "there is", words, among);
