@@ -980,7 +980,7 @@ static void session_line(const char *line)
 
 /* ---- sessions ----------------------------------------------------------- */
 
-enum { SESSIONS = 256, LINES = 6144 };
+enum { SESSIONS = 512, LINES = 8192 };
 
 typedef struct Session {
     const char *name, **line;
