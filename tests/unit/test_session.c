@@ -364,7 +364,8 @@ static bool use_mouse(const char *verb, const char *place)
         {"middle", {.kind = INPUT_PRESS, .button = BUTTON_MIDDLE}},
         {"move", {.kind = INPUT_MOVE}},
         {"wheel", {.kind = INPUT_WHEEL, .amount = 1}},
-        {"wheel-out", {.kind = INPUT_WHEEL, .amount = -1}}};
+        {"wheel-out", {.kind = INPUT_WHEEL, .amount = -1}},
+        {"leave", {.kind = INPUT_LEAVE}}};
     for (size_t i = 0; i < sizeof deeds / sizeof *deeds; i++)
         if (strcmp(deeds[i].verb, verb) == 0) {
             point_at(place);
