@@ -124,7 +124,7 @@ typedef enum PickKind {
     PICK_NONE,
     PICK_NODE,     /* Pick.index: number of the node */
     PICK_SPRING,   /* Pick.index: number of the spring */
-    PICK_OBSTACLE, /* Pick.index: ground, or number of grounds + ball */
+    PICK_OBSTACLE, /* Pick.index: number of the obstacle, grounds first */
     PICK_EDGE,     /* Pick.index: 0 left, 1 right edge of the square */
     PICK_PLACE,    /* any place on a map or curve that takes clicks */
     PICK_HANDLE,   /* Pick.index: number of a handle, which can be dragged */
@@ -142,7 +142,7 @@ typedef struct Pick {
 /* Bounds of a pane's view while the mouse drags a thing: the view stands still,
  * so that the thing stays under the mouse. */
 typedef struct HeldBounds {
-    bool on;
+    bool on;   /* the view is held */
     bool away; /* the mouse has left the stage, so the view is free for now */
     int pane;
     double bounds[4]; /* left, bottom, right, top, m */
@@ -260,8 +260,8 @@ typedef struct LectureContent {
     bool hides_answer;          /* the page waits for the user's guess */
     const char *verdict;        /* verdict on the guess at this page, or NULL */
     int guesses, right_guesses; /* numbers of guesses and of right guesses */
-    char own[SENTENCE_SIZE];    /* heading for answers that are true with the
-                                   page's own options; "": none is changed */
+    char own[SENTENCE_SIZE];    /* heading of answers that hold for the page's
+                                   own options; "": no option is changed */
     char look[LOOK_SIZE];       /* text: the answer of the page */
 } LectureContent;
 
