@@ -72,7 +72,7 @@ static Corner find_edge_crossing(const Corner *a, const Corner *b, double E)
                     a->convex};
 }
 
-/* Finds the contour line of this value in a triangle.  False: no such line. */
+/* Finds the contour of a value in a triangle; returns false without one. */
 static bool find_contour(const Corner corner[3], double E, Corner end[2])
 {
     int ends = 0;

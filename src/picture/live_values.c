@@ -177,10 +177,9 @@ static double compute_energy_change(const void *function, double alpha)
 {
     const DescentTrace *space = function;
     const Point x = point_along(space->from, alpha, space->p);
-    return descent_evaluate(space->simulation, PROJECTION_NONE, x.at[0],
-                            x.at[1])
-               .value -
-           space->value;
+    LocalModel there =
+        descent_evaluate(space->simulation, PROJECTION_NONE, x.at[0], x.at[1]);
+    return there.value - space->value;
 }
 
 /* Makes the trace of a descent's last update.  Without updates, or if the last
@@ -311,7 +310,7 @@ static void format_value(const LiveValue *one, const char *format, char *out,
         snprintf(out, size, apart ? "(%s)" : "%s", number[0].text);
 }
 
-/* Fills the values into a line of `length` bytes.  False: unknown values. */
+/* Fills a line of `length` bytes.  Returns false if a value is unknown. */
 static bool fill_line(TextLine *line, const char *text, size_t length)
 {
     const LiveValues *values = line->values;

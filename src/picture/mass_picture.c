@@ -21,8 +21,7 @@ static const double EIGEN_MAX = 5;      /* largest eigenvalue that is shown */
 static const double MATRIX_WIDE = 16.4, MATRIX_HIGH = 12;
 static const double origin[2] = {0, 0};
 
-/* Returns the colour of a run's method; a single mass with arrows has that of
- * x. */
+/* Returns the colour of a run's method, or of x for the one mass of arrows. */
 static Colour colour_of_mass(const Simulation *simulation, int run)
 {
     return simulation->runs == 1 && simulation->scene->picture == PICTURE_MASS
