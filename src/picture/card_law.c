@@ -70,7 +70,7 @@ static double flow_force_at(const void *data, double s)
     return flow_law_slope(now->spring, s - now->spring.ep);
 }
 
-/* Returns the force over that at which the spring breaks; then 0. */
+/* Returns the force over the force at the break; 0 after the break. */
 static double breaking_force_ratio(const void *now, double part)
 {
     (void)now;
@@ -107,8 +107,8 @@ static void fill_spring_point(LawPoint *now, int s)
         now->axis_unit = fmax(4 * now->spring.yield, 1.2 * fabs(now->x));
 }
 
-/* Returns the law's value at the dot.  A spring beyond its strength has its
- * full force until it breaks, since a neighbour may break first. */
+/* Returns the law's value at the dot.  A spring beyond its strength keeps its
+ * force until it breaks, since a neighbour may break first. */
 static double law_value_at(const Law *law, const LawPoint *now)
 {
     return law->evaluate == breaking_force_ratio ? now->x

@@ -116,8 +116,8 @@ void card_write_rows(const Plot *card, const ListingRow *row);
 /* Returns the width that the code of a page needs, ems. */
 double code_needed_width(const LecturePage *page);
 
-/* Fills row 0, 1, ... of a card's table; row 0 has the heads.  Returns false
- * after the last row. */
+/* Fills a row of a card's table; row 0 has the heads.  Returns false after the
+ * last row. */
 bool card_fill_row(const FrameContent *content, const Card *card, int row,
                    CardTableRow *cells);
 

@@ -34,7 +34,7 @@ int picture_find_card(const Picture *picture, const char *name)
     return -1;
 }
 
-/* Returns the cards that a page, or else its scene, hides or closes at first. */
+/* Returns the cards that the page or scene hides or closes at first. */
 static CardSets find_first_sets(const Simulation *simulation)
 {
     const Picture *picture = picture_of_scene(simulation->scene);

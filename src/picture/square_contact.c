@@ -15,8 +15,8 @@ static const double MIN_FORCE = 0.02; /* smallest drawn over largest force */
  * and velocities alone, which the past keeps of each step.  Returns the slip
  * over the slip speed eps_v; NaN: the contact has no friction.
  *   at        evaluation point of the contact term
- *   friction  term of the friction at these contacts; NULL: none
- *   force     [2] N, out */
+ *   force     [2] N, out
+ *   friction  term of the friction at these contacts; NULL: none */
 static double compute_contact_force(const SquarePen *pen, const EvalPoint *at,
                                     const Term *friction,
                                     const Element *element, double force[2])
