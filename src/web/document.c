@@ -8,22 +8,22 @@
  *     topic, sentence, time, picture, event TEXT
  *     text, formula, ask, look, try, claim, notes LINE
  *     told WARNING TEXT           message about the last command
- *     verdict TEXT RIGHT GUESSES  verdict on the guess at this page; how many
- *                                 guesses were right, and were made, so far
+ *     verdict TEXT                verdict on the guess at this page, and on all
  *     asks KIND COORDINATES       the page waits for a guess.  KIND: number,
  *                                 words, or place, which has 1 or 2 coordinates
  *     number NAME LABEL VALUE UNIT CHOICES HELP IDLE SHOWN
  *                                 an option.  CHOICES: names with | between, or
  *                                 "" for a number; IDLE: why it has no effect
  *                                 now, or ""; SHOWN: row (it is in the window's
- *                                 row), tried (and Try wants it dragged), more
+ *                                 row), tried (and Try wants it dragged), or
+ *                                 others
  *     point INDEX X Y             a handle, m
  *     switch INDEX ON LABEL
  *     code LIT TEXT               a line of the page's code, without markup
  *     card INDEX NAME KIND CLOSED TITLE DESCRIPTION
  *                                 KIND: text, covered (before the guess), graph
  *                                 (drawn), or star (drawn larger than the
- *                                 picture); DESCRIPTION: the graph in words
+ *                                 picture); DESCRIPTION: a graph in words
  *     legend INDEX COLOUR NAME VALUE   a row of the graph's legend; VALUE may
  *                                 be missing
  *     words INDEX LINE            a line of a card of kind text,
@@ -151,17 +151,19 @@ static void put_energies(Writer *to, const Simulation *simulation)
               format_number(energies.row[i].value).text);
 }
 
-/* Describes a graph without legend, of energies or residuals. */
-static void put_description(Writer *to, const Pane *pane, const char *name)
+/* Writes the values of a graph without legend, of energies or residuals. */
+static void put_values(Writer *to, const Pane *pane, const char *name)
 {
     const Trace *trace = pane->shown_trace;
-    if (strcmp(name, "budget") == 0)
+    if (strcmp(name, "budget") == 0) {
+        print(to, ": ");
         put_energies(to, pane->simulation);
-    else if (strcmp(name, "residual") == 0 && trace)
+    } else if (strcmp(name, "residual") == 0 && trace) {
         for (int i = 0; i < trace->updates; i++)
-            print(to, "%supdate %d: residual %s, step length %s", i ? "; " : "",
-                  i + 1, format_number(trace->record[i].residual).text,
+            print(to, "; update %d: residual %s, step length %s", i + 1,
+                  format_number(trace->record[i].residual).text,
                   format_number(trace->record[i].alpha).text);
+    }
 }
 
 /* Writes a row of a table or legend. */
@@ -174,14 +176,12 @@ static void put_cells(Writer *to, const char *word, int index,
     print(to, "\n");
 }
 
-/* Writes the heads and the last rows of a card's table, or a hint that the
- * table has no rows yet. */
-static void put_table(Writer *to, const FrameContent *content, int index,
+/* Writes the heads and the last rows of a card's table.  Returns whether the
+ * table has rows. */
+static bool put_table(Writer *to, const FrameContent *content, int index,
                       const Card *card)
 {
     enum { MOST_ROWS = 40 };
-    const TextLine hint =
-        text_first_line(&active_pane(content)->values, text_undrawn);
     CardTableRow row;
     int rows = 0;
     while (card_fill_row(content, card, rows, &row))
@@ -192,9 +192,7 @@ static void put_table(Writer *to, const FrameContent *content, int index,
         card_fill_row(content, card, i, &row);
         put_cells(to, "cells", index, &row);
     }
-    if (rows == 0)
-        print(to, "words\t%d\t#%06x\t0\t%s\n", index,
-              document_colour(hint.colour), hint.words);
+    return rows > 0;
 }
 
 /* Writes a card: a line for its graph with the rows of its legend below, and a
@@ -214,9 +212,9 @@ static void put_card(Writer *to, const FrameContent *content, int index,
     char word[24];
     snprintf(word, sizeof word, "words\t%d", index);
     if (graph) {
-        print(to, "card\t%d\t%s\t%s\t%d\t%s\t", index, card->name,
-              star ? "star" : "graph", closed, title.words);
-        put_description(to, pane, card->name);
+        print(to, "card\t%d\t%s\t%s\t%d\t%s\t%s", index, card->name,
+              star ? "star" : "graph", closed, title.words, title.words);
+        put_values(to, pane, card->name);
         print(to, "\n");
         for (int i = 0; card->legend_row && card->legend_row(content, i, &row);
              i++)
@@ -235,8 +233,8 @@ static void put_card(Writer *to, const FrameContent *content, int index,
              covered ? "after your guess" : card->words);
     if (card->rows && !covered)
         put_algorithm(to, content, index, card->rows);
-    if (card->table && !covered)
-        put_table(to, content, index, card);
+    if (card->table && !covered && !put_table(to, content, index, card))
+        put_text(to, &pane->values, word, text_undrawn);
 }
 
 static void put_cards(Writer *to, const FrameContent *content)
@@ -266,9 +264,9 @@ static bool asks_to_drag(const char *text, const OptionRow *row)
 
 static void put_numbers(Writer *to, const Player *player)
 {
-    const LecturePage *page = player->screen.frame.content.lecture.hides_answer
-                                  ? NULL
-                                  : player->screen.frame.content.lecture.page;
+    const FrameContent *content = &player->screen.frame.content;
+    const LecturePage *page =
+        content->lecture.hides_answer ? NULL : content->lecture.page;
     const OptionRow *row[OPTIONS_MAX_ROWS];
     const Options now = player_shown_options(player);
     int count = player_list_options(player, true, row);
@@ -286,7 +284,7 @@ static void put_numbers(Writer *to, const Player *player)
         for (int k = 0; named && names_get(row[i]->names, k); k++)
             print(to, "%s%s", k ? "|" : "", names_get(row[i]->names, k));
         print(to, "\t%s\t%s\t%s\n", row[i]->help, idle ? idle : "",
-              !shown                                                ? "more"
+              !shown                                                ? "others"
               : !named && page && asks_to_drag(page->touch, row[i]) ? "tried"
                                                                     : "row");
     }
@@ -315,7 +313,7 @@ static void put_shape(Writer *to, const Pane *pane)
     int nodes = simulation->system.nodes;
     if (nodes > 1) {
         pane_node_bounds(pane, 1, box);
-        print(to, " %d masses, %d springs, %s m wide and %s m high.", nodes,
+        print(to, " Masses: %d, springs: %d, %s m wide and %s m high.", nodes,
               simulation->system.springs, format_number(box[2] - box[0]).text,
               format_number(box[3] - box[1]).text);
     } else if (simulation_find_point(simulation, at) == 1)
@@ -362,7 +360,7 @@ static void put_event(Writer *to, const Player *player)
     const Outcome *outcome = &player_active_run(player)->outcome;
     const char *turn = player_simulation(player)->scene->step_name;
     print(to, "event\t%s %ld", turn ? turn : "step", content->time_line.step);
-    if (trace && trace->line != LINE_NONE) {
+    if (trace && trace->line != LINE_NONE && content->strip.sentence[0]) {
         print(to, ": %s", content->strip.sentence);
     } else if (outcome->updates > 0) {
         print(to, ": %d update%s, %s %s by %s", outcome->updates,
@@ -380,12 +378,13 @@ void document_write(const Player *player, char *text)
     const LecturePage *page = content->lecture.page;
     Writer writer = {.text = text}, *to = &writer;
     text[0] = '\0';
+    const char *name =
+        page ? page->name : player_simulation(player)->scene->name;
     print(to, "page\t%d\t%d\t%s\n", page ? (int)(page - lecture_pages) + 1 : 0,
-          lecture_count_pages(),
-          page ? page->name : player_simulation(player)->scene->name);
+          lecture_count_pages(), name);
     print(to, "topic\t%s\nsentence\t%s\n",
-          content->strip.topic ? content->strip.topic : "",
-          content->strip.sentence);
+          content->strip.topic ? content->strip.topic : name,
+          page ? "" : content->strip.sentence);
     print(to, "time\t%s · %s · %s\n", content->time_line.text,
           content->strip.method, content->strip.state);
     print(to, "told\t%d\t%s\n", content->strip.is_warning,
@@ -394,9 +393,13 @@ void document_write(const Player *player, char *text)
           content->time_line.steps, content->time_line.paused);
     if (page)
         put_page_texts(to, content);
-    if (content->lecture.verdict && !content->lecture.hides_answer)
-        print(to, "verdict\t%s\t%d\t%d\n", content->lecture.verdict,
-              content->lecture.right_guesses, content->lecture.guesses);
+    if (content->lecture.verdict && !content->lecture.hides_answer) {
+        print(to, "verdict\t%s", content->lecture.verdict);
+        if (content->lecture.guesses > 1)
+            print(to, " %d of %d so far.", content->lecture.right_guesses,
+                  content->lecture.guesses);
+        print(to, "\n");
+    }
     put_cards(to, content);
     put_numbers(to, player);
     put_handles_and_switches(to, active_pane(content)->simulation);

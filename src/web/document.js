@@ -42,16 +42,18 @@ const fill = (parent, lines, show) => {
 
 // ---- texts ------------------------------------------------------------------
 
-const plain = (text) => text.replace(/#[\w-]+\*?(?=\{)|[{}_]/g, '');
+const plain = (text) =>
+  text.replace(SLIDES, (all, name) => LETTERS[name]).replace(/#[\w-]+\*?(?=\{)|[{}_]/g, '');
 
-// Makes a link of "page 25", and buttons of keys: "Press Space", "press R and N".
-const LINKS = /([Pp]age[ \u00a0]\d+|(?<=[Pp]ress )(?:Space|[A-Z])\b|(?<=(?:then|and) )[NR]\b)/;
+// Makes a link of "page 25", and buttons of keys: "Press R, P, N", "or Space".
+const LINKS =
+  /([Pp]age[ \u00a0]\d+|(?<=[Pp]ress (?:[A-Z]\w*,?(?: and| then)? )*|[Kk]ey |then |or )(?:Space|[A-Z])\b)/;
 const addLinks = (element) => {
   const makeLink = (text) => {
     const page = lists.pages[text.slice(5) - 1];
     if (page) return make('a', [text], { href: '#' + page[0] });
     const button = make('button', [text], { class: 'key' });
-    return Object.assign(button, { onclick: () => key(text, false) });
+    return Object.assign(button, { onclick: () => key(text) });
   };
   for (const node of [...element.childNodes].filter((child) => child.nodeType === Node.TEXT_NODE))
     node.replaceWith(...node.data.split(LINKS).map((text, i) => (i % 2 ? makeLink(text) : text)));
@@ -65,33 +67,21 @@ const paragraph = ([colour, bold, text], asFormula) => {
   return p;
 };
 
-const showTexts = (word) => {
-  const lines = now[word] ?? [];
-  const { head } = $(word).dataset;
-  const show = (line) => (line === head ? make('h2', [head]) : paragraph(line, word === 'formula'));
-  put($(word), 'hidden', !lines.length);
-  fill($(word), head ? [head, ...lines] : lines, show);
-};
-
 // ---- numbers ----------------------------------------------------------------
 
-const input = (name, label, value, change, more = {}) => {
-  const how = { 'aria-label': label, inputmode: 'decimal', name, value, ...more };
-  return Object.assign(make('input', [], how), { onchange: change });
-};
+const makeInput = (ariaLabel, onchange, more) =>
+  Object.assign(make('input'), { ariaLabel, onchange, inputMode: 'decimal', ...more });
 
 // Makes a slider from a tenth to ten times the first value, or from a quarter to
 // four times a whole number.
 const makeSlider = (name, first, whole) => {
   const most = Math.log(whole ? 4 : 10);
-  const range = { type: 'range', min: -most, max: most, step: most / 100 };
-  const slider = input('', name, 0, null, range);
-  slider.first = first;
-  slider.oninput = () => {
-    const number = first * Math.exp(slider.value);
+  const range = { type: 'range', min: -most, max: most, step: most / 100, value: 0, first };
+  range.oninput = ({ target }) => {
+    const number = first * Math.exp(target.value);
     obey(`set ${name} ${whole ? Math.max(1, Math.round(number)) : Number(number.toPrecision(3))}`);
   };
-  return slider;
+  return makeInput(name, null, range);
 };
 
 const makeNumber = ([name, label, value, unit, choices, , , shown]) => {
@@ -99,34 +89,29 @@ const makeNumber = ([name, label, value, unit, choices, , , shown]) => {
   const full = label === name ? name : `${words.textContent}, ${name}`;
   const change = ({ target }) => obey(`set ${name} ${target.value}`);
   const options = choices.split('|').map((choice) => new Option(choice));
-  const how = { name, ariaLabel: full, onchange: change };
-  const select = Object.assign(make('select', options), how);
-  const element = choices ? select : input(name, full, value, change);
+  const element = choices ? make('select', options) : makeInput();
+  Object.assign(element, { name, ariaLabel: full, onchange: change });
   const item = make('label', [words, element, setMarkup(make('span'), unit)]);
-  item.className = shown;
   if (shown === 'tried') item.append(makeSlider(name, Number(value), name === 'segments'));
   return item;
 };
 
 const makePoint = ([index, x, y]) => {
   const send = () => obey(`handle ${index} ${fields[0].value} ${fields[1].value}`);
-  const fields = [x, y].map((value, i) => input('', `point ${index}, ${'xy'[i]}`, value, send));
+  const fields = [x, y].map((value, i) => makeInput(`point ${index}, ${'xy'[i]}`, send, { value }));
   return make('label', ['point', ...fields, 'm']);
 };
 const makeSwitch = ([index, on, label]) => {
-  const box = input('', plain(label), '', () => obey(`flip ${index}`), { type: 'checkbox' });
-  box.checked = on === '1';
-  return make('label', [box, setMarkup(make('span'), label)]);
+  const box = { type: 'checkbox', checked: on === '1' };
+  const flip = () => obey(`flip ${index}`);
+  return make('label', [makeInput(plain(label), flip, box), setMarkup(make('span'), label)]);
 };
 
 const showNumbers = () => {
   const rows = now.number ?? [];
-  const names = rows.map((row) => row[0] + row[7]);
-  if (isNew(seen, 'names', [now.page, names])) {
-    const made = rows.map(makeNumber);
-    $('row').replaceChildren(...made.filter((item) => item.className !== 'more'));
-    $('more').lastElementChild.replaceChildren(...made.filter((item) => item.className === 'more'));
-  }
+  if (isNew(seen, 'names', [now.page, rows.map((row) => row[0] + row[7])]))
+    for (const id of ['tried', 'row', 'others'])
+      $(id).replaceChildren(...rows.filter((row) => row[7] === id).map(makeNumber));
   const exhibit = [...(now.switch ?? []), ...(now.point ?? [])];
   const show = (line) => (now.point?.includes(line) ? makePoint : makeSwitch)(line);
   if (!$('exhibit').contains(document.activeElement)) fill($('exhibit'), exhibit, show);
@@ -153,7 +138,6 @@ const showRow = ([, lit, struck, indented, text, value], i, old) => {
   setMarkup(line.children[1], text).classList.toggle('indented', indented === '1');
   setMarkup(line.children[2], value);
   line.ariaCurrent = lit === '1' ? 'step' : null;
-  line.classList.toggle('lit', lit === '1');
   line.classList.toggle('struck', struck === '1');
   return line;
 };
@@ -200,8 +184,8 @@ const showBody = (body, index, lines = now) => {
   return body;
 };
 
-const makeCard = ([index, name, kind, closed, title]) => {
-  const how = { role: 'img', id: 'graph' + index, 'aria-label': plain(title) };
+const makeCard = ([index, name, kind, closed, , description]) => {
+  const how = { role: 'img', id: 'graph' + index, 'aria-label': plain(description) };
   const body = makeBody(isDrawn(kind) && make('canvas', [], how));
   const card = make('details', [make('summary'), body], { class: kind, id: 'card-' + name });
   card.open = closed === '0';
@@ -262,7 +246,9 @@ const showGuess = ([[kind, coordinates] = []]) => {
   $('typed').hidden = kind === 'words';
   $('second').hidden = kind !== 'place' || coordinates === '1';
   $('how').textContent = kind === 'place' ? 'Click in the picture, or x' : 'Your answer';
-  if (had && !kind) $('look').focus({ preventScroll: true }); // the form is hidden
+  if (kind) return;
+  if (had) $('look').focus({ preventScroll: true }); // the form is hidden
+  $('look').scrollIntoView({ block: 'nearest' });
 };
 
 // Called after a frame.  Texts of a run that goes on change every LIVE ms.
@@ -277,19 +263,18 @@ const showDocument = (time) => {
   rendered = time;
   now = parseLines(ask('web_document', 'string'));
   const number = Number(field('page'));
-  const [text = '', right, guesses] = now.verdict?.[0] ?? [];
   const [warning, told] = now.told[0];
   const [step, newest, stands] = now.step[0];
   if (isNew(seen, 'page', now.page)) showPage(now.page);
-  setMarkup($('topic'), field('topic') || field('page', 2));
+  for (const id of ['topic', 'sentence', 'verdict', 'time']) setMarkup($(id), field(id));
   put(document, 'title', `${number ? number + '. ' : ''}${$('topic').textContent} · elasto`);
-  setMarkup($('sentence'), number ? '' : field('sentence'));
-  setMarkup($('time'), field('time'));
-  for (const word of ['text', 'formula', 'ask', 'look', 'try', 'claim', 'notes']) showTexts(word);
-  if (isNew(seen, 'asks', [now.asks, now.page])) showGuess(now.asks ?? []);
-  setMarkup($('verdict'), text + (guesses > 1 ? ` ${right} of ${guesses} so far.` : ''));
-  setMarkup($('told'), text && / it is /.test(told) ? '' : told);
+  for (const word of ['text', 'formula', 'ask', 'look', 'try', 'claim', 'notes']) {
+    put($(word), 'hidden', !now[word]);
+    fill($(word), now[word] ?? [], (line) => paragraph(line, word === 'formula'));
+  }
+  setMarkup($('told'), now.verdict && / it is /.test(told) ? '' : told);
   put($('told'), 'className', warning === '1' ? 'warning' : '');
+  if (isNew(seen, 'asks', [now.asks, now.page, !now.look])) showGuess(now.asks ?? []);
   put($('step'), 'max', newest);
   if (document.activeElement !== $('step')) put($('step'), 'value', step);
   put($('play').firstElementChild, 'textContent', stands === '1' ? '▶' : '❚❚');
@@ -301,8 +286,8 @@ const showDocument = (time) => {
   if (stands === '0' && time - spoken < SPOKEN) return;
   spoken = time;
   for (const id of ['picture', 'event']) put($(id), 'textContent', plain(field(id)));
-  for (const [index, , kind, , title, description] of now.card ?? [])
-    if (isDrawn(kind)) put($('graph' + index), 'ariaLabel', plain(`${title}. ${description}`));
+  for (const [index, , kind, , , description] of now.card ?? [])
+    if (isDrawn(kind)) put($('graph' + index), 'ariaLabel', plain(description));
 };
 
 // Fills the lists of pages, scenes and keys.
@@ -320,17 +305,13 @@ const listDocument = () => {
 // ---- buttons and forms ------------------------------------------------------
 
 for (const button of document.querySelectorAll('button[data-key]'))
-  button.onclick = () => key(button.dataset.key, false);
+  button.onclick = () => key(button.dataset.key);
 $('step').oninput = () => obey(`goto ${$('step').value}`);
-$('numbers').onsubmit = (event) => event.preventDefault();
-$('show').onclick = () => wake(ask('web_answer', null, ''));
 $('guess').onsubmit = (event) => {
-  const [x, y] = [$('answer').value, $('answer2').value];
   event.preventDefault();
-  if (!x) return;
-  if (field('asks') !== 'place') return wake(ask('web_answer', null, x));
-  obey(`predict ${x} ${y || 0}`);
-  key('N', false);
+  if (field('asks') !== 'place') return wake(ask('web_answer', null, $('answer').value));
+  obey(`predict ${$('answer').value} ${$('answer2').value || 0}`);
+  key('N');
 };
 
 // ---- print ------------------------------------------------------------------
@@ -339,29 +320,26 @@ $('guess').onsubmit = (event) => {
 // and room to write; its answer, with the cards that tell it; its notes.
 const makeSheet = ([, topic], index) => {
   const head = `${index + 1}. ${topic}`;
-  const draw = (card, width) => {
+  const draw = (show, number, width) => {
     sheet.canvas = make('canvas');
-    Module._web_print_draw(card, width, 620);
+    show(number, width, 620);
     return sheet.canvas;
   };
   const texts = (lines = [], as) => lines.map((line) => paragraph(line, as));
-  Module._web_print_page(index);
+  const picture = draw(Module._web_print_page, index, 900);
   const told = parseLines(ask('web_document', 'string'));
   const open = (told.card ?? []).filter(([, , , closed]) => closed === '0');
   const made = open.map(([card, , kind]) =>
-    showBody(makeBody(isDrawn(kind) && draw(Number(card), 720)), card, told),
+    showBody(makeBody(isDrawn(kind) && draw(Module._web_draw_card, card, 720)), card, told),
   );
-  const picture = draw(-1, 900);
   Module._web_print_hide_answer();
   const asked = parseLines(ask('web_document', 'string'));
   const covered = (asked.card ?? []).flatMap(([card, , kind]) => (kind === 'covered' ? card : []));
   const select = (late) => made.filter((card, i) => covered.includes(open[i][0]) === late);
   const pictures = group('pictures', picture, ...select(false));
-  const room = group('room');
-  room.innerHTML = '<hr>'.repeat(16); // page.css cuts off those below the sheet
   const words = [...texts(asked.text), ...texts(asked.formula, true), make('b', texts(asked.ask))];
   return {
-    page: make('section', [make('h2', [head]), pictures, ...words, room]),
+    page: make('section', [make('h2', [head]), pictures, ...words, group('room')]),
     answer: make('div', [make('h3', [head]), ...texts(told.look), ...select(true)]),
     notes: make('div', [make('h3', [head]), ...texts(told.notes)]),
   };

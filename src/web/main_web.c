@@ -142,6 +142,14 @@ EMSCRIPTEN_KEEPALIVE void web_draw_card(int card, int width, int height)
     }
 }
 
+/* Obeys the commands in the queue, or shows why they were refused. */
+static void obey_or_refuse(Player *player, Status status)
+{
+    status = status ? status : player_obey_queue(player, false);
+    player_show_refusal(player, status);
+    player->screen.changed = true;
+}
+
 /* Obeys commands of a script: "set timestep 0.004; flip 1". */
 EMSCRIPTEN_KEEPALIVE void web_obey(const char *lines)
 {
@@ -150,32 +158,24 @@ EMSCRIPTEN_KEEPALIVE void web_obey(const char *lines)
         return;
     player->commands.gesture = player->hands.mouse.gesture =
         ++player->commands.gestures;
-    Status status = player_enqueue_lines(player, lines);
-    player_show_refusal(player,
-                        status ? status : player_obey_queue(player, false));
-    player->screen.changed = true;
+    obey_or_refuse(player, player_enqueue_lines(player, lines));
 }
 
-/* Judges a guess at the question of the page and shows the answer; "": only
- * shows the answer. */
+/* Judges a guess at the question of the page and shows the answer. */
 EMSCRIPTEN_KEEPALIVE void web_answer(const char *guess)
 {
     Player *player = &session->player;
-    if (plays && player_hides_answer(player)) {
-        Status status = player_reveal_answer(player, *guess ? guess : NULL);
-        player_show_refusal(player,
-                            status ? status : player_obey_queue(player, false));
-    }
-    player->screen.changed = true;
+    if (plays && player_hides_answer(player))
+        obey_or_refuse(player, player_reveal_answer(player, guess));
 }
 
 /* ---- the printed lecture --------------------------------------------------
  */
 
 /* Runs a page of the lecture, counted from 0, up to the step that is printed,
- * in the other session, so that web_document returns the texts of that page.
- * Page -1 returns to the session before. */
-EMSCRIPTEN_KEEPALIVE void web_print_page(int page)
+ * in the other session, and shows its picture.  Then web_document and
+ * web_draw_card show this page.  Page -1 returns to the session before. */
+EMSCRIPTEN_KEEPALIVE void web_print_page(int page, int width, int height)
 {
     static bool played, prints;
     const Command next = {.kind = COMMAND_NEXT};
@@ -215,23 +215,13 @@ EMSCRIPTEN_KEEPALIVE void web_print_page(int page)
     if (!status && !row->lines)
         player_run(player);
     player->screen.window = true; /* fills the texts as for a window */
-    player_fill_frame(player);
-}
-
-/* Draws the picture of the printed page (card -1) or a card, and shows it on
- * the canvas of the page that is to be printed. */
-EMSCRIPTEN_KEEPALIVE void web_print_draw(int card, int width, int height)
-{
-    Player *player = &session->player;
     player->screen.size[0] = width;
     player->screen.size[1] = height;
     Paper *paper = player_prepare_paper(player);
-    if (paper && card < 0)
-        player_paint_frame(player, paper);
-    else if (paper)
-        frame_draw_card(paper, &player->screen.frame.content, card);
-    if (paper)
-        window_show_card(&paper->canvas, card);
+    if (!paper)
+        return;
+    player_paint_frame(player, paper);
+    window_show_card(&paper->canvas, -1);
 }
 
 /* Hides the answer of the printed page, as before a guess. */

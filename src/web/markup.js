@@ -23,15 +23,18 @@ const LETTERS = { x: 'x', xt: 'x\u0303', p: 'p', alpha: 'α' };
 const SLIDES = /(?<![\^_]|frac|matrix|#[\w-]*)\{(x|xt|p|alpha)\}/g;
 const OPENS = /(\^|_|frac|matrix|#[a-z0-9-]*)\{/;
 
+// Returns the index of a word outside of all braces, or the length of the text.
+const find = (text, word, from = 0) => {
+  let [at, depth] = [from, 0];
+  for (; at < text.length && (depth > 0 || !text.startsWith(word, at)); at++)
+    depth += (text[at] === '{') - (text[at] === '}');
+  return at;
+};
 // Splits a text at a word outside of all braces.
 const split = (text, word) => {
-  const parts = [''];
-  for (let at = 0, depth = 0; at < text.length; at++) {
-    depth += (text[at] === '{') - (text[at] === '}');
-    if (depth === 0 && text.startsWith(word, at)) at += parts.push('') && word.length - 1;
-    else parts[parts.length - 1] += text[at];
-  }
-  return parts;
+  const at = find(text, word);
+  const rest = text.slice(at + word.length);
+  return at < text.length ? [text.slice(0, at), ...split(rest, word)] : [text];
 };
 
 const parse = (text) => {
@@ -40,11 +43,7 @@ const parse = (text) => {
   const parts = found.index ? [{ text: text.slice(0, found.index) }] : [];
   const from = found.index + found[0].length;
   const word = found[1];
-  let end = from;
-  for (let depth = 1; end < text.length; end++) {
-    depth += (text[end] === '{') - (text[end] === '}');
-    if (depth === 0) break;
-  }
+  const end = find(text, '}', from);
   const inside = text.slice(from, end);
   if (word === '^') parts.push({ up: parse(inside) });
   else if (word === '_') parts.push({ down: parse(inside) });
@@ -150,9 +149,8 @@ const row = (parts) => {
 
 // ---- words ------------------------------------------------------------------
 
-const colours = {};
 const coloured = (element, name) => {
-  element.style.color = colours[name] ??= ask('web_colour', 'string', name);
+  element.style.color = ask('web_colour', 'string', name);
   return element;
 };
 const isLetter = ({ colour, of }) =>
@@ -207,8 +205,7 @@ const formula = (parts) => {
 
 // Shows a text in an element, which keeps its content if the text is the same.
 const setMarkup = (element, text, asFormula) => {
-  if (element.markup === text) return element;
-  element.markup = text;
+  if (!isNew(element, 'markup', text)) return element;
   const letters = text.replace(SLIDES, (all, name) => `#${name}{${LETTERS[name]}}`);
   element.replaceChildren(...(asFormula ? formula : prose)(parse(letters)));
   element.normalize(); // screen readers pause between text nodes

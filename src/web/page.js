@@ -5,13 +5,10 @@ const $ = (id) => document.getElementById(id);
 const canvas = $('canvas');
 let Module, FS; // the program, and its files
 
-const ask = (name, type, ...values) =>
-  Module.ccall(
-    name,
-    type,
-    values.map((value) => typeof value),
-    values,
-  );
+const ask = (name, type, ...values) => {
+  const types = values.map((value) => typeof value);
+  return Module.ccall(name, type, types, values);
+};
 
 // Time of the first frame, ms, and number of frames: tests wait for them.
 const stats = { first: 0, frames: 0 };
@@ -41,9 +38,8 @@ const Page = {
     if (target.width !== width || target.height !== height)
       [target.width, target.height] = [width, height];
     const bytes = new Uint8ClampedArray(heap.buffer, at, 4 * width * height);
-    target
-      .getContext('2d', { alpha: false })
-      .putImageData(new ImageData(bytes, width, height), 0, 0);
+    const image = new ImageData(bytes, width, height);
+    target.getContext('2d', { alpha: false }).putImageData(image, 0, 0);
   },
 };
 
@@ -95,10 +91,6 @@ const readAddress = () => {
   bare = mark === 'bare';
   return words.length ? words.map(decode) : ['--lecture'];
 };
-const formatAddress = (words) =>
-  '#' +
-  words.map((word) => encodeURIComponent(word).replace(/%2C/g, ',')).join('+') +
-  (bare ? '&bare' : '');
 
 // Writes scene, page and changed numbers into the address.  Another page of the
 // tour is a new entry of the history, so that Back leads to the page before.
@@ -106,8 +98,10 @@ const updateAddress = () => {
   looking = 0;
   if (location.hash !== shown) return; // a new address was not read yet
   const words = ask('web_address', 'string').split('\n').filter(Boolean);
-  if (!words.length || formatAddress(words) === shown) return;
-  shown = formatAddress(words);
+  const text = words.map((word) => encodeURIComponent(word).replace(/%2C/g, ',')).join('+');
+  const address = `#${text}${bare ? '&bare' : ''}`;
+  if (!text || address === shown) return;
+  shown = address;
   const turns = entry !== null && entry !== field('page', 2);
   entry = field('page', 2);
   history[turns ? 'pushState' : 'replaceState'](null, '', shown);
@@ -169,15 +163,11 @@ const begin = (words) => {
 
 // ---- keys -------------------------------------------------------------------
 
-const key = (name, repeats) => {
-  if (!FS) return;
-  ask('web_key', 'number', name, Number(repeats));
-  wake();
-};
+const key = (name, repeats = false) => FS && wake(ask('web_key', null, name, repeats));
 
-// Returns the name of a key in view.h, also on keyboards without Latin letters;
-// '' for signs, digits and keys without a name there.
-const NAMED = /^(Arrow\w+|Page\w+|Home|End|Escape|Enter|Backspace|Delete|F\d+| )$/;
+// Returns the name of a key in view.h, also on keyboards without Latin letters; ''
+// for a key without a name there, and for Escape, which does nothing in a page.
+const NAMED = /^(Arrow\w+|Page\w+|Home|End|Enter|Backspace|Delete|.)$/;
 const nameOf = ({ key, code }) => {
   if (/^[a-z]$/i.test(key)) return key.toUpperCase();
   if (key.length === 1 && key > '\x7f' && /^Key[A-Z]$/.test(code)) return code[3];
@@ -185,15 +175,15 @@ const nameOf = ({ key, code }) => {
   return key.replace('Arrow', '').replace('Enter', 'Return').replace(' ', 'Space');
 };
 
-// Keys with a modifier and function keys are left to the browser; Q and Escape do
-// nothing.  FOLDS has keys whose list the document shows.
+// Keys with a modifier and function keys are left to the browser; Q does nothing.
+// FOLDS has keys whose list the document shows.
 const FOLDS = { K: 'code', 'Shift+G': 'pages', G: 'scenes', A: 'more', '?': 'keys' };
 canvas.addEventListener('keydown', (event) => {
   if (event.ctrlKey || event.altKey || event.metaKey || event.isComposing) return;
-  const name = nameOf(event) || (event.key.length === 1 ? event.key : '');
+  const name = nameOf(event);
   const whole = (event.shiftKey && /^\w{2}|^[A-Z]$/.test(name) ? 'Shift+' : '') + name;
   if (field('asks') === 'number' && /^[\d.,+-]$/.test(name)) return $('answer').focus();
-  if (!name || /^(Q|F\d+|Escape)$/.test(name)) return;
+  if (!name || name === 'Q') return;
   event.preventDefault();
   if (FOLDS[whole]) return openPart(FOLDS[whole]);
   key(whole, event.repeat);
@@ -250,12 +240,12 @@ const touchDown = (event) => {
   fingers.set(event.pointerId, event);
   clearTimeout(touch?.timer);
   if (fingers.size === 1) {
-    touch = { first: event, pressed: 0 };
-    touch.timer = setTimeout(() => {
+    const pin = () => {
       press(event, RIGHT);
       tell(RELEASE, event, RIGHT);
       touch = null;
-    }, LONG_TOUCH);
+    };
+    touch = { first: event, pressed: 0, timer: setTimeout(pin, LONG_TOUCH) };
   } else if (fingers.size === 2 && touch) {
     if (touch.pressed) tell(RELEASE, event, touch.pressed);
     touch.pressed = MIDDLE;
@@ -264,7 +254,6 @@ const touchDown = (event) => {
   }
 };
 const touchMove = (event) => {
-  if (!fingers.has(event.pointerId)) return;
   fingers.set(event.pointerId, event);
   if (!touch) return;
   if (touch.pressed === MIDDLE && fingers.size === 2) {
@@ -291,24 +280,21 @@ const touchUp = (event) => {
     touch.pressed = LEFT;
   }
   if (touch.pressed) tell(RELEASE, event, touch.pressed);
-  tell(LEAVE, event);
   touch = null;
 };
 
 const isTouch = (event) => event.pointerType === 'touch';
 canvas.onpointerdown = (event) => {
-  if (!isTouch(event)) canvas.focus({ preventScroll: true }); // a finger may scroll
   canvas.setPointerCapture(event.pointerId);
   event.preventDefault();
-  if (isTouch(event)) touchDown(event);
-  else press(event, event.button + 1);
+  if (isTouch(event)) return touchDown(event); // a finger may scroll
+  canvas.focus({ preventScroll: true });
+  press(event, event.button + 1);
 };
 canvas.onpointermove = (event) => (isTouch(event) ? touchMove(event) : tell(MOVE, event));
-canvas.onpointerup = canvas.onpointercancel = (event) => {
-  if (isTouch(event)) touchUp(event);
-  else tell(RELEASE, event, event.button + 1);
-};
-canvas.onpointerleave = (event) => isTouch(event) || tell(LEAVE, event);
+canvas.onpointerup = canvas.onpointercancel = (event) =>
+  isTouch(event) ? touchUp(event) : tell(RELEASE, event, event.button + 1);
+canvas.onpointerleave = (event) => tell(LEAVE, event);
 canvas.oncontextmenu = (event) => event.preventDefault();
 canvas.onwheel = (event) => {
   if (event.ctrlKey || document.activeElement !== canvas) return; // the page scrolls
@@ -318,20 +304,18 @@ canvas.onwheel = (event) => {
 
 // ---- the beginning ----------------------------------------------------------
 
-const bytesOf = (letters) => Uint8Array.from(atob(letters), (letter) => letter.charCodeAt(0));
 const unpack = async (id) => {
-  const packed = new Blob([bytesOf($(id).textContent)]).stream();
-  const stream = packed.pipeThrough(new DecompressionStream('gzip'));
-  return new Uint8Array(await new Response(stream).arrayBuffer());
+  const { body } = await fetch('data:;base64,' + $(id).textContent);
+  return new Response(body.pipeThrough(new DecompressionStream('gzip')));
 };
 
 $('licences').onclick = async () => {
-  $('licence').textContent = new TextDecoder().decode(await unpack('packed-licences'));
+  $('licence').textContent = await (await unpack('packed-licences')).text();
   $('notice').showModal();
 };
 
 // A WebAssembly module with a function that returns a vector of 16 zeros.
-const SIMD = 'AGFzbQEAAAABBQFgAAF7AwIBAAoIAQYAQQD9Dws=';
+const SIMD = atob('AGFzbQEAAAABBQFgAAF7AwIBAAoIAQYAQQD9Dws=');
 
 const failed = (error) => {
   const why = /memory/i.test(error) ? 'there is not enough memory' : error.message || error;
@@ -342,11 +326,12 @@ addEventListener('unhandledrejection', (event) => failed(event.reason));
 
 // Called by the last script of the page.
 const start = async () => {
-  if (!window.DecompressionStream || !window.WebAssembly?.validate(bytesOf(SIMD)))
+  const bytes = Uint8Array.from(SIMD, (letter) => letter.charCodeAt(0));
+  if (!window.DecompressionStream || !window.WebAssembly?.validate(bytes))
     return say('elasto needs WebAssembly SIMD: Chrome 105, Firefox 121, Safari 16.4 or newer.');
   document.body.append(make('script', [$('module').textContent]));
   Module = await createElasto({
-    wasmBinary: await unpack('packed-program'),
+    wasmBinary: await (await unpack('packed-program')).arrayBuffer(),
     print: (text) => ($('summary').textContent += text + '\n'),
     printErr: (text) => say(text, !/^(elasto|script):/.test(text)),
   });

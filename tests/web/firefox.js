@@ -57,11 +57,8 @@ const launch = async () => {
   };
   // Of the window, whose frame is left out.
   const resize = async (width, height) => {
-    const frame = {
-      script: 'return [outerWidth - innerWidth, outerHeight - innerHeight]',
-      args: [],
-    };
-    const { value } = await ask('WebDriver:ExecuteScript', frame);
+    const script = 'return [outerWidth - innerWidth, outerHeight - innerHeight]';
+    const { value } = await ask('WebDriver:ExecuteScript', { script, args: [] });
     const size = { width: width + value[0], height: height + value[1] };
     await ask('WebDriver:SetWindowRect', size);
   };
