@@ -26,7 +26,7 @@ typedef struct Element {
     int vectors;               /* vectors that W depends on: 1: a, 2: a and b */
     int node[3];               /* [nodes] */
     const double (*weight)[3]; /* [vectors] weights of nodes in a and b */
-    int block;      /* block of the matrix with its entries; -1: none yet */
+    int block;   /* index of the matrix block of its entries; -1: none yet */
     int partner; /* obstacle (contact) or spring of the edge (self-contact) */
     int cursor;  /* > 0: place in a search that the next call of get_element
                     continues, with the same i */
@@ -100,8 +100,8 @@ struct ElementKind {
     bool (*product)(const EvalPoint *at, const Element *element,
                     Projection projection, const double v[4], double Hv[4]);
 
-    /* Returns W at alpha minus W minus alpha grad W.P, J, without cancellation.
-     * P [4] is the change of a and b along p. */
+    /* Returns W((a, b) + alpha P) - W - alpha grad W.P, J, which is computed
+     * without cancellation.  P [4] is the change of (a, b) along p. */
     double (*line_remainder)(const EvalPoint *at, const Element *element,
                              const double P[4], double alpha);
 

@@ -30,7 +30,7 @@ typedef struct Card {
                             double em);
     double weight;           /* weight with which the card shares free height */
     bool half_width;         /* may stand in one half of a wide column */
-    bool half_width_on_page; /* may stand in one half on a page */
+    bool halves_on_page;     /* may stand in one half on a page */
     bool starts_closed;
     bool needs_line_energy; /* draws E along p (cards_need_line_energy) */
     bool below_picture;     /* as main card, stands below the picture */

@@ -137,7 +137,7 @@ typedef struct Screen {
     bool strain;         /* springs' colours show strain where the scene's do
                             not, and the other way round */
     bool bare;           /* the picture is shown without texts and cards */
-    bool blank;          /* a black screen is shown */
+    bool is_black;       /* a black screen is shown */
     unsigned toggled_cards; /* bit c: card c was opened or closed by the user */
     int enlarged_card;      /* index of the enlarged card; -1: none */
     View view;

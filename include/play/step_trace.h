@@ -62,8 +62,8 @@ typedef struct StepTrace {
     int places;        /* number of places; 0 if memory is missing */
 } StepTrace;
 
-/* Begins the trace of a step.  E along p is sampled in each round for a walk
- * (`all`), in the last round for a card (`last`), or not. */
+/* Begins the trace of a step.  E along p is sampled in each iteration (`all`,
+ * for a walk), in the last one (`last`, for a card), or not. */
 void step_trace_begin(StepTrace *trace, const Simulation *simulation, bool all,
                       bool last);
 

@@ -61,7 +61,7 @@ Status window_show(const Canvas *canvas);
 void window_set_full(bool full);
 
 /* Whether the window fills the screen. */
-bool window_is_full(void);
+bool window_is_full_screen(void);
 
 /* Returns the next input, or INPUT_NONE; skips movements but the last one. */
 Input window_read_input(void);

@@ -26,7 +26,7 @@ Control *control_copy(const Control *from);
 /* Whether the mouse holds a node or an obstacle. */
 bool control_hand_holds(const Control *control);
 
-/* Finds the place of an obstacle in a run, less the lift of RunVariant.
+/* Finds the place of an obstacle in a run before RunVariant.lift raises it.
  *   at  [2] out, m */
 void simulation_find_obstacle(const Simulation *simulation, int run, int number,
                               double at[2]);

@@ -71,7 +71,7 @@ typedef struct Scene {
     /* Fills simulation->system, the mesh and the start. */
     Status (*create)(struct Simulation *simulation);
     double speed;    /* steps a frame when the scene opens; 0 means 1 */
-    double frame[4]; /* m, left, bottom, right, top of the view; 0: automatic */
+    double view[4];  /* m, left, bottom, right, top of the view; 0: automatic */
     double strain_colour_max; /* strain of the full colour; 0: no colours */
     bool needs_dissipation;   /* the sentence describes a motion that dies away,
                                  which is true only of methods that dissipate */

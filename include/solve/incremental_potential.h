@@ -46,9 +46,10 @@ void incremental_potential_gradient(const IncrementalPotential *E,
  * Returns OK, TOO_LARGE, OUT_OF_MEMORY. */
 Status incremental_potential_pattern(const System *system, Sparse *A);
 
-/* Whether the Hessian at u, x has entries that the pattern lacks; the pattern
- * must then be made again.  *grown out.  Returns OK, OUT_OF_MEMORY. */
-Status incremental_potential_grow(const Iterate *iterate, bool *grown);
+/* Adds pairs near each other at u, x to the terms' lists.  *grown out: whether
+ * the Hessian has entries that its pattern lacks, so that the pattern must be
+ * made again.  Returns OK, OUT_OF_MEMORY. */
+Status incremental_potential_extend(const Iterate *iterate, bool *grown);
 
 /* Writes the projected Hessian of E at u, x to A, which has the pattern.
  * Returns how many blocks of terms the projection changed. */

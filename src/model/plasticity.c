@@ -142,8 +142,8 @@ static int plastic_hessian(const EvalPoint *at, Projection projection,
 }
 
 /* Along p the strain changes by D = alpha B + alpha^2 C.  Apart from its linear
- * part, W changes by k l2 (tau alpha^2 C + R_V(e, D)): the first summand is the
- * line polynomial, R_V the line remainder.  Writes B and C. */
+ * part, W changes by k l2 (V'(e) alpha^2 C + R_V(e, D)): the line polynomial
+ * and the line remainder, where R_V is that of V.  Writes B and C. */
 static inline void expand_strain_along(const FlowSpring *spring,
                                        const double *p, double *B, double *C)
 {

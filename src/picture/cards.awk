@@ -70,7 +70,7 @@ BEGIN {
     values["min_height"] values["needed_height"] values["weight"] values["default_bounds"]
     values["draw"] values["table"] values["bounds"] values["add_values"] values["pick"]
     values["hover"] values["sample"] values["legend_row"]
-    switches["has_no_curves"] switches["half_width"] switches["half_width_on_page"]
+    switches["has_no_curves"] switches["half_width"] switches["halves_on_page"]
     switches["starts_closed"] switches["below_picture"]
     switches["beside_picture"]
     switches["needs_line_energy"] switches["only_in_lecture"]

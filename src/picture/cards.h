@@ -11,10 +11,10 @@ static const double TITLE_BAR = 2.0;      /* ems, height of a card's title */
 
 /* A line of an algorithm.  The strings are texts of live_values.h. */
 typedef struct ListingRow {
-    const char *shown_if;  /* the row is shown if a line of this text is known;
-                              NULL: end of the listing */
-    const char *struck_if; /* the row is struck out if a line of this text is
-                              known */
+    const char *shown_if;  /* the row is shown if the values in a line of this
+                              text are known; NULL: end of the listing */
+    const char *struck_if; /* the row is struck out if the values in a line of
+                               this text are known */
     Line line;             /* the slides' line of Algorithm 3 */
     bool indented;
     const char *text;

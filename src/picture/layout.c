@@ -241,8 +241,8 @@ static int find_card_rows(const FrameContent *content, double wide, double em,
     for (int i = 0; i < cards; i++) {
         const Card *card = picture->cards[i];
         bool bar = sets->closed >> i & 1 || (large && i != sets->enlarged);
-        bool half = card->half_width ||
-                    (card->half_width_on_page && content->lecture.page);
+        bool half =
+            card->half_width || (card->halves_on_page && content->lecture.page);
         bool on_stage = i == main_card &&
                         (card->below_picture || (card->beside_picture && !bar));
         if (sets->hidden >> i & 1 || on_stage)

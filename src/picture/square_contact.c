@@ -9,7 +9,7 @@
 
 static const double SLAB = 1;         /* ems, thickness of a thin wall */
 static const double FORCE_ARROW = 4;  /* ems, arrow of the legend's force */
-static const double MIN_FORCE = 0.02; /* smallest drawn over largest force */
+static const double MIN_FORCE = 0.02; /* smallest drawn / largest force */
 
 /* Computes the force of a contact on its node, with friction, from positions
  * and velocities alone, which the past keeps of each step.  Returns the slip

@@ -28,8 +28,8 @@ static const double BALL_REACH = 4, GROUND_REACH = 2, PULL_REACH = 16;
 
 static bool scene_sets_view(const Simulation *simulation)
 {
-    const double *frame = simulation->scene->frame;
-    return frame[2] > frame[0];
+    const double *view = simulation->scene->view;
+    return view[2] > view[0];
 }
 
 /* A part of the world, m: middle, and half of width and height. */
@@ -53,19 +53,19 @@ static Extent find_first_view(const FrameContent *content,
                               const Simulation *simulation)
 {
     const Options *options = &simulation->options;
-    const double *frame = simulation->scene->frame;
+    const double *view = simulation->scene->view;
     double stretch = options->bodies > 0 ? 1 : fabs(options->stretch);
     double extent = stretch < 1 ? 1 + 1.5 * (1 - stretch) : stretch;
     double half = 0.5 * simulation->mesh.side *
                   (content->bare ? BARE_VIEW_SIZE : VIEW_SIZE);
-    Extent view = {
+    Extent first = {
         {0, 0},
         {half * extent, half * (content->bare ? extent : fmin(extent, 1.25))}};
     for (int k = 0; k < 2 && scene_sets_view(simulation); k++) {
-        view.middle[k] = 0.5 * (frame[2 + k] + frame[k]);
-        view.half_size[k] = 0.5 * (frame[2 + k] - frame[k]);
+        first.middle[k] = 0.5 * (view[2 + k] + view[k]);
+        first.half_size[k] = 0.5 * (view[2 + k] - view[k]);
     }
-    return view;
+    return first;
 }
 
 /* Returns the part of the world that is seen if the view fits the stage, which
@@ -558,7 +558,7 @@ static void draw_magnifier(const SquarePen *pen)
 }
 
 /* Draws how far a body has slid, and how far a rigid body would slide. */
-static void draw_slide_distances(const Plot *stage)
+static void draw_slid_distances(const Plot *stage)
 {
     static const double ABOVE = 0.04; /* m, from the body up to the arrow */
     const SquareMesh *mesh = &stage->simulation->mesh;
@@ -639,7 +639,7 @@ void square_draw(Plot *stage)
         add_colour_legend(pen);
     if (layers & LAYER_VELOCITY)
         draw_mean_velocity(pen);
-    draw_slide_distances(stage);
+    draw_slid_distances(stage);
     draw_magnifier(pen);
 }
 

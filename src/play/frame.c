@@ -476,7 +476,7 @@ Paper *player_prepare_paper(Player *player)
 void player_paint_frame(Player *player, Paper *paper)
 {
     player_fill_frame(player);
-    if (player->screen.blank)
+    if (player->screen.is_black)
         canvas_clear(&paper->canvas, 0xff000000u);
     else
         frame_draw(paper, &player->screen.frame.content);

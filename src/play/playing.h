@@ -1,4 +1,4 @@
-/* playing.h - functions that files of play share; a file calls those above. */
+/* playing.h - functions that files of play share, lowest layer first. */
 #ifndef ELASTO_PLAYING_H
 #define ELASTO_PLAYING_H
 

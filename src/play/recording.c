@@ -81,7 +81,7 @@ static const char *find_log_text(const char *column, int number)
 static const struct {
     size_t file;         /* offset of the file's name in Options */
     const char *columns; /* names of columns, for table_add_columns */
-    const char *pane_column; /* column that several panes add, or NULL */
+    const char *pane_column; /* column if panes > 1, or NULL */
     void (*write_rows)(Table *table, const RunAtStep *at); /* adds the rows of
                                 a step; NULL: the log, a row an iteration */
 } kinds[RECORDING_TABLES] = {

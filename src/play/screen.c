@@ -31,11 +31,11 @@ Status obey_screen(Player *player, const Command *command)
         player->screen.bare = !player->screen.bare;
         break;
     case COMMAND_BLANK:
-        player->screen.blank = !player->screen.blank;
+        player->screen.is_black = !player->screen.is_black;
         break;
     case COMMAND_FULL:
         if (player->screen.window)
-            window_set_full(!window_is_full());
+            window_set_full(!window_is_full_screen());
         break;
     case COMMAND_PANE:
         player->active = (int)command->number;
@@ -84,8 +84,8 @@ Status obey_escape(Player *player, const Command *command)
 {
     bool asked = player->commands.leaving == COMMAND_ESCAPE;
     player->commands.leaving = COMMAND_NONE;
-    if (player->screen.blank)
-        player->screen.blank = false;
+    if (player->screen.is_black)
+        player->screen.is_black = false;
     else if (player->screen.sheet)
         sheet_close(player);
     else if (player->screen.column == COLUMN_KEYS)
@@ -94,7 +94,7 @@ Status obey_escape(Player *player, const Command *command)
         player_deselect(player);
     else if (player->screen.column)
         player->screen.column = COLUMN_CARDS;
-    else if (player->screen.window && window_is_full())
+    else if (player->screen.window && window_is_full_screen())
         window_set_full(false);
     else if (could_lose_work(player))
         player_note(player, "nothing is open; Q ends the program");

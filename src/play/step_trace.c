@@ -1,4 +1,4 @@
-/* step_trace.c - stores the iterates of a step, and walks through its lines. */
+/* step_trace.c - iterates of a step, and the walk through Algorithm 3. */
 #include "play/step_trace.h"
 
 #include <math.h>

@@ -50,7 +50,7 @@ void window_set_full(bool full)
     SDL_SetWindowFullscreen(window, full ? SDL_WINDOW_FULLSCREEN_DESKTOP : 0);
 }
 
-bool window_is_full(void)
+bool window_is_full_screen(void)
 {
     return (SDL_GetWindowFlags(window) & SDL_WINDOW_FULLSCREEN_DESKTOP) != 0;
 }

@@ -43,7 +43,7 @@ void window_set_full(bool full)
     (void)full;
 }
 
-bool window_is_full(void)
+bool window_is_full_screen(void)
 {
     return false;
 }

@@ -18,8 +18,8 @@
 /* A word of --pin, and where its nodes are. */
 static const struct PinWord {
     const char *word;
-    int sides_all; /* each node is on all these sides; 0: any node */
-    int sides_any; /* each node is on one of these, too; 0: any node */
+    int all_of; /* each node is on all these sides; 0: any node */
+    int any_of; /* each node is on one of these, too; 0: any node */
 } pin_words[] = {{"top-corners", MESH_TOP, MESH_LEFT | MESH_RIGHT},
                  {"top", MESH_TOP, 0},
                  {"bottom", MESH_BOTTOM, 0},
@@ -54,8 +54,8 @@ const char *pins_read(const char *text, const SquareMesh *shape,
             int own = i, sides = square_mesh_get_sides(shape, i);
             bool in_body = !digits[0] ||
                            square_mesh_locate_body(shape, &own) + 1 == number;
-            bool on_side = (sides & word->sides_all) == word->sides_all &&
-                           (!word->sides_any || (sides & word->sides_any));
+            bool on_side = (sides & word->all_of) == word->all_of &&
+                           (!word->any_of || (sides & word->any_of));
             pinned[i] |= name[0] ? in_body && on_side : i == number;
         }
         text += end;

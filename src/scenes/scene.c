@@ -164,7 +164,7 @@ const Scene scenes[] = {
           "--velocity 0.9,-1 --friction 0.3 --ground 0,1,0,-0.5 "
           "--ground 1,0,-1.1,0 --ground -1,0,1.1,0",
      create_square, .needs_dissipation = true,
-     .frame = {-1.25, -0.65, 1.25, 1.45}, .strain_colour_max = 0.1},
+     .view = {-1.25, -0.65, 1.25, 1.45}, .strain_colour_max = 0.1},
     {"slope", "Friction: three blocks",
      "three blocks, each with a friction of its own", SQUARE,
      FALL "--segments 6 --stiffness 5e4 --timestep 0.01 "
@@ -173,57 +173,56 @@ const Scene scenes[] = {
           "--friction 0.36397023426620234 "
           "--ground -0.3420201433256687,0.9396926207859084,0,0",
      create_slope, .body.runs = SIMULATION_MAX_RUNS,
-     .frame = {-2.3, -2.75, 0.9, 2.0}},
+     .view = {-2.3, -2.75, 0.9, 2.0}},
     {"squeeze", "Contact: pressed flat",
      "a ceiling comes down and lets go: all of it returns", SQUARE,
      FALL "--segments 16 --timestep 0.01 --friction 0.8 "
           "--ground 0,1,0,-0.51",
-     create_squeeze, .frame = {-0.9, -0.7, 0.9, 0.7}, .strain_colour_max = 0.5,
+     create_squeeze, .view = {-0.9, -0.7, 0.9, 0.7}, .strain_colour_max = 0.5,
      .body.obstacle = make_squeeze_ceiling},
     {"return", "Solids that never turn over",
      "pressed to 3 % of its width, a square again", SQUARE,
      "--segments 10 --stretch 0.03 --timestep 0.01 --tolerance 1e-3 "
      "--material neo-hookean",
      .create = create_square, .speed = 0.125, .needs_dissipation = true,
-     .frame = {-1.1, -1.1, 1.1, 1.1}},
+     .view = {-1.1, -1.1, 1.1, 1.1}},
     {"stack", "Self-contact: three squares",
      "three soft squares fall on one another", SQUARE,
      SOLIDS "--segments 6 --side 0.45 --friction 0.4 --barrier 0.01875,1e5 "
             "--ground 0,1,0,-1 --ground 1,0,-1,0 --ground -1,0,1,0 "
             "--body 0,-0.76 --body 0.2,-0.22,12 --body -0.12,0.33,-30",
-     create_square, .frame = {-1.1, -1.1, 1.1, 0.75}},
+     create_square, .view = {-1.1, -1.1, 1.1, 0.75}},
     {"rub", "Friction between bodies",
      "a block slides on another one, and stops", SQUARE,
      SOLIDS "--segments 12 --young 4e5 --friction 0.2 --barrier 0.02,1e5 "
             "--body 0,-0.125 --body -0.15,0.1448,0,1,0",
-     create_square, .frame = {-0.75, -0.4, 0.75, 0.5}, .body.aspect = 0.25,
+     create_square, .view = {-0.75, -0.4, 0.75, 0.5}, .body.aspect = 0.25,
      .pin = "all:1"},
     {"gap", "Squeezed through a gap",
      "a soft square falls through a gap narrower than itself", SQUARE,
      SOLIDS "--segments 10 --side 0.5 --young 2e4 --friction 0.1 "
             "--barrier 0.0125,1e5 --ground 0,1,0,-1.1 --body 0,0.65 "
             "--body -0.5036,0,45 --body 0.5036,0,45",
-     create_square, .frame = {-0.95, -1.2, 0.95, 0.95}, .pin = "all:2,all:3"},
+     create_square, .view = {-0.95, -1.2, 0.95, 0.95}, .pin = "all:2,all:3"},
     {"dent", "Inelasticity: a dent that stays",
      "springs beyond their yield strain flow, and keep it", SQUARE,
      FALL "--segments 16 --stiffness 2e5 --timestep 0.004 --at 0,0.62 "
           "--velocity 0.02,-2 --friction 0.3 --yield 0.04 "
           "--hardening 0.1 --ball 0,-0.75,0.35 --ground 0,1,0,-1.15",
-     create_square, .frame = {-1.3, -1.3, 1.3, 1.25}},
+     create_square, .view = {-1.3, -1.3, 1.3, 1.25}},
     {"tear", "Fracture: a slit runs",
      "pulled apart, springs break: a crack runs from a slit", SQUARE,
      FALL "--segments 24 --timestep 0.002 --gravity 0 --tear 0.12 "
           "--self-contact on",
-     create_tear, .frame = {-0.78, -0.65, 0.78, 0.65},
-     .strain_colour_max = 0.05, .pin = "left,right", .body.moving_pins = true,
-     .body.cell_stiffness = 0.3},
+     create_tear, .view = {-0.78, -0.65, 0.78, 0.65}, .strain_colour_max = 0.05,
+     .pin = "left,right", .body.moving_pins = true, .body.cell_stiffness = 0.3},
     {"bend", "Fracture: a beam breaks",
      "struck from above it cracks from below, at a notch", SQUARE,
      FALL "--segments 32 --stiffness 2e5 --timestep 0.002 --side 2 "
           "--tear 0.1 --friction 0.3 --barrier 0.008,8e5 --self-contact on "
           "--ball -0.8,-0.3325,0.14 --ball 0.8,-0.3325,0.14 "
           "--ground 0,1,0,-1",
-     create_bend, .frame = {-1.25, -1.1, 1.25, 0.75}, .strain_colour_max = 0.05,
+     create_bend, .view = {-1.25, -1.1, 1.25, 0.75}, .strain_colour_max = 0.05,
      .body.aspect = 0.1875, .body.cell_stiffness = 0.3,
      .body.obstacle = make_bend_ball},
     {"race", "Run time and error", "run time against error, measured now",

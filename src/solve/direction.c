@@ -36,7 +36,7 @@ static Status assemble_hessian(Newton *newton, Projection projection,
     CholeskyKind kind =
         projection == PROJECTION_NONE ? CHOLESKY_INDEFINITE : CHOLESKY_DEFINITE;
     bool grown;
-    Status status = incremental_potential_grow(&newton->at, &grown);
+    Status status = incremental_potential_extend(&newton->at, &grown);
     *projected = 0;
     if (!status && (!direction->cholesky || direction->factor_kind != kind ||
                     grown || direction->pattern != system->pattern)) {

@@ -97,7 +97,7 @@ enum { PAIRED = 0 };
 #define WHERE(condition, a) ((condition) ? (a) : 0)
 #endif
 
-/* Converts one number, or in a browser two pairs, to single precision. */
+/* Converts to single precision: the number low; in a browser two pairs. */
 INLINE Few narrow_to_single(Pair low, Pair high)
 {
 #ifdef __wasm_simd128__ /* intrinsics: clang does not emit demote by itself */

@@ -88,7 +88,7 @@ static int add_hessians(const Iterate *iterate, Projection projection,
     return projected;
 }
 
-Status incremental_potential_grow(const Iterate *iterate, bool *grown)
+Status incremental_potential_extend(const Iterate *iterate, bool *grown)
 {
     EvalPoint at = eval_point_of(&iterate->E, iterate->u, iterate->x);
     Status status = STATUS_OK;

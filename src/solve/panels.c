@@ -44,7 +44,7 @@ typedef struct Product {
     int ldl;
 } Product;
 
-/* Defines a function that computes `wide` Lanes of rows of C from row i on. */
+/* Defines a function for rows i ... of C, as `wide` vectors of type Lanes. */
 #define ROWS(rows, Lanes, wide)                                                \
     INLINE void rows(const Product *at, int i, int n, const double *inverse)   \
     {                                                                          \

@@ -464,7 +464,7 @@ static void projection(Case *c, Random *random)
     int n = c->size;
     Sparse A;
     bool grown;
-    CHECK_OK(incremental_potential_grow(&iterate, &grown));
+    CHECK_OK(incremental_potential_extend(&iterate, &grown));
     CHECK_OK(incremental_potential_pattern(&c->system, &A));
     CHECK(incremental_potential_hessian(&iterate, PROJECTION_NONE, &A) == 0);
     dense_from_sparse(&A, plain);
