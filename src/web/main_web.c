@@ -199,17 +199,12 @@ EMSCRIPTEN_KEEPALIVE void web_print_page(int page, int width, int height)
     Status status = lecture_make_options(row, &options, MESSAGE(message));
     options.headless = options.quiet = true;
     options.steps = row->picture;
-    if (!status)
-        status = player_create(&options, 1, NULL, &never, player);
+    status = status ? status : player_create(&options, 1, NULL, &never, player);
     player->screen.draws = true;
-    if (!status)
-        status = player_enqueue_page(player);
-    if (!status)
-        status = player_obey_queue(player, false);
-    if (!status)
-        status = player_enqueue_lines(player, row->tell);
-    if (!status)
-        status = player_obey_queue(player, false);
+    status = status ? status : player_enqueue_page(player);
+    status = status ? status : player_obey_queue(player, false);
+    status = status ? status : player_enqueue_lines(player, row->tell);
+    status = status ? status : player_obey_queue(player, false);
     for (int i = 0; i < row->lines && !status; i++)
         status = player_obey(player, &next);
     if (!status && !row->lines)
