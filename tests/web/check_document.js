@@ -130,7 +130,7 @@ const tourByKeys = async (browser) => {
     for (const text of words)
       if (!said.includes(squeezed(text).slice(0, 12)))
         wrong.push(`${name}: '${text}' is not in the tree`);
-    const fields = `[...document.querySelectorAll('#words .numbers input')].map(({ name }) => name)`;
+    const fields = `[...document.querySelectorAll(':is(#tried, #row) input')].map(({ name }) => name)`;
     for (const label of await tab.run(fields))
       if (label && !nodes.some((node) => /textbox/.test(node.role) && node.name.includes(label)))
         wrong.push(`${name}: no field ${label}`);
