@@ -259,9 +259,11 @@ static Status multigrid_update_iterate(Newton *newton)
         tiles_relax(&mg->tiles, PACE * record->change * unit / tiles, p);
         multigrid_compute_line(mg);
         double alpha = minimise_quartic(&mg->line, &(int){0});
-        grid_add_step(&mg->grid, alpha, p);
-        record->change += quartic_value(&mg->line, alpha);
-        mg->way_since_setup = INFINITY;
+        if (alpha > 0) { /* not if numbers overflowed in single precision */
+            grid_add_step(&mg->grid, alpha, p);
+            record->change += quartic_value(&mg->line, alpha);
+            mg->way_since_setup = INFINITY;
+        }
     }
     newton->counters.tile_sweeps = mg->tiles.sweeps;
     mg->g = mg->last_g;
