@@ -276,21 +276,6 @@ INLINE void visit_row(const Level *of, int i, int colour, PassResult result,
         }
 }
 
-/* Computes w = A x in row i.  Adds x.b and x.w of the row to sums [2]. */
-INLINE void multiply_row(const Level *level, int i, double *sums)
-{
-    float xb[LANES] = {0}, xw[LANES] = {0};
-    visit_row(level, i, 0, PRODUCT, xb, xw);
-    visit_row(level, i, 1, PRODUCT, xb, xw);
-    double row[2] = {0, 0};
-    for (int e = 0; e < LANES; e++) {
-        row[0] += (double)xb[e];
-        row[1] += (double)xw[e];
-    }
-    sums[0] += row[0];
-    sums[1] += row[1];
-}
-
 /* Interpolates the coarse plane `from` to row i and adds the result to the
  * plane `to`; held nodes stay 0. */
 INLINE void prolong_row(const Level *level, const Rows *coarse, int i,
@@ -371,8 +356,18 @@ static void run_v_cycle(const VCycle *cycle, const Level *level)
 FAST static void multiply_level(const Level *level, double *sums)
 {
     sums[0] = sums[1] = 0;
-    for (int i = 0; i < level->rows.nodes; i++)
-        multiply_row(level, i, sums);
+    for (int i = 0; i < level->rows.nodes; i++) {
+        float xb[LANES] = {0}, xw[LANES] = {0};
+        double row[2] = {0, 0};
+        visit_row(level, i, 0, PRODUCT, xb, xw);
+        visit_row(level, i, 1, PRODUCT, xb, xw);
+        for (int e = 0; e < LANES; e++) {
+            row[0] += (double)xb[e];
+            row[1] += (double)xw[e];
+        }
+        sums[0] += row[0];
+        sums[1] += row[1];
+    }
 }
 
 /* ---- conjugate gradients ---- */
