@@ -7,12 +7,16 @@
 
 #include "picture/text.h"
 
+enum { PAPER_WORDS = 64 };
+
 typedef struct Paper {
     Canvas canvas;
     Text *text;        /* NULL: no font was found; texts are left out */
     double em;         /* pixels */
     double unit;       /* pixels, 1/14 em */
     double min_letter; /* ems, least size of letters except scripts */
+    Box words[PAPER_WORDS]; /* boxes of labels and of words on panels */
+    int word_count;         /* their number, or more if the newest are kept */
 } Paper;
 
 /* Creates white paper of this size in pixels.  The caller frees it, also after
@@ -22,6 +26,9 @@ void paper_free(Paper *paper);
 
 /* Converts ems to whole pixels. */
 int paper_pixels(const Paper *paper, double ems);
+
+/* Keeps the box of words that labels must not cover. */
+void paper_keep_words(Paper *paper, Box box);
 
 /* Draws a line of markup, formatted as by printf, below y.  Returns its width
  * in pixels. */

@@ -13,16 +13,16 @@ static const double MAX_AXIS_RATIO = 1000;
  * ends of the axis then lie within LOG_LOW and LOG_HIGH times the energy at the
  * start. */
 static const double LOG_GROWTH = 1e6, LOG_HIGH = 1e9, LOG_LOW = 1e-12;
+static const double MIN_STEPS = 8; /* least length of the time axis, steps */
 /* Energies that never reach this part of the largest one have no curve. */
 static const double MIN_VISIBLE = 2e-3;
 /* Energies below this part of k side^2 are rounding errors. */
 static const double ROUNDING = 1e-20;
 static const double LEGEND_SIZE = 0.85; /* ems, size of the legend's letters */
+static const double LEGEND_GAP = 1;     /* letters, gap between two entries */
 static const double MIN_PLOT = 4.7;     /* ems, height with the numbers of x */
 static const double MIN_HEIGHT = 9.6;   /* ems, least height of the card */
-static const double PAGE_HEIGHT = 11;   /* ems, least height on a page */
-static const double ROW_HEIGHT = 2.4;   /* ems, for more than four curves */
-static const double MANY_HEIGHT = 3.6;  /* ems, for more than seven curves */
+static const double ROW_HEIGHT = 1.2;   /* ems, for each of curves 5 to 7 */
 
 /* A quantity of a history over time. */
 typedef struct Curve {
@@ -132,8 +132,7 @@ double energies_needed_height(const FrameContent *content, double wide,
     (void)wide;
     (void)em;
     int count = find_curves(content).count;
-    double least = content->lecture.page ? PAGE_HEIGHT : MIN_HEIGHT;
-    return least + (count <= 4 ? 0 : count <= 7 ? ROW_HEIGHT : MANY_HEIGHT);
+    return MIN_HEIGHT + ROW_HEIGHT * fmin(fmax(count - 4, 0), 3);
 }
 
 /* Returns the largest rounding error of an energy, J. */
@@ -153,7 +152,7 @@ static Axis make_energies_axis(const Simulation *simulation, const Curves *all,
 {
     double first = 0, least = INFINITY, low = 0, high = 0;
     double lowest = 0, highest = 0; /* ends of the energies in the whole run */
-    *last = 100 * simulation->options.timestep;
+    *last = MIN_STEPS * simulation->options.timestep;
     for (const Curve *curve = all->curve; curve < all->curve + all->count;
          curve++) {
         const History *history = curve->history;
@@ -223,35 +222,31 @@ bool energies_legend_row(const FrameContent *content, int row,
 
 /* Writes the names and present values of the curves, or only measures them.
  * Returns the height in pixels.
- *   terse  only the first value and the names are written, or only the values
- *          of several panes, whose names stand on the panes */
-static int write_legend(const Plot *card, const Curves *all, bool terse,
+ *   named  false: the names are left out, which stand on the panes */
+static int write_legend(const Plot *card, const Curves *all, bool named,
                         bool draw)
 {
     Paper *paper = card->paper;
     const double size = fmax(LEGEND_SIZE, paper->min_letter);
-    const double gap = (terse ? 0.6 : 1.05) * size;
-    bool panes = card->content->panes > 1;
     int at[2] = {0, 0}, used = 0;
     for (int c = 0; c < all->count; c++) {
         const Curve *one = &all->curve[c];
         TextLine line = {.colour = one->colour};
-        char name[SENTENCE_SIZE] = "", sum[60] = "";
-        if (one->name && !(terse && panes))
+        char name[SENTENCE_SIZE] = "", sum[60];
+        if (named && one->name)
             snprintf(name, sizeof name, "%s ", one->name);
-        if (!terse || panes || c == 0)
-            snprintf(sum, sizeof sum, "%s J", format_present_value(one).text);
+        snprintf(sum, sizeof sum, "%s J", format_present_value(one).text);
         paper_shorten(paper, size,
                       card->box.width -
                           paper_width(paper, FACE_REGULAR, size, sum),
                       name, sizeof name);
         snprintf(line.words, sizeof line.words, "%.150s%s", name, sum);
-        used = card_write_flow(card, at, size, gap, &line, draw);
+        used = card_write_flow(card, at, size, LEGEND_GAP * size, &line, draw);
     }
     if (all->left_out > 0) {
         TextLine line = {.colour = COLOUR_GREY};
         snprintf(line.words, sizeof line.words, "+ %d smaller", all->left_out);
-        used = card_write_flow(card, at, size, gap, &line, draw);
+        used = card_write_flow(card, at, size, LEGEND_GAP * size, &line, draw);
     }
     return used;
 }
@@ -278,7 +273,7 @@ static void leave_out_smallest(Curves *all)
 }
 
 /* Draws the curves with their names and present values above.  In a low card
- * only the first value is written, and the smallest curves are left out. */
+ * the smallest curves are left out. */
 void energies_draw(const Plot *card)
 {
     Curves all = find_curves(card->content);
@@ -286,12 +281,13 @@ void energies_draw(const Plot *card)
     double last;
     int room = card->box.height - paper_pixels(card->paper, MIN_PLOT);
     bool has_legend = !card->content->in_document;
-    bool terse = has_legend && write_legend(card, &all, false, false) > room;
-    while (terse && all.count > 1 &&
-           write_legend(card, &all, true, false) > room)
+    bool named = card->content->panes <= 1 ||
+                 write_legend(card, &all, true, false) <= room;
+    while (has_legend && all.count > 1 &&
+           write_legend(card, &all, named, false) > room)
         leave_out_smallest(&all);
     if (has_legend)
-        box_cut_off(&rest.box, EDGE_TOP, write_legend(card, &all, terse, true));
+        box_cut_off(&rest.box, EDGE_TOP, write_legend(card, &all, named, true));
     Axis energy = make_energies_axis(card->simulation, &all, &last);
     Axis time = {0, plot_round_up(last), false, false, "t in s"};
     Plot plot = plot_create(&rest, time, energy);

@@ -1,4 +1,4 @@
-/* card_listing.c - cards with the lines of an algorithm, and with the lines
+/* card_listing.c - cards with the lines of an algorithm, and with the numbers
  * that the slides' program prints. */
 #include <math.h>
 #include <stdio.h>
@@ -7,7 +7,8 @@
 
 /* Height of a row on a page of the lecture, and otherwise, ems. */
 static const double PAGE_PITCH = 2.1, PITCH = 1.75;
-static const double PRINT_WIDTH = 36; /* ems, width of a printed line */
+/* Height of the table of residuals over that of the main card. */
+static const double TABLE_PART = 0.68;
 
 ShownRow listing_show_row(const Pane *pane, const ListingRow *row)
 {
@@ -126,47 +127,24 @@ bool residuals_fill_row(const FrameContent *content, int row,
     return true;
 }
 
-/* Prints residual and step size of the newest updates that fit.  A page's main
- * card also plots the residuals, in its lower half. */
+/* Draws the table; a page's main card also plots the residuals, below it. */
 void residual_log_draw(const Plot *card)
 {
-    Paper *paper = card->paper;
-    Plot below = *card;
-    Box inside = card->box;
-    CardTableRow cells;
+    static const int order[CARD_COLUMNS] = {0, 1, 3, 2};
+    Plot above = *card, below = *card;
     const Trace *trace = card->pane->shown_trace;
-    bool plots = trace && inside.height > 14 * paper->em;
-    double size = fmin(inside.width / (PRINT_WIDTH * paper->em), 1.5);
-    bool narrow = size < 1; /* leaves words out */
-    size = narrow ? 0.95 : size;
     if (card->content->in_document) {
         residual_draw(card);
         return;
     }
-    if (plots) {
-        inside = box_cut_off(&below.box, EDGE_TOP, inside.height / 2);
+    if (trace && card->box.height > 14 * card->em) {
+        above.box = box_cut_off(&below.box, EDGE_TOP,
+                                (int)(TABLE_PART * card->box.height));
+        above.box.height -= paper_pixels(card->paper, 0.7);
         residual_draw(&below);
     }
-    int pitch = paper_pixels(paper, 1.5 * size), room = inside.height / pitch;
-    int count = trace ? trace->updates : 0,
-        first = count > room - 1 ? count - (room - 1) : 0;
-    if (count == 0 && !plots)
-        card_write_hint(card, text_undrawn);
-    for (int i = 0; i < room; i++) {
-        double y = inside.y + i * pitch;
-        if (!card_fill_row(card->content, &card_prints, first + i + 1, &cells))
-            return;
-        if (first + i == count) {
-            paper_write(paper, FACE_MONO, size, COLOUR_FAINT, inside.x, y,
-                        ALIGN_LEFT, "%s", cells.cell[1]);
-            return;
-        }
-        int x = paper_write(
-            paper, FACE_MONO, size, COLOUR_TEXT, inside.x, y, ALIGN_LEFT,
-            "%s%s: residual = %s  step%s = %s", narrow ? "" : "Iteration ",
-            cells.cell[0], cells.cell[1], narrow ? "" : " size", cells.cell[2]);
-        paper_write(paper, FACE_MONO, size, COLOUR_P,
-                    inside.x + x + 1.2 * size * paper->em, y, ALIGN_LEFT, "%s",
-                    cells.cell[3]);
-    }
+    if (trace && trace->updates > 0)
+        card_draw_table(&above, &card_prints, order);
+    else
+        card_write_hint(&above, text_undrawn);
 }

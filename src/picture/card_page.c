@@ -1,5 +1,6 @@
 /* card_page.c - the texts of a page, and the claim below a page's code. */
 #include <limits.h>
+#include <math.h>
 
 #include "picture/cards.h"
 
@@ -11,8 +12,11 @@ typedef struct PageText {
     double size;         /* size of the letters, times LETTERS */
 } PageText;
 
-static const double LETTERS = 1.2;  /* ems, usual size of a page's letters */
-static const double SMALLEST = 0.9; /* ems, least size of a page's letters */
+/* Sizes of a page's letters, ems: the usual one, that of a page with much room,
+ * and the least one. */
+static const double LETTERS = 1.2, LARGEST = 1.45, SMALLEST = 0.8;
+static const double LINE_WIDTH =
+    24; /* least width of a line, sizes of a letter */
 /* Sizes over that of the letters: letters of a verdict and of a formula, width
  * of the heading of a text and of the heading "Tested". */
 static const double VERDICT_SIZE = 1.5, FORMULA_SIZE = 1.25,
@@ -32,7 +36,7 @@ static int lay_out_text(Paper *paper, Box inside, int y, double size,
     Box box = {inside.x, y, inside.width, 0};
     TextLine line = text_begin(&active_pane(content)->values, words->text);
     if (words->heading) {
-        int width = paper_pixels(paper, room * size);
+        int width = paper_pixels(paper, room * fmax(size, paper->min_letter));
         box.x += width;
         box.width -= width;
     }
@@ -52,10 +56,9 @@ static int lay_out_text(Paper *paper, Box inside, int y, double size,
 }
 
 /* Draws the texts of a page one below the other, or only measures them.
- *   size   ems, size of the letters
- *   brief  whether the first text is left out
+ *   size  ems, size of the letters
  * Returns the height of all texts in pixels. */
-static int lay_out_page(Paper *paper, Box inside, double size, bool brief,
+static int lay_out_page(Paper *paper, Box inside, double size,
                         const FrameContent *content, bool draw)
 {
     const LecturePage *page = content->lecture.page;
@@ -66,7 +69,7 @@ static int lay_out_page(Paper *paper, Box inside, double size, bool brief,
     bool asks = content->lecture.hides_answer;
     bool judged = content->lecture.verdict && !asks;
     const PageText words[] = {
-        {NULL, brief ? NULL : page->text, COLOUR_TEXT, 1},
+        {NULL, page->text, COLOUR_TEXT, 1},
         {NULL, page->formula, COLOUR_TEXT, FORMULA_SIZE},
         {judged ? "Ask" : NULL, judged ? page->ask : NULL, COLOUR_X, 1},
         {judged ? "You" : NULL, judged ? content->lecture.verdict : NULL,
@@ -81,22 +84,29 @@ static int lay_out_page(Paper *paper, Box inside, double size, bool brief,
     return y - (int)(GAP * text_line_height(size * paper->em)) - inside.y;
 }
 
-/* Texts that do not fit in the usual size are written smaller.  If the smallest
- * letters are too large, too, and the answer is shown, the first text of the
- * page is left out: the reader has seen the text with the question. */
+/* Returns the height of the texts in pixels, with the question or with the
+ * answer, whichever is higher: the size of the letters stays when the answer
+ * comes. */
+static int measure_page(Paper *paper, Box inside, double size,
+                        const FrameContent *content)
+{
+    FrameContent answered = *content;
+    answered.lecture.hides_answer = false;
+    values_add_flag(&answered.pane[content->active].values, "told", true);
+    int question = lay_out_page(paper, inside, size, content, false),
+        answer = lay_out_page(paper, inside, size, &answered, false);
+    return question > answer ? question : answer;
+}
+
+/* The letters are as large as all texts fit. */
 void page_draw(const Plot *card)
 {
-    Paper *paper = card->paper;
-    const FrameContent *content = card->content;
-    double size = LETTERS;
-    bool brief = false, asks = content->lecture.hides_answer;
-    while ((size > SMALLEST || !(brief || asks)) &&
-           lay_out_page(paper, card->box, size, brief, content, false) >
-               card->box.height) {
-        brief = brief || size <= SMALLEST;
-        size = size > SMALLEST ? size - 0.05 : LETTERS;
-    }
-    lay_out_page(paper, card->box, size, brief, content, true);
+    double size =
+        fmin(fmax(card->box.width / (LINE_WIDTH * card->em), LETTERS), LARGEST);
+    while (size > SMALLEST && measure_page(card->paper, card->box, size,
+                                           card->content) > card->box.height)
+        size -= 0.05;
+    lay_out_page(card->paper, card->box, size, card->content, true);
 }
 
 Box page_draw_claim(Paper *paper, Box inside, const FrameContent *content)
@@ -112,13 +122,22 @@ Box page_draw_claim(Paper *paper, Box inside, const FrameContent *content)
     return inside;
 }
 
-/* Returns the height in ems of the whole card with all texts of the page.
- *   wide  ems, width of the texts */
-double page_needed_height(const FrameContent *content, double wide, double em)
+/* Returns the height in ems of the whole card, in letters of this size. */
+static double height_of_card(const FrameContent *content, double wide,
+                             double em, double size)
 {
     Paper paper = {.text = content->text, .em = em, .min_letter = 1};
     Box box = {0, 0, (int)(wide * em + 0.5), 0};
     const double around = 2.6; /* ems, title and margin */
-    return lay_out_page(&paper, box, LETTERS, false, content, false) / em +
-           around;
+    return measure_page(&paper, box, size, content) / em + around;
+}
+
+double page_needed_height(const FrameContent *content, double wide, double em)
+{
+    return height_of_card(content, wide, em, LETTERS);
+}
+
+double page_least_height(const FrameContent *content, double wide, double em)
+{
+    return height_of_card(content, wide, em, SMALLEST);
 }

@@ -199,37 +199,22 @@ bool updates_fill_row(const FrameContent *content, int row, CardTableRow *cells)
     return true;
 }
 
-static const double UPDATE_PITCH = 1.45; /* ems, height of a row of the table */
-
 /* Returns the height of the card in ems; the table has at least six rows. */
 double updates_needed_height(const FrameContent *content, double wide,
                              double em)
 {
     (void)wide, (void)em;
     const Trace *trace = active_pane(content)->trace;
-    return UPDATE_PITCH * (1 + fmax(6, trace ? trace->updates : 0)) + 2.8;
+    return CARD_ROW * (1 + fmax(6, trace ? trace->updates : 0)) + 2.8;
 }
 
-/* Draws all updates, or update 1 and the newest updates that fit. */
 void updates_draw(const Plot *card)
 {
-    static const double ends[2][6] = {{0.05, 0.25, 0.52, 0.63, 1},
-                                      {0.05, 0.2, 0.6, 0.67, 1, 0.38}};
-    double pitch = UPDATE_PITCH * card->em, y = card->box.y + 0.2 * card->em;
-    int room = (int)(card->box.height / pitch - 1), rows = 0;
-    CardTableRow cells;
-    while (card_fill_row(card->content, &card_updates, rows, &cells))
-        rows++;
-    int skipped = rows - 1 > room ? rows - 1 - room : 0;
-    const double *right = ends[cells.columns > 5];
-    for (int i = 0; i < rows - skipped; i++) {
-        card_fill_row(card->content, &card_updates, i > 1 ? i + skipped : i,
-                      &cells);
-        for (int c = i == 0; c < cells.columns; c++)
-            paper_write(card->paper, i ? FACE_REGULAR : FACE_BOLD, 1,
-                        COLOUR_TEXT, card->box.x + right[c] * card->box.width,
-                        y + i * pitch, ALIGN_RIGHT, "%s", cells.cell[c]);
-    }
-    if (rows == 0)
+    static const int order[2][CARD_COLUMNS] = {{0, 1, 2, 4, 3},
+                                               {0, 1, 4, 5, 2, 3}};
+    bool raw = card->simulation->options.projection == PROJECTION_NONE;
+    if (card->pane->trace)
+        card_draw_table(card, &card_updates, order[raw]);
+    else
         card_write_hint(card, text_undrawn);
 }

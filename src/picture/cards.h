@@ -8,6 +8,7 @@
 
 static const double MAIN_CARD_WIDTH = 40; /* ems, least width of a main card */
 static const double TITLE_BAR = 2.0;      /* ems, height of a card's title */
+static const double CARD_ROW = 1.45; /* ems, least height of a table's row */
 
 /* A line of an algorithm.  The strings are texts of live_values.h. */
 typedef struct ListingRow {
@@ -65,6 +66,9 @@ extern CardTable residuals_fill_row, updates_fill_row, iterates_fill_row,
 extern CardHeight page_needed_height, listing_needed_height,
     energies_needed_height, updates_needed_height;
 
+/* Returns the height of the page's card with the smallest letters, ems. */
+CardHeight page_least_height;
+
 /* Writes the page's claim, which a test checks, at the bottom of the box.
  * Returns the box above the claim. */
 Box page_draw_claim(Paper *paper, Box inside, const FrameContent *content);
@@ -106,6 +110,12 @@ Box card_inner_box(Box card, double em);
 
 /* Writes the first known line of a text in the middle of an empty card. */
 void card_write_hint(const Plot *card, const char *text);
+
+/* Draws a table with columns as wide as their widest cells, rows without a
+ * first cell apart.  Columns without room are left out, the last ones in
+ * `order` first; of rows without room, those that follow row 1. order
+ * [CARD_COLUMNS] in, numbers of all columns */
+void card_draw_table(const Plot *card, const Card *table, const int *order);
 
 /* Returns what a row of a listing shows. */
 ShownRow listing_show_row(const Pane *pane, const ListingRow *row);

@@ -4,7 +4,7 @@
 #include "picture/cards.h"
 
 /* Shades from few updates (light) to many (dark), by powers of two. */
-enum { ENVELOPE_SHADES = 6 };
+enum { ENVELOPE_SHADES = 4 };
 
 static Colour colour_of_shade(int shade)
 {
@@ -105,8 +105,8 @@ void envelope_add_values(const Simulation *simulation, LiveValues *values)
         converged += one->known && !one->worst;
         only_rounding = only_rounding && (!one->worst || ratio > 1e16);
     }
-    values->colour[0] = colour_of_shade(4);
-    values->colour[1] = colour_of_shade(3);
+    values->colour[0] = colour_of_shade(ENVELOPE_SHADES);
+    values->colour[1] = colour_of_shade(2);
     values->colour[2] = COLOUR_REFUSED;
     bool all = known == ENVELOPE_ROWS * ENVELOPE_COLUMNS;
     values_add_flag(values, all ? "all runs" : "some runs", true);

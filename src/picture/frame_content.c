@@ -432,6 +432,7 @@ static void prepare_paper(Paper *paper, double em, const FrameContent *content)
 {
     paper->em = em;
     paper->unit = em / 14;
+    paper->word_count = 0;
     paper->min_letter = content->lecture.page ? 1 : 0;
     canvas_clear(&paper->canvas, COLOUR_WHITE);
 }

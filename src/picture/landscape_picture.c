@@ -136,11 +136,11 @@ static Plot draw_map(const Plot *stage)
     const double *x = simulation->run[0].x;
     Plot plot =
         plot_create_on_stage(stage, (Axis){.label = "x in m"}, (Axis){0});
-    bool elastic = exhibit->switches != PART_INERTIA;
+    bool curves = shows_layer(stage, LAYER_CURVES);
     draw_contour_map(&plot);
     if (plot.has_text && stage->content->lecture.page)
         write_levels(&plot);
-    plot_springs(&plot, system, x, 3.5, elastic ? COLOUR_REST : COLOUR_GRID);
+    plot_springs(&plot, system, x, 3.5, curves ? COLOUR_GRID : COLOUR_REST);
     for (int i = 1; i < system->nodes; i++)
         plot_pin(&plot, x + 2 * i, 5);
     plot_disc(&plot, exhibit->target, 6, COLOUR_X_TILDE);
@@ -330,10 +330,12 @@ void landscape_add_values(const Simulation *simulation, LiveValues *values)
     values_add_flag(values, "went uphill", up);
 }
 
-/* If H is positive definite, draws three contours of the quadratic model around
- * its minimum x + p.  The largest one passes through the iterate. */
+/* If H is positive definite, draws contours of the quadratic model around its
+ * minimum x + p, two beside the curves g = 0, else three.  The largest one
+ * passes through the iterate. */
 static void draw_model_ellipses(const Plot *plot, const LocalModel *E)
 {
+    bool curves = shows_layer(plot, LAYER_CURVES);
     static const double levels[] = {1, 0.6, 0.25};
     const Descent *descent = &plot->simulation->descent;
     const double *x = descent->point, *p = descent->direction;
@@ -343,10 +345,11 @@ static void draw_model_ellipses(const Plot *plot, const LocalModel *E)
     double height = low * q * q + rest * p[1] * p[1];
     if (!(low > 0 && rest > 0))
         return;
-    for (int k = 0; k < 3; k++) {
+    for (int k = 0; k < 3; k += 1 + curves) {
         double radius = levels[k] * sqrt(height), up = radius / sqrt(rest);
         const double a[2] = {radius / sqrt(low), 0}, b[2] = {-lift * up, up};
-        plot_ellipse(plot, point_along(x, 1, p).at, a, b, 1.6, false, COLOUR_P);
+        plot_ellipse(plot, point_along(x, 1, p).at, a, b, curves ? 1 : 1.6,
+                     false, COLOUR_P);
     }
 }
 
@@ -360,9 +363,11 @@ static void draw_linearised_zeros(const Plot *plot, const LocalModel *E)
         double far = length_beyond_view(plot) / sqrt(square);
         const Point foot = point_along(x, -E->g[k] / square, slope);
         plot_dashes(plot, point_along(foot.at, -far, across).at,
-                    point_along(foot.at, far, across).at, 1.6, NULL,
+                    point_along(foot.at, far, across).at, 2.4, NULL,
                     curve_colour[k]);
     }
+    plot_ring(plot, point_along(x, 1, plot->simulation->descent.direction).at,
+              8, 2.4, COLOUR_P);
 }
 
 /* Draws the half plane g . p < 0 of the directions that point downhill. */
@@ -416,7 +421,7 @@ void landscape_draw(Plot *stage)
         draw_directions(&plot, plot.has_text && both);
     if (halves)
         draw_negative_gradient(&plot, &E);
-    if (stage->revealed && plot.has_text &&
+    if (stage->revealed && plot.has_text && !shows_layer(&plot, LAYER_CURVES) &&
         simulation->exhibit.switches != PART_INERTIA)
         mark_stationary_points(&plot);
     plot_disc(&plot, descent->point, 7, COLOUR_TEXT);

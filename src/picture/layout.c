@@ -7,10 +7,13 @@
 
 /* Heights of the zones, ems. */
 static const double STRIP = 3.1, SETTINGS = 2.6, TIME_LINE = 4.9, CHIPS = 3.0;
+/* A graph on a page has at least this part of the window's height, and room for
+ * title and axes and for a legend, ems. */
+static const double GRAPH_PART = 0.195, GRAPH_AXES = 4.4, GRAPH_LEGEND = 1.5;
 /* Further sizes, ems. */
 static const double GAP = 0.9;     /* margins of the zones, gap between cards */
 static const double LETTER = 0.56; /* average width of a letter */
-static const double SETTING_GAP = 0.9;  /* gap between settings */
+static const double SETTING_GAP = 0.3;  /* gap between settings */
 static const double CHIP_PADDING = 1.2; /* width of a chip beyond its letters */
 static const double BARS = 2.4;         /* height of the time line's bars */
 static const double NAME = 1.8;         /* height of a cell's name */
@@ -21,21 +24,23 @@ static const double MIN_PAIR = 28;      /* least width for two cards in a row */
 static const double BOLD = 1.12; /* width of bold over normal letters */
 /* If the main card is on the stage and the column has no room, the picture has
  * this part of the stage: the width beside the card, the height below. */
-static const double PICTURE_PART = 0.4;
+static const double PICTURE_PART = 0.45;
 /* A picture that would be narrower than this beside the main card, ems, stands
  * below the card and has the part PICTURE_BELOW of the stage's height. */
-static const double MIN_BESIDE = 15, PICTURE_BELOW = 0.56;
+static const double MIN_BESIDE = 17, PICTURE_BELOW = 0.56;
+/* A card below the picture has at most this part of the stage's height. */
+static const double CARD_BELOW = 0.6;
 /* A main card below the picture is at least this many times as high as its
- * min_height. */
-static const double MAIN_CARD_GROWTH = 1.3;
-/* Cards close if they need more than this many times the column's height. */
-static const double MAX_SQUEEZE = 1.15;
+ * min_height, and has at most this part of the stage's height. */
+static const double MAIN_CARD_GROWTH = 1.3, MAIN_CARD_PART = 0.66;
 /* In a low window the settings have this part of the width. */
 static const double SETTINGS_PART = 0.75;
 
-/* Width of the column over that of the window; at most WIDE_PART for code, and
- * for lists of more than MOST_ROWS rows. */
-static const double COLUMN_PART = 0.38, WIDE_PART = 0.75;
+/* Width of the column over that of the window: usually; at most for the texts
+ * of a page, in large type, and for code and lists of more than MOST_ROWS rows.
+ */
+static const double COLUMN_PART = 0.38, PAGE_PART = 0.46, BIG_PART = 0.56,
+                    WIDE_PART = 0.75, COLUMN_GROWTH = 0.01;
 enum { MOST_ROWS = 30 };
 
 /* An em has 14 pixels in a window of 1000 x 800, is proportional to the smaller
@@ -119,15 +124,13 @@ static void place_settings(const SettingsRow *row, Layout *layout, bool low,
                 layout->width - ems_to_pixels(layout, GAP) - left,
                 ems_to_pixels(layout, SETTINGS - 0.4)};
     Box *box = layout->setting;
+    int gap = ems_to_pixels(layout, SETTING_GAP);
     if (low) {
         room = box_cut_off(&layout->time_line, EDGE_RIGHT,
                            (int)(SETTINGS_PART * layout->width));
         layout->settings_row = room;
         room.x += left;
         room.width -= 2 * left;
-    }
-    int gap = ems_to_pixels(layout, SETTING_GAP);
-    if (low) {
         place_first_and_last(room, gap, row->count, width, box);
         layout->settings = row->count;
         return;
@@ -201,12 +204,17 @@ static Box place_zones(const FrameContent *content, Layout *layout)
 
 /* Returns the minimum height of a card whose content is `wide` ems wide, ems.
  */
-static double needed_height(const FrameContent *content, int card, double wide,
-                            double em)
+static double needed_height(const FrameContent *content, const Layout *layout,
+                            int card, double wide)
 {
     const Card *row = active_picture(content)->cards[card];
-    return row->needed_height ? row->needed_height(content, wide, em)
-                              : row->min_height;
+    double em = layout->em;
+    double least = row->needed_height ? row->needed_height(content, wide, em)
+                                      : row->min_height;
+    bool graph = card > 0 && row->draw && !row->has_no_curves;
+    double high = GRAPH_PART * layout->height / em + GRAPH_AXES +
+                  (row->legend_row ? GRAPH_LEGEND : 0);
+    return graph && content->lecture.page ? fmax(least, high) : least;
 }
 
 /* A row of the column, with one card or two. */
@@ -214,6 +222,7 @@ typedef struct CardRow {
     int first_card, card_count;
     bool closed;       /* only the title is seen */
     double min_height; /* ems */
+    double growth;     /* ems, by which the row grows before other rows */
     double weight;     /* weight with which the row shares free height */
 } CardRow;
 
@@ -230,8 +239,8 @@ static int find_main_card(const FrameContent *content)
 /* Finds the rows of all visible cards.  If `pairs`, two cards of half width
  * share a row.  Returns the number of rows.
  *   rows  [LAYOUT_CARDS] out */
-static int find_card_rows(const FrameContent *content, double wide, double em,
-                          bool pairs, CardRow *rows)
+static int find_card_rows(const FrameContent *content, const Layout *layout,
+                          double wide, bool pairs, CardRow *rows)
 {
     const Picture *picture = active_picture(content);
     const CardSets *sets = &content->cards;
@@ -247,7 +256,8 @@ static int find_card_rows(const FrameContent *content, double wide, double em,
                         (card->below_picture || (card->beside_picture && !bar));
         if (sets->hidden >> i & 1 || on_stage)
             continue;
-        double least = bar ? TITLE_BAR : needed_height(content, i, wide, em);
+        double least =
+            bar ? TITLE_BAR : needed_height(content, layout, i, wide);
         if (pairs && half && !bar && before == i - 1) {
             rows[count - 1].card_count = 2;
             rows[count - 1].min_height =
@@ -255,24 +265,40 @@ static int find_card_rows(const FrameContent *content, double wide, double em,
             continue;
         }
         before = half && !bar ? i : -2;
-        rows[count++] = (CardRow){i, 1, bar, least, bar ? 0 : card->weight};
+        rows[count++] = (CardRow){i, 1, bar, least, 0, bar ? 0 : card->weight};
+    }
+    if (content->lecture.page && count > 0 && !rows->closed &&
+        rows->first_card == 0) {
+        double least = page_least_height(content, wide, layout->em);
+        rows->growth = rows->min_height - least;
+        rows->min_height = least;
     }
     return count;
 }
 
-/* Gives each row its minimum height, and shares the free height by the weights.
- * If the column is too low, closes rows from the last one on, unless cards
- * stand in pairs; then shrinks all heights alike. */
-static void place_cards(const FrameContent *content, Layout *layout)
+/* Returns the margin around the cards in pixels, narrow in large type. */
+static int column_margin(const FrameContent *content, const Layout *layout)
 {
-    CardRow rows[LAYOUT_CARDS];
+    bool big = active_pane(content)->simulation->options.big;
+    return ems_to_pixels(layout, big ? 0.4 : GAP);
+}
+
+/* Gives each row its minimum height, lets the texts of a page grow to their
+ * usual size, and shares the rest of the free height by the weights.
+ * If the column is too low, closes rows from the last one on, unless cards
+ * stand in pairs; then shrinks all heights alike, but not the page's texts.
+ * Returns whether the column is high enough, in large type for the texts alone.
+ */
+static bool place_cards(const FrameContent *content, Layout *layout)
+{
+    CardRow rows[LAYOUT_CARDS] = {{0}};
     int gap = ems_to_pixels(layout, GAP * 0.75),
         bar = ems_to_pixels(layout, TITLE_BAR);
-    Box rest = box_inset(layout->column, ems_to_pixels(layout, GAP));
-    bool pairs = layout->column.width >= MIN_PAIR * layout->em;
+    Box rest = box_inset(layout->column, column_margin(content, layout));
+    bool big = active_pane(content)->simulation->options.big;
+    bool pairs = !big && layout->column.width >= MIN_PAIR * layout->em;
     double wide = card_inner_box(rest, layout->em).width / layout->em;
-    int count = find_card_rows(content, wide, layout->em, pairs, rows),
-        open = 0;
+    int count = find_card_rows(content, layout, wide, pairs, rows), open = 0;
     double room = (rest.height + gap) / layout->em, bars = 0, least = 0;
     double weights = 1e-9, ems = gap / layout->em;
     for (int i = 0; i < count; i++) {
@@ -281,18 +307,24 @@ static void place_cards(const FrameContent *content, Layout *layout)
         least += rows[i].closed ? 0 : rows[i].min_height;
     }
     for (int i = count - 1; i > 0 && open > 1 && !pairs; i--)
-        if (!rows[i].closed && bars + least > MAX_SQUEEZE * room) {
+        if (!rows[i].closed && bars + least > room) {
             least -= rows[i].min_height;
             bars += TITLE_BAR;
-            rows[i] = (CardRow){rows[i].first_card, 1, true, TITLE_BAR, 0};
+            rows[i] = (CardRow){rows[i].first_card, 1, true, TITLE_BAR, 0, 0};
             open--;
         }
     for (int i = 0; i < count; i++)
         weights += rows[i].weight;
     room -= bars;
+    double growth = fmin(fmax(room - least, 0), rows->growth);
+    bool fits = growth == rows->growth || (big && least <= room);
+    double texts = rows->growth > 0 ? rows->min_height + growth : 0;
+    rows->min_height += growth;
+    least += growth;
+    double shrink = least > room ? (room - texts) / (least - texts) : 1;
     for (int i = 0; i < count; i++) {
         const CardRow *row = &rows[i];
-        double high = row->min_height * (least > room ? room / least : 1) +
+        double high = row->min_height * (i > 0 || texts == 0 ? shrink : 1) +
                       row->weight * fmax(room - least, 0) / weights;
         int height = ems_to_pixels(layout, high);
         Box box = box_cut_off(&rest, EDGE_TOP,
@@ -302,6 +334,7 @@ static void place_cards(const FrameContent *content, Layout *layout)
             layout->card[row->first_card + k] =
                 column_of_box(box, k, row->card_count, gap);
     }
+    return fits;
 }
 
 /* Places the panes in the number of columns that gives the largest panes. */
@@ -397,11 +430,11 @@ static void place_main_card(const FrameContent *content, Layout *layout)
     Box *stage = &layout->pane[0], place = layout->card[main_card];
     if (card->below_picture) {
         double wide = stage->width / layout->em;
-        double needs = fmax(needed_height(content, main_card, wide, layout->em),
+        double needs = fmax(needed_height(content, layout, main_card, wide),
                             MAIN_CARD_GROWTH * card->min_height);
-        place_card_below(
-            layout, main_card,
-            fmin((needs + 2 * GAP) * layout->em, 0.6 * stage->height));
+        place_card_below(layout, main_card,
+                         fmin((needs + 2 * GAP) * layout->em,
+                              MAIN_CARD_PART * stage->height));
         return;
     }
     bool beside = card->beside_picture;
@@ -418,11 +451,10 @@ static void place_main_card(const FrameContent *content, Layout *layout)
     *stage = place;
 }
 
-/* On a page, places below the picture, in at most half of the stage, the first
- * card that has no room in the column.  Exceptions: pages with a main card or
- * an enlarged card; in normal type also pages with switches, with several
- * panes, or with a law's bodies (unless code is shown), which need the whole
- * stage. */
+/* On a page, places below the picture, in a part of the stage, the first card
+ * that has no room in the column.  Exceptions: pages with a main card or an
+ * enlarged card; beside code in normal type also pages with several switches or
+ * panes, which need the whole stage. */
 static void place_card_without_room(const FrameContent *content, Layout *layout)
 {
     const Simulation *simulation = active_pane(content)->simulation;
@@ -433,19 +465,22 @@ static void place_card_without_room(const FrameContent *content, Layout *layout)
            (shut >> folded & 1 ||
             (layout->card[folded].height != bar && !layout->has_list)))
         folded++;
-    bool big = options->big;
     if (!content->lecture.page || options->main_card ||
         content->cards.enlarged >= 0 || folded >= layout->cards ||
-        (!big && ((options->law && !layout->has_list) || layout->panes != 1 ||
-                  simulation->scene->switch_labels[layout->has_list])))
+        (!options->big && layout->has_list &&
+         (layout->panes != 1 || simulation->scene->switch_labels[1])))
         return;
     const Box *stage = &layout->stage;
     double em = layout->em;
-    double needs = needed_height(content, folded, stage->width / em, em);
+    double needs = needed_height(content, layout, folded, stage->width / em);
     double room = layout->has_list ? stage->height - 0.8 * stage->width : 0;
+    Box title = layout->card[folded];
     place_card_below(
         layout, folded,
-        fmin(fmax((needs + 2 * GAP) * em, room), 0.5 * stage->height));
+        fmin(fmax((needs + 2 * GAP) * em, room), CARD_BELOW * stage->height));
+    Box *page = &layout->card[0]; /* may have the room of a bar below it */
+    if (!layout->has_list && title.y <= page->y + page->height + em)
+        page->height = title.y + title.height - page->y;
 }
 
 /* On a page an em is at least the smaller one of height/55 and width/64; in
@@ -477,19 +512,23 @@ Layout layout_create(const FrameContent *content, int width, int height)
     if (!content->bare && wide >= 53 && high >= 34 && !low &&
         (page || content->cards.hidden != (1u << picture->count) - 1)) {
         double most = WIDE_PART * wide;
-        double ems = fmax(COLUMN_PART * wide, MIN_COLUMN);
-        if (content->column == COLUMN_CODE)
-            ems =
-                fmin(fmax(code_needed_width(content->lecture.page), ems), most);
-        else if (page && content->list.rows > MOST_ROWS)
-            ems = most;
-        int column = ems_to_pixels(&layout, ems);
-        layout.column = layout.stage;
-        layout.column.width = column;
-        layout.column.x += layout.stage.width - column;
-        layout.stage.width -= column;
-        if (!page)
-            place_cards(content, &layout);
+        double part = COLUMN_PART, end = big ? BIG_PART : PAGE_PART;
+        const Box whole = layout.stage;
+        bool widens;
+        do {
+            double ems = fmax(part * wide, MIN_COLUMN);
+            if (content->column == COLUMN_CODE)
+                ems = fmin(fmax(code_needed_width(content->lecture.page), ems),
+                           most);
+            else if (page && content->list.rows > MOST_ROWS)
+                ems = most;
+            layout.stage = whole;
+            layout.column = box_cut_off(&layout.stage, EDGE_RIGHT,
+                                        ems_to_pixels(&layout, ems));
+            widens = !page && !place_cards(content, &layout) &&
+                     content->lecture.page && part < end;
+            part += COLUMN_GROWTH;
+        } while (widens);
         if (!page || content->column == COLUMN_CODE)
             layout.cards = picture->count;
     } else if (!content->bare && page) { /* the column covers the stage */

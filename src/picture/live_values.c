@@ -413,7 +413,7 @@ void card_write_text(const Plot *card, const LiveValues *values,
         int width = paper_width(paper, line.face, 1, line.words);
         height += draw_text_line(paper, box, 1, &line, false);
         if (width > 0)
-            size = fmin(size, (double)box.width / width);
+            size = fmin(size, 0.97 * box.width / width);
     }
     size = fmax(fmin(size, box.height / height), paper->min_letter);
     for (TextLine line = begin; text_next_line(&line);)

@@ -32,6 +32,11 @@ int paper_pixels(const Paper *paper, double ems)
     return (int)floor(ems * paper->em + 0.5);
 }
 
+void paper_keep_words(Paper *paper, Box box)
+{
+    paper->words[paper->word_count++ % PAPER_WORDS] = box;
+}
+
 static TextStyle paper_style(const Paper *paper, Face face, double size,
                              Colour colour)
 {
@@ -84,10 +89,10 @@ int paper_write_on_panel(Paper *paper, Face face, double size, Colour colour,
     int wide = paper_width(paper, face, size, markup);
     int left = pixel_from_coordinate(x) - (int)align * wide / 2;
     int air = paper_pixels(paper, 0.3);
-    canvas_fill(&paper->canvas,
-                (Box){left - air, pixel_from_coordinate(y), wide + 2 * air,
-                      paper_pixels(paper, 1.36 * size)},
-                COLOUR_PANEL);
+    Box panel = {left - air, pixel_from_coordinate(y), wide + 2 * air,
+                 paper_pixels(paper, 1.36 * size)};
+    canvas_fill(&paper->canvas, panel, COLOUR_PANEL);
+    paper_keep_words(paper, panel);
     return paper_write(paper, face, size, colour, x, y, align, "%s", markup);
 }
 

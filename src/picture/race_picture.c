@@ -21,50 +21,6 @@ void race_bounds(const Plot *stage, double bounds[4])
     bounds[3] = over_h ? 2.5 : 3; /* room for the switch above */
 }
 
-/* Writes the names of methods into a column beside their points, with a line to
- * each point.
- *   over_h   the plot is over h, and the left column has all names
- *   on_left  writes the left column, of explicit methods; else the right
- *            column, of implicit methods */
-static void write_method_names(const Plot *plot,
-                               const double point[RACE_METHODS][2], bool over_h,
-                               bool on_left)
-{
-    Paper *paper = plot->paper;
-    double at[RACE_METHODS][2], column = NAN, way = on_left ? -1 : 1;
-    double line = 1.25 * paper->em, end = plot->box.x + plot->box.width;
-    double row = plot->box.y + line; /* the first row is below the legend */
-    double last = plot->box.y + plot->box.height - line;
-    for (int i = 0; i < RACE_METHODS; i++) {
-        plot_to_pixel(plot, point[i], at[i]);
-        bool left = over_h || !race_get_method(i)->implicit;
-        at[i][1] = left == on_left ? at[i][1] : NAN;
-        last -= isnan(at[i][1]) ? 0 : line;
-        if (!isnan(at[i][1]))
-            column = way * fmax(way * column, way * at[i][0]);
-    }
-    for (;;) {
-        int next = 0;
-        for (int i = 1; i < RACE_METHODS; i++)
-            next = isnan(at[next][1]) || at[i][1] < at[next][1] ? i : next;
-        if (isnan(at[next][1]))
-            return;
-        const IntegratorMethod *method = race_get_method(next);
-        Colour colour = colour_of_name(method->name);
-        double wide = paper_width(paper, FACE_BOLD, 1, method->label);
-        double x = column + way * 1.4 * paper->em;
-        x = on_left ? x : fmin(x, end - wide);
-        last += line;
-        row = fmin(fmax(at[next][1], row + line), last);
-        canvas_line(&paper->canvas, at[next][0], at[next][1],
-                    x - way * 0.3 * paper->em, row, 1, colour);
-        paper_write_on_panel(paper, FACE_BOLD, 1, colour, x,
-                             row - 0.65 * paper->em,
-                             on_left ? ALIGN_RIGHT : ALIGN_LEFT, method->label);
-        at[next][1] = NAN;
-    }
-}
-
 /* Draws a curve through the points of each method; points of runs that explode
  * later are hollow.  Over h also draws the slopes of order 1 and 2. */
 void race_draw(Plot *stage)
@@ -106,8 +62,10 @@ void race_draw(Plot *stage)
         plot_dashes(&plot, from, to, 1.2, NULL, COLOUR_GREY);
         plot_label(&plot, 1, to, COLOUR_GREY, "order %d", order);
     }
-    for (int on_left = 0; on_left < 2 && wide; on_left++)
-        write_method_names(&plot, named, over_h, on_left);
+    for (int method = 0; method < RACE_METHODS && wide; method++)
+        plot_label(&plot, 1, named[method],
+                   colour_of_name(race_get_method(method)->name), "%s",
+                   race_get_method(method)->label);
 }
 
 /* Adds the fastest stable runs within the target error: an explicit one and an
@@ -194,47 +152,12 @@ bool race_fill_row(const FrameContent *content, int row, CardTableRow *cells)
     return true;
 }
 
-/* Draws the columns that have room, chosen by importance. */
+/* Draws the table; the plot over h is about errors, the other one about energy
+ * and stability. */
 void race_table_draw(const Plot *card)
 {
-    static const char *const widest[CARD_COLUMNS] = {
-        "implicit midpoint",
-        "4.4\u00b710^{\u22125}",
-        "\u00f7 6.4",
-        "\u00f7 6.4",
-        "0.5 ms",
-        "0.25 ms",
-        "\u00d7 8.9\u00b710^{\u22128}",
-        "(if linear)",
-        "0.0055 ms"};
     static const int order[2][CARD_COLUMNS] = {{0, 6, 7, 1, 2, 3, 4, 5, 8},
                                                {0, 2, 3, 4, 5, 1, 6, 7, 8}};
-    const int *next = order[card->simulation->exhibit.switches != 0];
-    Paper *paper = card->paper;
-    Box inside = card->box;
-    CardTableRow cells;
-    double wide[CARD_COLUMNS], gap = 0.8 * paper->em, rest = inside.width;
-    double line = fmin(3.6 * paper->em, inside.height / (RACE_METHODS + 1.0));
-    bool shown[CARD_COLUMNS] = {false};
-    int count = 0;
-    for (int c = 0; c < CARD_COLUMNS; c++)
-        wide[c] = paper_width(paper, FACE_REGULAR, 1, widest[c]);
-    for (; count < CARD_COLUMNS && wide[next[count]] <= rest; count++) {
-        rest -= wide[next[count]] + gap;
-        shown[next[count]] = true;
-    }
-    gap += (rest + gap) / fmax(count - 1, 1);
-    for (int row = 0;
-         card_fill_row(card->content, &card_race_table, row, &cells); row++) {
-        double right = inside.x - gap;
-        for (int c = 0; c < CARD_COLUMNS; c++) {
-            if (!shown[c])
-                continue;
-            right += wide[c] + gap;
-            paper_write(paper, row ? FACE_REGULAR : FACE_BOLD, 1,
-                        c ? COLOUR_TEXT : cells.colour, c ? right : inside.x,
-                        inside.y + row * line, c ? ALIGN_RIGHT : ALIGN_LEFT,
-                        "%s", cells.cell[c]);
-        }
-    }
+    bool over_h = card->simulation->exhibit.switches;
+    card_draw_table(card, &card_race_table, order[over_h]);
 }

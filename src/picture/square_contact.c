@@ -97,34 +97,31 @@ void square_write_friction(const SquarePen *pen)
 {
     const Plot *stage = pen->stage;
     const Obstacle *wall = &pen->contact->obstacle[0];
-    double em = stage->em, from[2], at[2], slope = -wall->n[0] / wall->n[1];
-    char words[120];
+    double slope = -wall->n[0] / wall->n[1], end[2] = {-INFINITY, INFINITY};
+    double at[4], p[2], out = 2 * stage->em / stage->camera.scale[0];
+    bool seen = false;
     if (wall->kind != OBSTACLE_WALL || !(wall->n[1] > 0) ||
         !(fabs(slope) > 1e-6))
         return;
-    camera_to_world(&stage->camera, stage->box.x - em, stage->box.y, from);
-    double left = from[0];
-    for (int i = 0; i < pen->system->nodes; i++)
-        from[0] = fmax(from[0], pen->x[2 * (size_t)i]);
-    if (!(from[0] > left)) /* the body is beyond the left edge */
-        return;
-    from[0] += 2 * em / stage->camera.scale[0];
-    from[1] = wall->o[1] + slope * (from[0] - wall->o[0]);
-    plot_to_pixel(stage, from, at);
-    double low = at[1] + 5 * em - (stage->box.y + stage->box.height);
-    low = fmax(low, 0); /* pixels to move up along the wall into the stage */
-    snprintf(words, sizeof words, "\u03bc = %s tan %s\u00b0",
-             format_number(wall->friction / fabs(slope)).text,
-             format_number(fabs(atan(slope)) / DEGREE).text);
-    double most = stage->box.x + stage->box.width - 0.5 * em -
-                  paper_width(stage->paper, FACE_REGULAR, 0.95, words);
-    paper_write(stage->paper, FACE_REGULAR, 0.95, COLOUR_TEXT,
-                fmin(at[0] + low / fabs(slope), most), at[1] - low + 1.2 * em,
-                ALIGN_LEFT, "%s", words);
+    for (int i = 0; i < pen->system->nodes; i++) {
+        end[0] = fmax(end[0], pen->x[2 * (size_t)i]);
+        end[1] = fmin(end[1], pen->x[2 * (size_t)i]);
+    }
+    for (int k = 0; k < 2; k++) { /* right and left of the body */
+        at[2 * k] = end[k] + (k ? -out : out);
+        at[2 * k + 1] = wall->o[1] + slope * (at[2 * k] - wall->o[0]);
+        plot_to_pixel(stage, at + 2 * k, p);
+        seen = seen || box_contains(stage->box, p[0], p[1]);
+    }
+    if (seen)
+        plot_label(stage, 2, at, COLOUR_TEXT, "\u03bc = %s tan %s\u00b0",
+                   format_number(wall->friction / fabs(slope)).text,
+                   format_number(fabs(atan(slope)) / DEGREE).text);
 }
 
 /* Draws a wall as a half plane or as a thin slab, and a dashed line at the
- * distance `reach` where its force begins. */
+ * distance `reach` where its force begins, enlarged on a page with its letter.
+ */
 static void draw_wall(const Plot *stage, const Obstacle *wall, double reach,
                       bool as_slab)
 {
@@ -144,9 +141,15 @@ static void draw_wall(const Plot *stage, const Obstacle *wall, double reach,
     const double *const corner[] = {left.at, right.at, low[1].at, low[0].at};
     plot_quad(stage, corner, COLOUR_SOLID);
     plot_line(stage, left.at, right.at, 1.5, COLOUR_EDGE);
+    const Point aside = point_along(
+        point_along(o, at + 0.35 * box->width / scale, t).at, reach, n);
+    plot_to_pixel(stage, aside.at, middle);
     if (reach * scale > 2)
         plot_dashes(stage, point_along(left.at, reach, n).at,
                     point_along(right.at, reach, n).at, 1, NULL, COLOUR_GREY);
+    if (reach * scale > 2 * stage->em && stage->content->lecture.page &&
+        box_contains(*box, middle[0], middle[1]))
+        plot_label(stage, 1, aside.at, COLOUR_FAINT, "\u03b4\u0302");
 }
 
 void square_draw_obstacles(const SquarePen *pen)

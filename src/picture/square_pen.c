@@ -8,6 +8,7 @@
 #include "model/neo_hookean.h"
 #include "model/plasticity.h"
 #include "model/spring_law.h"
+#include "picture/cards.h"
 #include "picture/colour_map.h"
 
 enum { MAX_GHOST_SPRINGS = 700 }; /* most springs that a ghost shows */
@@ -78,8 +79,11 @@ SquarePen square_pen_create(Plot *stage, int run)
                                : pen.shade_strain;
     if (pen.colour_range > 0)
         pen.width *= 1.4;
-    pen.shows_projected = trace && trace->line >= LINE_PROJECT &&
-                          trace->line <= LINE_SEARCH &&
+    bool ended = trace && trace->line == LINE_NONE && stage->revealed &&
+                 frame_has_card(content, "prints");
+    pen.shows_projected = trace &&
+                          (ended || (trace->line >= LINE_PROJECT &&
+                                     trace->line <= LINE_SEARCH)) &&
                           !content->shows_strain &&
                           simulation->options.projection != PROJECTION_NONE &&
                           trace->projected != 0 && !neo_hookean_of(system);
@@ -111,12 +115,13 @@ void square_draw_spring(const SquarePen *pen, int s, double width,
 {
     const int *e = pen->system->e + 2 * (size_t)s;
     double p[2], q[2], unit = pen->stage->paper->unit;
-    if (spring_is_broken(pen->system, s) || node_is_fixed(pen, e[0]))
+    bool fixed = node_is_fixed(pen, e[0]);
+    if (spring_is_broken(pen->system, s))
         return;
     camera_to_pixel(&pen->stage->camera, node_position(pen, e[0]), p);
     camera_to_pixel(&pen->stage->camera, node_position(pen, e[1]), q);
     canvas_line(&pen->stage->paper->canvas, p[0], p[1], q[0], q[1],
-                width * unit, colour);
+                (fixed ? 0.7 : 1) * width * unit, fixed ? COLOUR_EDGE : colour);
 }
 
 void square_draw_springs(const SquarePen *pen)

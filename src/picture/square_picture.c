@@ -362,22 +362,12 @@ static void add_warnings(const SquarePen *pen, int folded)
 }
 
 /* Marks the place of a square that is too small to be seen. */
-static void mark_tiny_square(const SquarePen *pen)
+static void mark_tiny_square(const Plot *stage)
 {
-    const Plot *stage = pen->stage;
-    const Box *box = &stage->box;
-    double em = stage->em, origin[2], p[2];
-    plot_to_pixel(stage, (double[2]){0, 0}, origin);
-    double low = origin[1] + 2 * em, least = box->y + box->height - 4 * em;
-    for (int i = 0; i < pen->system->nodes; i++) {
-        plot_to_pixel(stage, pen->x + 2 * i, p);
-        low = p[1] < least ? fmax(low, p[1]) : low;
-    }
-    low = fmin(low + 2.5 * em, box->y + box->height - 1.5 * em);
-    canvas_arrow(&stage->paper->canvas, origin[0], low, origin[0], origin[1],
-                 2 * stage->paper->unit, 9 * stage->paper->unit, COLOUR_TEXT);
-    paper_write_on_panel(stage->paper, FACE_BOLD, 1.1, COLOUR_TEXT, origin[0],
-                         low, ALIGN_CENTRE, "the square was here");
+    double far = 4 * stage->em / stage->camera.scale[0];
+    const double tail[2] = {0, -far}, up[2] = {0, far};
+    plot_arrow(stage, tail, up, 1, 2, COLOUR_TEXT);
+    plot_label(stage, 1, tail, COLOUR_TEXT, "the square was here");
 }
 
 /* Adds the meaning of the colours to the legend. */
@@ -399,7 +389,7 @@ static void add_colour_legend(const SquarePen *pen)
 /* Writes the number of each node beside the node. */
 static void draw_node_numbers(const SquarePen *pen)
 {
-    double at[2], em = pen->stage->em;
+    double at[2], em = pen->stage->em, size = pen->spacing < 6 * em ? 1 : 1.3;
     char number[16];
     for (int i = 0; i < pen->system->nodes; i++) {
         snprintf(number, sizeof number, "%d", i);
@@ -407,11 +397,11 @@ static void draw_node_numbers(const SquarePen *pen)
         const Box *box = &pen->stage->box;
         bool low = at[1] + 2.3 * em > box->y + box->height;
         bool right = at[0] + 3.2 * em > box->x + box->width;
-        at[0] += (right ? -2.6 : 0.7) * em;
+        at[0] += (right ? -2 * size : 0.7) * em;
         at[1] += (low ? -2.1 : 0.4) * em;
         if (box_contains(pen->stage->box, at[0], at[1]))
-            paper_write_on_panel(pen->stage->paper, FACE_BOLD, 1.3, COLOUR_TEXT,
-                                 at[0], at[1], ALIGN_LEFT, number);
+            paper_write_on_panel(pen->stage->paper, FACE_BOLD, size,
+                                 COLOUR_TEXT, at[0], at[1], ALIGN_LEFT, number);
     }
 }
 
@@ -595,9 +585,6 @@ void square_draw(Plot *stage)
         pen[r] = square_pen_create(stage, r);
         square_draw_obstacles(&pen[r]);
     }
-    for (int r = 0; r < runs && runs > 1 && stage->has_text; r++)
-        if (pen[r].contact)
-            square_write_friction(&pen[r]);
     for (int r = 1; r < runs; r++) {
         if (!content->bare)
             square_fill_cells(&pen[r], true);
@@ -623,9 +610,12 @@ void square_draw(Plot *stage)
     if (content->bare)
         return;
     square_draw_forces(pen, runs);
+    for (int r = 0; r < runs && runs > 1; r++)
+        if (pen[r].contact)
+            square_write_friction(&pen[r]);
     if (simulation->mesh.side * stage->camera.scale[0] < 4 &&
         !scene_sets_view(simulation))
-        mark_tiny_square(pen);
+        mark_tiny_square(stage);
     if (pen->shows_projected)
         plot_legend(stage, COLOUR_PROJECT, "projected spring");
     draw_direction(pen);

@@ -22,6 +22,7 @@ enum {
 static const double LINE_ASCENT = 0.93, LINE_DESCENT = 0.37;
 static const double LETTER_ASCENT = 0.76, LETTER_DESCENT = 0.24;
 static const double SCRIPT_SIZE = 0.8;
+static const double MARK_SIZE = 1.3;            /* size of a hat or tilde */
 static const double RAISE = 0.36, LOWER = 0.18; /* offsets of scripts */
 static const double FRACTION_SIZE = 0.9; /* size of a fraction's letters */
 static const double AXIS_HEIGHT = 0.28;  /* height of a fraction's line */
@@ -75,7 +76,8 @@ static void pen_extend(Pen *pen, double top, double bottom)
     pen->bottom = fmax(pen->bottom, bottom);
 }
 
-/* Sets one letter.  A combining mark is centred over the letter before it. */
+/* Sets one letter.  A combining mark is centred over the letter before it, in
+ * bold and large. */
 static void set_letter(Pen *pen, uint32_t letter)
 {
     double em = pen->style.size;
@@ -87,12 +89,12 @@ static void set_letter(Pen *pen, uint32_t letter)
         return;
     }
     const Glyph *glyph =
-        font_get_glyph(pen->text, pen->style.face, size, letter);
+        font_get_glyph(pen->text, mark ? FACE_BOLD : pen->style.face,
+                       mark ? (int)(MARK_SIZE * em + 0.5) : size, letter);
     int x = (int)floor(pen->x + 0.5) + glyph->left, y = base + glyph->top;
     if (mark) {
-        int low = base + pen->letter_top - (size + 8) / 16;
         x = pen->letter_left + (pen->letter_width - glyph->width) / 2;
-        y = y + glyph->height > low ? low - glyph->height : y;
+        y = base + pen->letter_top - (size + 8) / 16 - glyph->height;
     }
     if (pen->canvas && glyph->mask)
         canvas_fill_mask(pen->canvas, x, y, glyph->width, glyph->height,

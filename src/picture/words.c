@@ -16,11 +16,14 @@ static const double LEGEND_SIZE = 0.92; /* ems */
 static const double SCALE_PART = 0.08;
 static const double MAX_PIXEL = 1e6;   /* pixels, farthest labelled point */
 static const double LINE_HEIGHT = 1.3; /* ems, height of a label */
-/* Costs of a label's place: if the label is all on ink, if it is all outside of
- * the plot, and for each place before in the list. */
-static const double COST_INK = 60, COST_OUTSIDE = 30, COST_LATER = 0.08;
+/* Costs of a label's place: if the label is all on ink or on other words, if it
+ * is all outside of the plot, if it is far from its point, and for each place
+ * before in the list. */
+static const double COST_INK = 60, COST_OUTSIDE = 30, COST_FAR = 2.5,
+                    COST_LATER = 0.04;
 static const double LABEL_MARGIN = 0.2;   /* ems, free margin of a label */
-static const double LABEL_DISTANCE = 0.8; /* ems, from point to label */
+/* Ems, from point to label: near and far. */
+static const double LABEL_DISTANCE[] = {0.8, 2};
 static const Colour INK = 190; /* a pixel with a channel below this is ink */
 
 /* ---- numbers ------------------------------------------------------------ */
@@ -105,6 +108,10 @@ double plot_label_cost(const Plot *plot, Box place)
             ink += (pixel & 255) < INK || (pixel >> 8 & 255) < INK ||
                    (pixel >> 16 & 255) < INK;
         }
+    for (int i = 0; i < plot->paper->word_count && i < PAPER_WORDS; i++) {
+        Box both = box_intersection(seen, plot->paper->words[i]);
+        ink += both.width > 0 ? (double)both.width * both.height : 0;
+    }
     return (COST_INK * ink - COST_OUTSIDE * seen.width * seen.height) / area +
            COST_OUTSIDE;
 }
@@ -127,19 +134,20 @@ void plot_label(const Plot *plot, int points, const double *at, Colour colour,
     int high = (int)ceil(LINE_HEIGHT * paper->em);
     Box best = {0, 0, wide, high};
     double least = INFINITY;
-    for (int i = 0; i < 8 * points; i++) {
+    for (int i = 0; i < 16 * points; i++) {
         const int *to = side[i % 8];
+        int far = i / 8 % 2;
         double p[2];
-        plot_to_pixel(plot, at + i / 8 * 2, p);
+        plot_to_pixel(plot, at + i / 16 * 2, p);
         if (!(fabs(p[0]) < MAX_PIXEL && fabs(p[1]) < MAX_PIXEL))
             continue;
-        double apart =
-            (i % 8 < 4 ? LABEL_DISTANCE : 0.7 * LABEL_DISTANCE) * paper->em;
+        double apart = (i % 8 < 4 ? 1 : 0.7) * LABEL_DISTANCE[far] * paper->em;
         Box place = {(int)(p[0] + to[0] * (apart + 0.5 * wide) - 0.5 * wide),
                      (int)(p[1] + to[1] * (apart + 0.5 * high) - 0.5 * high),
                      wide, high};
         Box wider = box_inset(place, -paper_pixels(paper, LABEL_MARGIN));
-        double cost = plot_label_cost(plot, wider) + COST_LATER * i;
+        double cost =
+            plot_label_cost(plot, wider) + COST_FAR * far + COST_LATER * i;
         if (cost < least) {
             least = cost;
             best = place;
@@ -147,9 +155,9 @@ void plot_label(const Plot *plot, int points, const double *at, Colour colour,
     }
     if (wide < 1 || !isfinite(least))
         return;
-    canvas_fill(&paper->canvas,
-                (Box){best.x - 1, best.y + high / 8, wide + 2, high - high / 4},
-                COLOUR_PANEL);
+    Box panel = {best.x - 1, best.y + high / 8, wide + 2, high - high / 4};
+    canvas_fill(&paper->canvas, panel, COLOUR_PANEL);
+    paper_keep_words(paper, panel);
     paper_write(paper, FACE_BOLD, 1, colour, best.x, best.y, ALIGN_LEFT, "%s",
                 words);
 }

@@ -241,7 +241,7 @@ void player_label(const Player *player, int pane, char label[LABEL_SIZE])
            last);
     long seen = past_find_drawable_step(past, pane, last);
     if (seen < last)
-        append(label, LABEL_SIZE, " (drawn: %ld)", seen);
+        append(label, LABEL_SIZE, "; picture of step %ld", seen);
 }
 
 static void fill_pane(const Player *player, int p, Frame *frame)

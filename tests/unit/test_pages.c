@@ -320,11 +320,10 @@ static const char *missing_line(const FrameContent *content, const char *text)
     return NULL;
 }
 
-/* brief: an answer may leave out the page's first text. */
-static const char *missing_words(const FrameContent *content, bool brief)
+static const char *missing_words(const FrameContent *content)
 {
     const LecturePage *page = content->lecture.page;
-    const char *texts[] = {brief ? NULL : page->text, page->formula,
+    const char *texts[] = {page->text, page->formula,
                            content->lecture.hides_answer ? page->ask
                                                          : page->look,
                            content->lecture.hides_answer ? NULL : page->touch};
@@ -375,7 +374,7 @@ static void check_frame(const LecturePage *page, Simulation *simulation,
                         50 * (seen.smallest_code + 0.5) > height);
     }
     if (kind < CODE)
-        missing = missing_words(&content, kind == LARGE);
+        missing = missing_words(&content);
     if (!good || missing || (large && seen.ellipses > 0) ||
         (kind != LIST && seen.cut > 0) || seen.over > 0 ||
         (!cuts && seen.outside > 0))

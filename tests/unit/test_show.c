@@ -504,10 +504,10 @@ TEST(maps_have_levels_and_pulls)
     for (int k = 0; k < 3; k++) { /* the contour itself lies there, too */
         double at[2], far = sqrt(2 * levels[k]);
         int darkest = -9;
-        plot_to_pixel(&stage, (double[]){target[0] - far, target[1]}, at);
+        plot_to_pixel(&stage, (double[]){target[0], target[1] - far}, at);
         for (int i = -9; i < 9; i++)
-            if ((pixel((int)at[0] + i, (int)at[1]) & 255) <
-                (pixel((int)at[0] + darkest, (int)at[1]) & 255))
+            if ((pixel((int)at[0], (int)at[1] + i) & 255) <
+                (pixel((int)at[0], (int)at[1] + darkest) & 255))
                 darkest = i;
         CHECK_AT_MOST(abs(darkest), 1);
     }
