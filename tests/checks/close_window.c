@@ -1,8 +1,7 @@
 /* Asks a window to close, as the cross in its corner does.  Compiled by
  * check_window.sh and linked with libX11.so.6; its headers may be missing, so
  * what is needed of them is declared here.
- *   close_window WINDOW
- */
+ *   close_window WINDOW */
 #include <stdlib.h>
 
 typedef struct Display Display;

@@ -4,8 +4,7 @@
  *   FAULT_AT    the number of the one that fails, from 1; 0: only count
  *   FAULT_FILE  the number of calls goes to this file at the end
  *
- * Counting begins with main.
- */
+ * Counting begins with main. */
 #include <dlfcn.h>
 #include <errno.h>
 #include <stdio.h>

@@ -3,8 +3,7 @@
  *
  *   --seed S     other random scenes (1)
  *   --line LINE  only this one, ten steps
- *   --quick      a tenth of the random scenes, no slow case, no envelope
- */
+ *   --quick      a tenth of the random scenes, no slow case, no envelope */
 #include "stress.h"
 
 #include <math.h>

@@ -3,8 +3,7 @@
  * Squares that are too large for a matrix are judged by conjugate gradients in
  * extended precision, which know their error: M is a lower bound of the clamped
  * Hessian, so |p - exact|_M <= |r|_(M^-1), and the residual is at most
- * sqrt(2/m)/h |r|_(M^-1) away from that of p.
- */
+ * sqrt(2/m)/h |r|_(M^-1) away from that of p. */
 #include "stress.h"
 
 #include <float.h>

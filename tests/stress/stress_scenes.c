@@ -1,6 +1,5 @@
 /* stress_scenes.c - random scenes, each a command line that can be run again;
- * and cases that have a name: places where floating point is known to bite.
- */
+ * and cases that have a name: places where floating point is known to bite. */
 #include "stress.h"
 
 #include <math.h>

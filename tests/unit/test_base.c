@@ -1,6 +1,5 @@
 /* Factorisations of sparse matrices, and what they say of matrices that have
- * none; functions whose last digit is promised.
- */
+ * none; functions whose last digit is promised. */
 #include "test.h"
 
 #include <float.h>

@@ -1,6 +1,5 @@
 /* Films of every kind, opened again with ffmpeg: as many frames as were added,
- * at their rate, and each of them shows what was drawn.
- */
+ * at their rate, and each of them shows what was drawn. */
 #include "test.h"
 
 #include <math.h>

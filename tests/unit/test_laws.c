@@ -4,8 +4,7 @@
  * cells, plastic flow, damping, fracture and what moves, in whole steps: laws
  * of mechanics and the ledger of energies.  What the terms are at one place is
  * for test_terms; that no iterate ever penetrates or turns a cell over is what
- * stress looks at.
- */
+ * stress looks at. */
 #include "test.h"
 
 #include <float.h>

@@ -1,7 +1,6 @@
 /* Every allocation of ours and of CHOLMOD's fails once, and then for good:
  * OUT_OF_MEMORY, every block is freed, nothing crashes.  ../tests.mk wraps the
- * functions.
- */
+ * functions. */
 #include "test.h"
 
 #include <SuiteSparse_config.h>

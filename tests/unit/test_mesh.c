@@ -1,7 +1,6 @@
 /* The square: nodes, springs and numbering as on the slides, the order of
  * elimination, and the text of --pin.  (How it starts is for test_session, how
- * it falls for test_laws, that pins stay for stress.)
- */
+ * it falls for test_laws, that pins stay for stress.) */
 #include "test.h"
 
 #include <math.h>

@@ -1,6 +1,5 @@
 /* Newton's method: every way in which it can end, and that it says which, by
- * formulas that share nothing with it.  (Each update: stress.)
- */
+ * formulas that share nothing with it.  (Each update: stress.) */
 #include "test.h"
 #include "stress.h"
 
@@ -170,8 +169,7 @@ TEST(nearly_singular_steps_end_or_say_why_not)
     }
 }
 
-/* ---- squares of next to no mass -------------------------------------------
- */
+/* ---- squares of next to no mass --------------------------------------- */
 
 /* Against springs of 1e30 J/m^2 the masses are nothing, and the assembled
  * Hessian of a square that may move has pivots of 0 but for rounding.  A shift,
@@ -286,8 +284,7 @@ TEST(backtracking_takes_the_first_that_is_not_higher)
     }
 }
 
-/* ---- ends -----------------------------------------------------------------
- */
+/* ---- ends ------------------------------------------------------------- */
 
 /* A wall that comes in parts gets no more updates than one that does not. */
 TEST(parts_share_one_limit)

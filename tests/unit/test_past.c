@@ -1,8 +1,7 @@
 /* The one past: every state comes back to the last bit, whatever was kept,
  * thrown away (changed, undone: test_session); commands.  The hand: whatever
  * the mouse does, every step ends (its work, and that it wins: test_session;
- * the derivatives of its energy: test_terms).
- */
+ * the derivatives of its energy: test_terms). */
 #include "test.h"
 
 #include <math.h>
@@ -289,8 +288,7 @@ static bool jerked_step(bool descends)
 
 /* Random jerks of the mouse, any timestep, every method: every step ends.  A
  * run with too much energy begins again.  10 000 steps of each with all
- * variations.
- */
+ * variations. */
 TEST(random_drags_end)
 {
     const int steps = tests_many(10000, 150);

@@ -1,6 +1,5 @@
 /* A step is a pure function of the state and the settings: whoever makes it,
- * whatever was made before, the next state has the same bits.
- */
+ * whatever was made before, the next state has the same bits. */
 #include "test.h"
 
 #include <stdio.h>

@@ -1,7 +1,6 @@
 /* The program and src/lecture.c against the slides' own: trajectories of the
  * lecture's Python code, in tests/data/reference.  (Against each other, with
- * other sizes, densities, stiffnesses: check_lecture.sh.)
- */
+ * other sizes, densities, stiffnesses: check_lecture.sh.) */
 #include "test.h"
 
 #include <math.h>

@@ -1,7 +1,6 @@
 /* The table of scenes, the landscape and the map held to formulas written here
  * once more, contact between bodies, and the ledger while hands change a run
- * (what pages say of scenes: claims.txt).
- */
+ * (what pages say of scenes: claims.txt). */
 #include "test.h"
 
 #include <math.h>

@@ -409,8 +409,7 @@ TEST(the_mouse_finds_nodes_and_springs)
         CHECK(picks(pick_at(side ? 0.7 : -0.7, 0.125, 0, 0), PICK_EDGE, side));
 }
 
-/* ---- what is written ------------------------------------------------------
- */
+/* ---- what is written -------------------------------------------------- */
 
 /* Every text that a frame writes. */
 static char written[500][160];

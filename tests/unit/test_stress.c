@@ -1,6 +1,5 @@
 /* A short run of what `make stress` does for minutes, and proofs that its
- * judge sees a broken promise.
- */
+ * judge sees a broken promise. */
 #include "test.h"
 #include "stress.h"
 

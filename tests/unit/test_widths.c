@@ -1,8 +1,7 @@
 /* The loops of multigrid and of CHOLMOD's panels, compiled for one and for two
  * numbers at a time and linked into this suite: their bits are those of the
  * program, which takes as many numbers as the processor has.  The program is
- * named by ELASTO, or build/elasto.
- */
+ * named by ELASTO, or build/elasto. */
 #include "test.h"
 
 #include <inttypes.h>
