@@ -204,7 +204,7 @@ sub passes {
     my ($suite, $again) = @_;
     my $run = $suite =~ /\.sh$/ ? "sh tests/checks/$suite" : "build/release/tests/unit/$suite";
     return system('ulimit -S -t 60; ulimit -c 0; CMOCKA_TEST_ABORT=1 ' .
-        "exec timeout -k 5 900 $run >log 2>&1 </dev/null") == 0 ||
+        "exec timeout -k 5 3600 $run >log 2>&1 </dev/null") == 0 ||
         ($suite =~ /\.sh$/ && !$again && passes($suite, 1));
 }
 
