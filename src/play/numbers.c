@@ -4,8 +4,6 @@
 
 #include "play/playing.h"
 
-/* ---- the row ------------------------------------------------------------- */
-
 /* Returns the option that a command names, or NULL. */
 static const OptionRow *find_command_option(const Command *command)
 {
@@ -114,8 +112,6 @@ Status obey_type(Player *player, const Command *command)
                     typed, list ? "opens" : "checks");
     return STATUS_OK;
 }
-
-/* ---- values -------------------------------------------------------------- */
 
 /* Sets an option of a pane to the value of a command if obstacles have room. */
 static Status set_option_value(Player *player, int pane, const Command *command,

@@ -11,8 +11,6 @@ static CommandFunction *const functions[COMMAND_KINDS] = {
 #undef ROW
 };
 
-/* ---- commands ------------------------------------------------------------ */
-
 /* Counts the nodes, obstacles, cards or others that a command can name. */
 static long count_targets(const Player *player, int pane, CommandKind kind)
 {

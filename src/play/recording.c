@@ -12,8 +12,6 @@
 #include "model/plasticity.h"
 #include "model/spring_law.h"
 
-/* ---- kinds of tables ----------------------------------------------------- */
-
 /* A run at a step, from which the rows of tables are written. */
 typedef struct RunAtStep {
     const Simulation *simulation;
@@ -100,8 +98,6 @@ static const struct {
      "pane:whole", add_springs},
 };
 
-/* ---- pictures ------------------------------------------------------------ */
-
 /* Writes red, green, blue of each pixel; libpng keeps errno of a failure. */
 static Status png_write(FILE *file, const Canvas *canvas)
 {
@@ -157,8 +153,6 @@ static void find_old_frames(Recording *recording)
     if (folder)
         closedir(folder);
 }
-
-/* ---- all together -------------------------------------------------------- */
 
 /* Opens a table if the options name its file.  The table of energies has a
  * column for each energy of any scene; with several panes the other tables have

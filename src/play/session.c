@@ -12,8 +12,6 @@ enum {
     UPDATE_SPEED = -5   /* speed of scenes whose step is an update */
 };
 
-/* ---- the runs ------------------------------------------------------------ */
-
 const PaneRun *player_active_run(const Player *player)
 {
     return &player->past.pane[player->active];
@@ -128,8 +126,6 @@ int player_initial_speed(const Player *player, const Options *options)
     return options->scene->needs & NEEDS_TIME ? 0 : UPDATE_SPEED;
 }
 
-/* ---- the window ---------------------------------------------------------- */
-
 bool player_shows_list(const Player *player)
 {
     return player->screen.column == COLUMN_PAGES ||
@@ -167,8 +163,6 @@ void player_format_value(const OptionRow *row, const Options *options,
         snprintf(text, size, "%.20s%s%s", value, unit[0] ? " " : "", unit);
 }
 
-/* ---- messages ------------------------------------------------------------ */
-
 void player_note(Player *player, const char *format, ...)
 {
     va_list arguments;
@@ -205,8 +199,6 @@ Status player_tolerate_failure(Player *player, Status status)
     player_pause(player);
     return STATUS_OK;
 }
-
-/* ---- the queue ----------------------------------------------------------- */
 
 void player_enqueue(Player *player, const Command *command)
 {

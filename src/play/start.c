@@ -137,8 +137,6 @@ Status obey_restart(Player *player, const Command *command)
     return player_restart_runs(player, options, panes, command);
 }
 
-/* ---- the lecture --------------------------------------------------------- */
-
 Status player_enqueue_page(Player *player)
 {
     const LecturePage *page = player_active_options(player)->page;

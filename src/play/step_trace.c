@@ -75,8 +75,6 @@ static bool reserve_round(StepTrace *trace)
     return records_reserve(&trace->records, count);
 }
 
-/* ---- rounds -------------------------------------------------------------- */
-
 /* Stores E along p of the newest round; samples E unless it is polynomial. */
 static void store_line_energy(StepTrace *trace, const Iterate *at)
 {
@@ -186,8 +184,6 @@ void step_trace_add_round(StepTrace *trace, const Newton *newton,
     for (int i = 0; i < trace->size && trace->x_tilde; i++)
         trace->x_tilde[i] += newton->at.E.x_n[i];
 }
-
-/* ---- the listing --------------------------------------------------------- */
 
 static void append_place(StepTrace *trace, int round, Line line, int trials)
 {

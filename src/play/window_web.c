@@ -5,8 +5,6 @@
 
 #include "play/view.h"
 
-/* ---- calls of the page --------------------------------------------------- */
-
 /* clang-format off */
 EM_JS(void, window_find_size, (int *size), {
     HEAP32[size >> 2] = Page.width();
@@ -85,8 +83,6 @@ void window_show_card(const Canvas *canvas, int card)
 {
     show_pixels(canvas, card);
 }
-
-/* ---- inputs -------------------------------------------------------------- */
 
 enum { INPUTS = 256 };
 

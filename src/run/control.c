@@ -89,8 +89,6 @@ void control_release(const Control *control)
         free(own);
 }
 
-/* ---- applying a control -------------------------------------------------- */
-
 /* Stores the energy that each run has dissipated so far.
  *   out  [runs] J */
 static void store_dissipated(const Simulation *simulation, double *out)

@@ -6,8 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- reading ------------------------------------------------------------ */
-
 /* Reads a decimal number at the beginning of a text; "inf", "0x1" and leading
  * blanks are not accepted.  Returns the rest of the text, or NULL. */
 static const char *read_decimal(const char *text, double *number)
@@ -106,8 +104,6 @@ bool option_read(const OptionRow *row, int count, const char *text,
     return !rest;
 }
 
-/* ---- writing ------------------------------------------------------------ */
-
 void option_write(const OptionRow *row, double value, char *text, size_t size)
 {
     if (row && row->kind == OPTION_NAME) { /* -1 stands for name 0 */
@@ -151,8 +147,6 @@ void option_write_unit(const OptionRow *row, char *text, size_t size)
     snprintf(text, size, "%.*s%s", length, angle ? "\u00b0" : row->unit,
              row->unit[length] == '^' ? "\u00b2" : "");
 }
-
-/* ---- notches of the wheel ----------------------------------------------- */
 
 /* Returns the round number with this index: 1, 1.5, 2, 3, 5, 7, 10, 15 ... */
 static double find_round_number(double index)

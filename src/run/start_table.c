@@ -11,8 +11,6 @@
 #include "model/fracture.h"
 #include "model/plasticity.h"
 
-/* ---- CSV ----------------------------------------------------------------- */
-
 enum { MAX_COLUMNS = 7 };
 
 /* A table that is being read.  The first line has the names of the columns;
@@ -119,8 +117,6 @@ static bool read_next_row(TableReader *reader, TableRow *row)
                     : "");
     return !reader->why[0];
 }
-
-/* ---- a step of a table --------------------------------------------------- */
 
 /* The rows of a step and a run, which the second column numbers from 0. */
 typedef struct TablePart {
