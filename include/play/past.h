@@ -186,7 +186,6 @@ Status past_finish_work(Past *past);
  * Returns the edit that was undone or redone, or NULL. */
 const Command *past_undo(Past *past, int way);
 
-/* Returns the number of panes. */
 int past_panes(const Past *past);
 
 /* Returns the newest step; a step that is being made does not count. */

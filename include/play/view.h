@@ -59,8 +59,6 @@ Status window_show(const Canvas *canvas);
 
 /* Switches to the full screen or back. */
 void window_set_full(bool full);
-
-/* Whether the window fills the screen. */
 bool window_is_full_screen(void);
 
 /* Returns the next input, or INPUT_NONE; skips movements but the last one. */

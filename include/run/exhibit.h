@@ -139,8 +139,6 @@ int exhibit_spring_kind(const struct Simulation *simulation, int spring);
 /* Moves a point to (x, y), m, if finite; begins the scene again from there. */
 void exhibit_drag_handle(struct Simulation *simulation, int handle, double x,
                          double y);
-
-/* Turns a switch on or off. */
 void exhibit_flip_switch(struct Simulation *simulation, int number);
 
 #endif

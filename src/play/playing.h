@@ -50,8 +50,6 @@ int player_initial_speed(const Player *player, const Options *options);
 
 /* Whether a list of pages or numbers is open, from which a number chooses. */
 bool player_shows_list(const Player *player);
-
-/* Deselects the number and closes the field. */
 void player_deselect(Player *player);
 
 /* Writes the value of an option as the row of numbers shows it. */
@@ -79,8 +77,6 @@ Command make_set_command(const OptionRow *row, double value);
 
 /* Puts a command into the queue.  A place of a drag replaces the one before. */
 void player_enqueue(Player *player, const Command *command);
-
-/* Puts a new value of an option into the queue. */
 void player_enqueue_set(Player *player, const OptionRow *row, double value);
 
 /* Puts lines of a script, separated by ;, into the queue; `lines` may be NULL.
@@ -91,11 +87,7 @@ Status player_enqueue_lines(Player *player, const char *lines);
 
 /* Makes steps of the scenes on the sheet, for a part of the time of a frame. */
 void sheet_advance(Player *player);
-
-/* Fills what a frame shows of the open sheet. */
 void sheet_fill(const Player *player, FrameContent *content);
-
-/* Closes the sheet if it is open. */
 void sheet_close(Player *player);
 
 /* ---- steps.c ------------------------------------------------------------- */
