@@ -77,8 +77,7 @@ typedef struct Branch {
     long first;  /* step of entry 0 */
     long count;  /* number of entries, at least 1 */
     long room;   /* entries that memory is reserved for */
-    int copied;  /* entries that were copied from the branch below: 1, or 2 if
-                   the branch begins before the edited step */
+    int copied;  /* entries copied from below: 1, or 2 to repeat a step */
     long left_step; /* step that was shown when the user left the branch */
     long stride; /* every stride-th entry stores its state */
     int panes;
@@ -121,8 +120,7 @@ typedef struct Past {
     PaneRun pane[OPTIONS_MAX_PANES];
     bool stores_states;    /* states are stored: the user may go back */
     bool panes_fail_alone; /* a pane that fails ends alone; the others go on */
-    long written; /* last step whose rows in the tables are valid; -1: none.
-                     Edits lower it, the player writes rows and raises it */
+    long written; /* last step whose rows in the tables are valid; -1: none */
     long booked;  /* last step whose energies in the tables are valid: an edit
                      after a step changes them, too */
     size_t bytes, limit; /* memory of states and samples, and its limit */

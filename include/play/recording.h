@@ -58,8 +58,7 @@ enum { FRAMES_MOST = 1000000 }; /* frames have numbers of six digits */
 typedef struct Recording {
     const char *folder; /* folder of the frames, or NULL */
     long frames;        /* number of frames written */
-    unsigned char *is_old; /* [FRAMES_MOST] 1: the folder still has the frame of
-                           this step from an earlier run; NULL: no folder */
+    unsigned char *is_old; /* [step] the frame is of an earlier run; or NULL */
     Film film;
     int panes; /* number of panes at the start */
     Table table[RECORDING_TABLES];

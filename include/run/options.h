@@ -76,8 +76,7 @@ typedef struct Options {
             double yield, hardening, tear; /* 0: no spring yields or breaks */
             double damping;
             double timestep, tolerance;
-            double integrator;  /* row of integrator_methods; -1: the scene's
-                                   choice */
+            double integrator;  /* row of integrator_methods; -1: not chosen */
             double solver;      /* enum Solver */
             double projection;  /* enum Projection */
             double line_search; /* enum LineSearch */
@@ -155,8 +154,7 @@ typedef struct OptionDisplay {
     int place;        /* position in the window's row of numbers, from 1; 0: the
                          row has the option after the user has added it */
     int letters;      /* letters of the longest value */
-    double increment; /* change by a notch of the wheel; 0: a notch multiplies
-                         the number, or chooses the next name */
+    double increment; /* change by a notch; 0: a factor, or the next name */
 } OptionDisplay;
 
 /* One option.  Options differ in many ways; most fields of a row are 0. */
@@ -164,8 +162,7 @@ typedef struct OptionRow {
     const char *name; /* without dashes; "": help is the heading of a section
                          of --help; NULL ends the table */
     char letter;      /* letter of the short form, or 0 */
-    const char *placeholder; /* stands for the value in --help; NULL: the option
-                                is a switch */
+    const char *placeholder; /* value in --help; NULL: the option is a switch */
     const char *help;        /* description in --help */
     OptionKind kind;
     int slot;              /* slot of the first number */
@@ -175,10 +172,8 @@ typedef struct OptionRow {
     unsigned short_counts; /* bit n: the first n numbers are enough */
     const double *omitted; /* [count] defaults for numbers that are left out */
     char separator;        /* separator of the numbers; 0: a comma */
-    int max_times; /* how often the option may be given, each time with one more
-                      value; 0: the last value counts */
-    int counter; /* max_times > 0: slot of the count of given values; the values
-                    follow each other from `slot` on */
+    int max_times; /* most values of a repeated option; 0: the last counts */
+    int counter;   /* max_times > 0: slot of the number of values */
     double default_value;  /* default, as on the slides */
     double low, high;      /* range, both ends included */
     const char *unit;      /* unit of the numbers, or "" if they have none */

@@ -13,9 +13,8 @@
 
 enum { SIMULATION_MAX_RUNS = 3, SIMULATION_MODE_NODES = 64 };
 
-/* Steps of backward Euler in which the total energy grew by more than the work
- * that was done.  The minimiser may then lie behind an energy barrier that no
- * motion passes, such as a body on the other side of another one. */
+/* Steps of backward Euler in which the total energy grew by more than the work:
+ * the minimiser may lie behind a barrier of energy, such as another body. */
 typedef struct Gain {
     long steps;
     double energy; /* J, growth beyond the work, summed over `steps` */
@@ -127,10 +126,8 @@ double simulation_time(const Simulation *simulation);
 /* Computes the energies of a run. */
 Energies simulation_energies(const Simulation *simulation, int run);
 
-/* Whether run 0 is at rest: no node moves by more than a millionth of the
- * shortest spring in a frame and in a step, and the forces would vanish if each
- * node moved by at most a thousandth of this spring.  Without the second
- * condition a turning point would count as rest. */
+/* Whether run 0 is at rest: nodes hardly move, and forces nearly vanish, unlike
+ * at a turning point. */
 bool simulation_is_at_rest(const Simulation *simulation);
 
 /* Returns Newton's counters, summed over the runs; explicit methods have 0. */
