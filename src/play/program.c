@@ -204,12 +204,11 @@ static void print_old_frames(const Recording *recording)
         }
     if (count == 0) /* also without --frames */
         return;
-    bool several = count > 1;
-    if (several)
+    if (last > first)
         snprintf(range, sizeof range, " ... frame_%06ld.png", last);
     print_line(stderr, "%s/: %ld %s of an earlier run %s: frame_%06ld.png%s",
-               recording->folder, count, several ? "frames" : "frame",
-               several ? "stay" : "stays", first, range);
+               recording->folder, count, last > first ? "frames" : "frame",
+               last > first ? "stay" : "stays", first, range);
 }
 
 /* ---- the end ------------------------------------------------------------- */

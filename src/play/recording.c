@@ -114,10 +114,7 @@ static Status png_write(FILE *file, const Canvas *canvas)
         bytes[i] = (uint8_t)(canvas->pixels[i / 3] >> (16 - i % 3 * 8));
     errno = 0;
     bool whole = png_image_write_to_stdio(&image, file, 0, bytes, 0, NULL);
-    int reason = errno;
-    png_image_free(&image);
     free(bytes);
-    errno = reason ? reason : EIO;
     return whole             ? STATUS_OK
            : errno == ENOMEM ? STATUS_OUT_OF_MEMORY
                              : STATUS_FILE_FAILED;

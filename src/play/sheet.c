@@ -42,14 +42,12 @@ Status obey_sheet(Player *player, const Command *command)
     player_deselect(player);
     if (!opens)
         return STATUS_OK;
-    player->screen.sheet = calloc(1, sizeof *player->screen.sheet);
-    if (!player->screen.sheet)
+    Sheet *sheet = player->screen.sheet = calloc(1, sizeof *sheet);
+    if (!sheet)
         return STATUS_OUT_OF_MEMORY;
-    int cells = 1; /* cell 0 shows the tour */
-    while (cells < LAYOUT_CELLS && scenes[cells - 1].name &&
-           !scenes[cells - 1].only_by_name)
-        cells++;
-    player->screen.sheet->cells = cells;
+    const Scene *scene = scenes; /* of cell 1; cell 0 shows the tour */
+    while (++sheet->cells < LAYOUT_CELLS && scene->name && !scene->only_by_name)
+        scene++;
     player->screen.view.chosen = options->page || options->scene->only_by_name
                                      ? 0
                                      : (int)(options->scene - scenes) + 1;
