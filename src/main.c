@@ -9,10 +9,8 @@ static volatile sig_atomic_t main_stop = 0;
 static Player main_player; /* static: too large for some stacks */
 
 /* After SIGINT, SIGTERM or SIGHUP the program ends when the present Newton
- * iteration is done.  A second signal ends the program at once, even if it
- * waits for a library or the screen.  timeout(1) sends each signal twice, to
- * the program and to its group, so a second signal within 0.1 s does not count.
- */
+ * iteration is done; after a second signal, at once.  timeout(1) sends each
+ * signal twice, so a second one within 0.1 s does not count. */
 static void on_signal(int number)
 {
     static double first; /* s */

@@ -17,35 +17,23 @@ static bool could_lose_work(const Player *player)
 
 Status obey_screen(Player *player, const Command *command)
 {
-    switch (command->kind) {
-    case COMMAND_FASTER:
+    CommandKind kind = command->kind;
+    if (kind == COMMAND_FASTER)
         player->time.speed += player->time.speed < SPEED_MOST;
-        break;
-    case COMMAND_SLOWER:
+    else if (kind == COMMAND_SLOWER)
         player->time.speed -= player->time.speed > SPEED_LEAST;
-        break;
-    case COMMAND_COLOURS:
+    else if (kind == COMMAND_COLOURS)
         player->screen.strain = !player->screen.strain;
-        break;
-    case COMMAND_BARE:
+    else if (kind == COMMAND_BARE)
         player->screen.bare = !player->screen.bare;
-        break;
-    case COMMAND_BLANK:
+    else if (kind == COMMAND_BLANK)
         player->screen.is_black = !player->screen.is_black;
-        break;
-    case COMMAND_FULL:
-        if (player->screen.window)
-            window_set_full(!window_is_full_screen());
-        break;
-    case COMMAND_PANE:
+    else if (kind == COMMAND_FULL && player->screen.window)
+        window_set_full(!window_is_full_screen());
+    else if (kind == COMMAND_PANE)
         player->active = (int)command->number;
-        break;
-    case COMMAND_CLOSE:
+    else if (kind == COMMAND_CLOSE)
         player_deselect(player);
-        break;
-    default:
-        break;
-    }
     return STATUS_OK;
 }
 

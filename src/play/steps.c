@@ -561,34 +561,26 @@ static void describe_edit(const Player *player, const Command *edit, char *line,
 {
     Options edited = *player_active_options(player);
     const OptionRow *row = &option_rows[edit->number];
-    bool ground = edit->number < edited.grounds;
+    CommandKind kind = edit->kind;
     char value[COMMAND_TEXT_SIZE];
-    switch (edit->kind) {
-    case COMMAND_SET:
+    if (kind == COMMAND_SET) {
         edited.number[row->slot] = edit->x;
         option_write_short(row, &edited, value, sizeof value);
         snprintf(line, size, "%s %s", row->name,
                  edit->text[0] ? edit->text : value);
-        break;
-    case COMMAND_OBSTACLE:
-    case COMMAND_PUSH:
-        snprintf(line, size, "%s %s", ground ? "ground" : "ball",
-                 edit->kind == COMMAND_PUSH ? "pushed" : "moved");
-        break;
-    case COMMAND_GRAB:
-    case COMMAND_PLACE:
+    } else if (kind == COMMAND_OBSTACLE || kind == COMMAND_PUSH)
+        snprintf(line, size, "%s %s",
+                 edit->number < edited.grounds ? "ground" : "ball",
+                 kind == COMMAND_PUSH ? "pushed" : "moved");
+    else if (kind == COMMAND_GRAB || kind == COMMAND_PLACE)
         snprintf(line, size, "node %ld %s", edit->number,
-                 edit->kind == COMMAND_GRAB ? "pulled" : "placed");
-        break;
-    case COMMAND_PIN:
+                 kind == COMMAND_GRAB ? "pulled" : "placed");
+    else if (kind == COMMAND_PIN)
         snprintf(line, size, "node %ld %s", edit->number,
                  edit->x != 0 ? "pinned" : "freed");
-        break;
-    default:
-        snprintf(line, size, "%s%s%s", command_rows[edit->kind].word,
+    else
+        snprintf(line, size, "%s%s%s", command_rows[kind].word,
                  edit->text[0] ? " " : "", edit->text);
-        break;
-    }
 }
 
 Status obey_undo(Player *player, const Command *command)
