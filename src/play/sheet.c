@@ -45,7 +45,7 @@ Status obey_sheet(Player *player, const Command *command)
     Sheet *sheet = player->screen.sheet = calloc(1, sizeof *sheet);
     if (!sheet)
         return STATUS_OUT_OF_MEMORY;
-    const Scene *scene = scenes; /* of cell 1; cell 0 shows the tour */
+    const Scene *scene = scenes; /* scene of cell 1; cell 0 is the tour */
     while (++sheet->cells < LAYOUT_CELLS && scene->name && !scene->only_by_name)
         scene++;
     player->screen.view.chosen = options->page || options->scene->only_by_name
