@@ -189,7 +189,7 @@ typedef struct Player {
                       written; a sentence about the thing replaces the note */
 } Player;
 
-/* Creates a player.  Without a screen it writes 100 frames to "frames".
+/* Creates a player, which without a screen writes 100 frames to "frames".
  *   options  [count] in, options of each pane
  *   words    in, command line, ended by NULL, or NULL; outlives the player
  *   stop     in, not 0 ends the run after the present step; outlives the player

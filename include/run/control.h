@@ -18,7 +18,7 @@ typedef struct Control {
     unsigned char pinned[]; /* [nodes] 1: pinned, 0: free */
 } Control;
 
-/* Return a new control of a simulation, nothing held, or a copy.  The caller
+/* Return a control for a simulation with nothing held, or a copy.  The caller
  * may change it until control_retain adds a second user.  NULL: no memory. */
 Control *control_from_simulation(const Simulation *simulation);
 Control *control_copy(const Control *from);

@@ -77,7 +77,7 @@ enum { RACE_EXTRA_STEPS = 2048, RACE_MAX_ENERGY = 2 };
 typedef struct RacePoint {
     const IntegratorMethod *method;
     double h;       /* s, time step */
-    double error;   /* m, most that a node is off; NaN: the run failed */
+    double error;   /* m, most that a node is off the reference; NaN: failed */
     double seconds; /* s, processor time */
     bool converged; /* every step converged */
     double energy_after_second; /* energy after 1 s over that at the start; only

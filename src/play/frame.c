@@ -329,8 +329,8 @@ static int find_changed_pane(const Player *player, const OptionRow *row)
     return -1;
 }
 
-/* If options of the page are changed, writes with which of them Look is true:
- * "As the page opened, with h 1 s:". */
+/* If options of the page are changed, writes a heading for Look with the page's
+ * own ones: "As the page opened, with h 1 s:". */
 static void fill_own_options(const Player *player, LectureContent *lecture)
 {
     const OptionRow *row[OPTIONS_MAX_ROWS];
