@@ -166,7 +166,8 @@ static Axis make_energies_axis(const Simulation *simulation, const Curves *all,
             if (i <= point && curve->total && value > 0)
                 least = fmin(least, value);
             *last = fmax(*last, history->time[i]);
-            first = fmax(first, history->value[0][0]);
+            first = first > 0 ? fmin(first, history->value[0][0])
+                              : history->value[0][0];
         }
     }
     if (fmax(highest, -lowest) < MAX_AXIS_RATIO * fmax(high, -low)) {

@@ -15,8 +15,7 @@ typedef struct PageText {
 /* Sizes of a page's letters, ems: the usual one, that of a page with much room,
  * and the least one. */
 static const double LETTERS = 1.2, LARGEST = 1.45, SMALLEST = 0.8;
-static const double LINE_WIDTH =
-    24; /* least width of a line, sizes of a letter */
+static const double LINE_WIDTH = 24; /* least width of a line, in letters */
 /* Sizes over that of the letters: letters of a verdict and of a formula, width
  * of the heading of a text and of the heading "Tested". */
 static const double VERDICT_SIZE = 1.5, FORMULA_SIZE = 1.25,

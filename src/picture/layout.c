@@ -28,11 +28,9 @@ static const double PICTURE_PART = 0.45;
 /* A picture that would be narrower than this beside the main card, ems, stands
  * below the card and has the part PICTURE_BELOW of the stage's height. */
 static const double MIN_BESIDE = 17, PICTURE_BELOW = 0.56;
-/* A card below the picture has at most this part of the stage's height. */
-static const double CARD_BELOW = 0.6;
-/* A main card below the picture is at least this many times as high as its
- * min_height, and has at most this part of the stage's height. */
-static const double MAIN_CARD_GROWTH = 1.3, MAIN_CARD_PART = 0.66;
+/* A card below the picture has at most this part of the stage's height; a main
+ * card is at least this many times as high as its min_height. */
+static const double CARD_BELOW = 0.65, MAIN_CARD_GROWTH = 1.3;
 /* In a low window the settings have this part of the width. */
 static const double SETTINGS_PART = 0.75;
 
@@ -432,9 +430,9 @@ static void place_main_card(const FrameContent *content, Layout *layout)
         double wide = stage->width / layout->em;
         double needs = fmax(needed_height(content, layout, main_card, wide),
                             MAIN_CARD_GROWTH * card->min_height);
-        place_card_below(layout, main_card,
-                         fmin((needs + 2 * GAP) * layout->em,
-                              MAIN_CARD_PART * stage->height));
+        place_card_below(
+            layout, main_card,
+            fmin((needs + 2 * GAP) * layout->em, CARD_BELOW * stage->height));
         return;
     }
     bool beside = card->beside_picture;

@@ -11,15 +11,14 @@
 enum {
     ARROW_SPACING = 16, /* pixels, least distance between two arrows */
     MIN_CELL = 5,       /* pixels, least size of cells with drawn springs */
-    MAX_NUMBERED = 121, /* most nodes of a mesh with node numbers or forces */
-    MAGNIFIER_SIZES = 3
+    MAX_NUMBERED = 121  /* most nodes of a mesh with node numbers or forces */
 };
 
 static const double MIN_ARROW = 1.5; /* ems; shorter arrows of p are scaled */
 static const double MAX_GROWTH = 1e303; /* limit of the view's growth */
 /* Sizes of the first view over that of the square: with words, and bare. */
 static const double VIEW_SIZE = 1.14, BARE_VIEW_SIZE = 1.75;
-static const double MAGNIFIER_SIDE = 12; /* ems, largest side */
+static const double MAGNIFIER_SIDE = 11; /* ems */
 static const double VELOCITY_TIME = 0.1; /* s, duration of the arrow's way */
 /* widen_to_circle's `reach` for balls, grounds, and the place of a pull. */
 static const double BALL_REACH = 4, GROUND_REACH = 2, PULL_REACH = 16;
@@ -47,14 +46,15 @@ static bool body_is_free(const Simulation *simulation)
            simulation->runs == 1;
 }
 
-/* Returns the view that the scene sets, or else the square at the start.  A
- * compressed square has room to spring out and bulge. */
+/* Returns the view that the scene sets, or else the square at the start, at
+ * most twice as wide as at rest.  A compressed square has room to spring out
+ * and bulge. */
 static Extent find_first_view(const FrameContent *content,
                               const Simulation *simulation)
 {
     const Options *options = &simulation->options;
     const double *view = simulation->scene->view;
-    double stretch = options->bodies > 0 ? 1 : fabs(options->stretch);
+    double stretch = options->bodies > 0 ? 1 : fmin(fabs(options->stretch), 2);
     double extent = stretch < 1 ? 1 + 1.5 * (1 - stretch) : stretch;
     double half = 0.5 * simulation->mesh.side *
                   (content->bare ? BARE_VIEW_SIZE : VIEW_SIZE);
@@ -499,8 +499,7 @@ static void draw_springs_by_kind(const SquarePen *pen)
 }
 
 /* Draws a magnifier on the contact whose law the page draws, in the corner of
- * the stage where the magnifier hides least.  If all corners hide something,
- * the magnifier is smaller. */
+ * the stage where the magnifier hides least. */
 static void draw_magnifier(const SquarePen *pen)
 {
     Plot lens = *pen->stage;
@@ -509,17 +508,15 @@ static void draw_magnifier(const SquarePen *pen)
     char words[60];
     double bounds[4], least = INFINITY;
     const Box stage = lens.box;
-    int air = (int)lens.em;
-    if (!lens.revealed || lens.box.width < 2 * MAGNIFIER_SIDE * lens.em ||
+    int air = (int)lens.em, side = (int)(MAGNIFIER_SIDE * lens.em);
+    if (!lens.revealed || lens.box.width < 2 * side ||
         !law_find_gap(pen->simulation, &gap))
         return;
-    for (int i = 0; i < 4 * MAGNIFIER_SIZES; i++) {
-        int side = (int)((MAGNIFIER_SIDE - 2 * (i / 4)) * lens.em);
+    for (int i = 0; i < 4; i++) {
         int left = i & 2 ? air : stage.width - side - air;
         int top = i & 1 ? stage.height - side - 2 * air : 2 * air;
         Box box = {stage.x + left, stage.y + top, side, side};
-        double cost =
-            plot_label_cost(pen->stage, box) + 0.1 * (i % 4) + 0.5 * (i / 4);
+        double cost = plot_label_cost(pen->stage, box) + 0.1 * i;
         if (cost < least)
             lens.box = box;
         least = fmin(least, cost);
