@@ -124,7 +124,7 @@ struct ElementKind {
 typedef struct ElementIterator {
     const EvalPoint *at;
     const ElementKind *kind;
-    double way; /* m, upper bound of the changes of a and of b by alpha p */
+    double way;      /* m, bound on the change of vectors a and b by alpha p */
     int i, count;    /* present element, number of elements */
     Element element; /* present element, out */
 } ElementIterator;

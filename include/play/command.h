@@ -53,7 +53,7 @@ enum {
 
 typedef struct CommandRow {
     const char *word;  /* name in scripts; NULL: none */
-    const char *does;  /* explanation for --help commands */
+    const char *help;  /* explanation for --help commands */
     unsigned flags;    /* bits REPEATS, IN_SCRIPT, ... */
     const char *keys;  /* "Space", "Ctrl+R"; several: "?|F1"; "*": any key;
                           "letters": keys that type text; NULL: none */

@@ -85,7 +85,7 @@ typedef struct Queue {
     char note[SENTENCE_SIZE]; /* message at the end of the queue, or "" */
 } Queue;
 
-/* Commands that wait, and the gestures by which commands are undone. */
+/* Commands that wait, and gestures: groups that are undone as one. */
 typedef struct Commands {
     Queue queue;
     int gesture;         /* id of the present gesture, which is undone as one */

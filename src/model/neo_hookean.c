@@ -43,7 +43,7 @@ static double neo_hookean_value(const EvalPoint *at, const Element *element)
             0.5 * data->lambda * L * L);
 }
 
-/* Writes s = dW/dJ/A0 and 2 mu - s, the factors of F+ and F- in dW/dF. */
+/* Writes p = dW/dJ/A0 and 2 mu - p, factors of F+, F- (area.h) in dW/dF. */
 static void compute_stresses(const NeoHookean *data, double J, double *on_plus,
                              double *on_minus)
 {

@@ -529,7 +529,7 @@ Layout layout_create(const FrameContent *content, int width, int height)
         } while (widens);
         if (!page || content->column == COLUMN_CODE)
             layout.cards = picture->count;
-    } else if (!content->bare && page) { /* the column covers the stage */
+    } else if (!content->bare && page) { /* no room: column hides stage */
         layout.column = layout.stage;
     }
     layout.has_list = page && layout.column.width > 0;

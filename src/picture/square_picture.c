@@ -215,7 +215,7 @@ void square_bounds(const Plot *stage, double bounds[4])
         pan_view(box, &larger);
         memcpy(view.middle, larger.middle, sizeof view.middle);
     }
-    /* In a bare window the view is wide, and as low as the body allows. */
+    /* In a bare window the view is only as high as the body needs. */
     double low =
         bare && !scene_sets_view(simulation)
             ? fmax(VIEW_SIZE / BARE_VIEW_SIZE, VIEW_SIZE * tall / grown)

@@ -77,7 +77,7 @@ void commands_print_help(FILE *file)
             continue;
         snprintf(start, sizeof start, "  %s %s", row->word,
                  row->takes ? row->takes : "");
-        fprintf(file, "%-20s %s", start, row->does);
+        fprintf(file, "%-20s %s", start, row->help);
         if (row->keys)
             fprintf(file, " [%.*s]", (int)strcspn(row->keys, "|"), row->keys);
         fprintf(file, "\n");

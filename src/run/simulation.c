@@ -252,7 +252,7 @@ bool simulation_has_projection(const Simulation *simulation)
            (simulation->scene->needs & NEEDS_SPRINGS);
 }
 
-/* Scenes of springs have a line search, and minimisations in one variable. */
+/* Scenes of springs and minimisations in one variable have a line search. */
 bool simulation_has_line_search(const Simulation *simulation)
 {
     return simulation_has_projection(simulation) || simulation->descent.scalar;

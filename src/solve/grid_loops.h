@@ -25,14 +25,14 @@
 /* Marks a function that is compiled into the FAST function that calls it. */
 #define INLINE static inline __attribute__((always_inline))
 
-/* Nodes of one row that are contiguous in memory, with the distances to their
- * neighbours and numbers. */
+/* Nodes of one row, contiguous in memory, with index distances to neighbours,
+ * springs and masses. */
 typedef struct NodeRun {
     int first, end;    /* index of the first node, and past the last one */
     int next;          /* distance from a node to the next row */
     int before, after; /* distances to the columns before and after */
     int own, below;    /* Grid.spring_shift of the row, and of the row before */
-    int node;          /* Grid.node_shift of the row */
+    int node;          /* index shift of the masses */
 } NodeRun;
 
 INLINE NodeRun nodes_in_row(const Rows *rows, int i, int odd)

@@ -204,8 +204,8 @@ void v_cycle_read_system(VCycle *cycle)
 /* Result of a pass over one colour of a row. */
 typedef enum PassResult {
     FIRST,    /* x = D (b + K x' of springs to earlier colours), from x = 0 */
-    RESIDUAL, /* w = b - A x after FIRST, which is K x' of springs to later
-                 colours */
+    RESIDUAL, /* w = b - A x after FIRST: sum K x', x' at far ends of springs
+                 to later colours */
     SMOOTH,   /* x += D (b - A x), a Gauss-Seidel pass */
     PRODUCT   /* w = A x; x.b and x.w are added to xb and xw */
 } PassResult;

@@ -59,8 +59,8 @@ static void verlet_finish(TimeIntegrator *run)
 /* ---- implicit methods: min |u - u_tilde|_M^2 / 2 + w P(x_n + u), u = x - x_n,
  * each with its own target, weight and velocity. */
 
-/* u_tilde = h v, the way of the velocity v in the time h. */
-static void set_target_ahead(TimeIntegrator *run, double h, const double *v,
+/* u_tilde = h v, the path at the velocity v in the time h. */
+static void set_drift_target(TimeIntegrator *run, double h, const double *v,
                              double weight)
 {
     run->weight = weight;
@@ -76,7 +76,7 @@ static void set_target_ahead(TimeIntegrator *run, double h, const double *v,
 static void backward_euler_set_target(TimeIntegrator *run)
 {
     double h = run->h;
-    set_target_ahead(run, h, run->v, h * h);
+    set_drift_target(run, h, run->v, h * h);
 }
 
 static void backward_euler_finish(TimeIntegrator *run)
@@ -133,7 +133,7 @@ static void sdirk2_set_target(TimeIntegrator *run)
     double h = run->h, gh = SDIRK_G * h, rest = (1 - SDIRK_G) * h;
     const double *v = run->v, *s = run->new_v;
     if (run->stage == 0) {
-        set_target_ahead(run, gh, v, gh * gh);
+        set_drift_target(run, gh, v, gh * gh);
         return;
     }
     run->weight = gh * gh;
@@ -161,7 +161,7 @@ static void sdirk2_finish(TimeIntegrator *run)
 static void midpoint_set_target(TimeIntegrator *run)
 {
     double half = 0.5 * run->h;
-    set_target_ahead(run, half, run->v, half * half);
+    set_drift_target(run, half, run->v, half * half);
 }
 
 static void midpoint_finish(TimeIntegrator *run)

@@ -417,7 +417,7 @@ void document_write_lists(char *text)
         print(to, "scenes\t%s\t%s: %s\n", scene->name, scene->name,
               scene->sentence);
     for (int kind = 1; kind < COMMAND_KINDS; kind++)
-        if (command_rows[kind].keys && command_rows[kind].does)
+        if (command_rows[kind].keys && command_rows[kind].help)
             print(to, "keys\t%s\t%s\n", command_rows[kind].keys,
-                  command_rows[kind].does);
+                  command_rows[kind].help);
 }
