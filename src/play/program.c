@@ -238,6 +238,33 @@ int program_end(Player *player, Status status)
     return code;
 }
 
+/* Returns the file or folder that an option names, or NULL. */
+static const char *find_option_file(const Options *options,
+                                    const OptionRow *row)
+{
+    return row->kind == OPTION_TEXT && row->offset != offsetof(Options, pin)
+               ? *(char *const *)((const char *)options + row->offset)
+               : NULL;
+}
+
+/* Refuses a file name that two options have, as one file would replace another,
+ * also the one that is read. */
+static Status check_file_names(const Options *options, Message message)
+{
+    for (const OptionRow *row = option_rows; row->name; row++)
+        for (const OptionRow *other = option_rows; other < row; other++) {
+            const char *one = find_option_file(options, other);
+            const char *two = find_option_file(options, row);
+            if (one && two && strcmp(one, two) == 0 &&
+                strncmp(one, "/dev/", 5) != 0)
+                return refuse(message,
+                              "--%s and --%s are one file, '%.200s': "
+                              "each needs a name of its own",
+                              other->name, row->name, one);
+        }
+    return STATUS_OK;
+}
+
 /* Warns that after --state springs begin whole and the ceiling at its start. */
 static void warn_of_fresh_terms(const Options *options)
 {
@@ -277,6 +304,8 @@ int program_begin(int argc, char **argv, const volatile sig_atomic_t *stop,
     int code = print_information(options);
     if (code != PROGRAM_PLAYS)
         return code;
+    if (check_file_names(options, MESSAGE(message)))
+        return print_error(EXIT_MISUSED, "%s", message);
     warn_of_fresh_terms(options);
     Status status = player_create(options, options->panes, argv, stop, player);
     return status ? program_end(player, status) : PROGRAM_PLAYS;

@@ -29,6 +29,7 @@ cd refused || exit 1
 verdict refused_lines_change_no_file "$(refusals <<END
 1|too large.*fewer --segments|--segments 3000 --body 0,0 --body 2,0
 2|line 1.*'jump'.*--help commands$|--headless --script jump
+2|--states and --log are one file, 'k.csv'|--states k.csv --log k.csv
 2|nowhere: No such file|--headless --script nowhere
 2|^elasto: --vtk is gone: --states .* CSV$|--vtk n
 2|--states: 'n.npz': tables are CSV|--headless --states n.npz

@@ -144,6 +144,7 @@ verdict other_tables_are_refused "$(
     run --steps 2 --states table
     refused '--segments 5' 'last step has 25 nodes, the body 36'
     refused '--ground 0,1,0,0' 'the ground would overlap the square'
+    refused '--states table' 'are one file'
     refused 'circle' 'circle'
     refused '--state-step 3' 'step 3 is not in it'
     sed 's/^2,\(.*\),[^,]*$/2,\1,nan/' table >other && mv other table
