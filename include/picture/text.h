@@ -61,4 +61,21 @@ Colour colour_find_name(const char *name, size_t length);
 /* Whether this brace of a text belongs to the markup. */
 bool text_is_markup_brace(const char *text, const char *brace);
 
+/* ---- letters, from which type.c sets lines ------------------------------- */
+
+#define FONT_GUESSED 0.6 /* ems, width of a letter if there is no font */
+
+/* A letter in one face and size. */
+typedef struct Glyph {
+    uint64_t key;  /* face, size and letter as one number; 0: a free slot */
+    int left, top; /* pixels from the pen on the baseline to the mask */
+    int advance;   /* pixels to the next letter */
+    int width, height;
+    uint8_t *mask; /* [height width] coverage; NULL: no pixel is covered */
+} Glyph;
+
+/* Finds or draws a letter; size in pixels.  The pointer is valid until the next
+ * call. */
+const Glyph *font_get_glyph(Text *text, Face face, int size, uint32_t letter);
+
 #endif

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "picture/font.h"
+#include "picture/text.h"
 
 enum {
     TEXT_GLYPHS = 2048, /* letters in the cache, a power of two */

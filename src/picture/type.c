@@ -7,7 +7,6 @@
 #include <string.h>
 
 #include "picture/colour_map.h"
-#include "picture/font.h"
 
 enum {
     MAX_DEPTH = 6, /* most formulas inside each other */

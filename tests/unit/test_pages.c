@@ -10,7 +10,6 @@
 #include <string.h>
 
 #include "picture/cards.h"
-#include "picture/font.h"
 #include "picture/plot.h"
 #include "picture/text.h"
 
