@@ -87,8 +87,8 @@ unsigned exhibit_find_flips(const Simulation *simulation)
     return simulation->exhibit.switches ^ at_start;
 }
 
-/* The energy of switched springs is booked as work.  One part is always on.
- * A switch changes E, so the updates so far are no longer shown. */
+/* The energy of switched springs is booked as work.  At least one part of E
+ * stays on.  A switch changes E, so the updates so far are no longer shown. */
 void exhibit_flip_switch(Simulation *simulation, int number)
 {
     const Scene *scene = simulation->scene;
