@@ -1,7 +1,6 @@
 /* clock.h - elapsed time and processor time, in seconds.  Only differences of
  * two readings have a meaning. */
-#ifndef ELASTO_CLOCK_H
-#define ELASTO_CLOCK_H
+#pragma once
 
 #include <time.h>
 
@@ -22,5 +21,3 @@ static inline double clock_processor(void)
         return clock_now();
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
-
-#endif

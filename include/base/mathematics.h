@@ -5,8 +5,7 @@
  * functions of this header.  sqrt and frexp are exact in every library.  Errors
  * are below 1.5 units in the last place.
  */
-#ifndef ELASTO_MATHEMATICS_H
-#define ELASTO_MATHEMATICS_H
+#pragma once
 
 /* The program tests for NaN and infinity, and its sums must keep their order so
  * that a run has one hash.  Fast-math options break both. */
@@ -22,5 +21,3 @@ double math_log(double x);
 
 /* Returns log(1 + x), accurate for small x as well. */
 double math_log1p(double x);
-
-#endif

@@ -6,8 +6,7 @@
  * its place in the compressed columns, and assembly is
  *   value[slot[t]] += entry t.
  */
-#ifndef ELASTO_SPARSE_H
-#define ELASTO_SPARSE_H
+#pragma once
 
 #include <stddef.h>
 
@@ -51,5 +50,3 @@ void sparse_multiply(const Sparse *A, const double *x, double *y);
 
 /* Returns whether all numbers are finite.  value [count] in. */
 bool all_finite(const double *value, size_t count);
-
-#endif

@@ -3,8 +3,7 @@
  * A function that can fail returns a Status.  STATUS_OK is 0, so `if (status)`
  * reads "if the call failed".  Numeric kernels cannot fail.
  */
-#ifndef ELASTO_STATUS_H
-#define ELASTO_STATUS_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -49,5 +48,3 @@ bool status_is_unconverged(Status status);
 
 /* Whether a finished call has failed: neither OK nor unconverged. */
 bool status_is_failure(Status status);
-
-#endif

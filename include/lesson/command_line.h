@@ -1,6 +1,5 @@
 /* command_line.h - reads command lines and options, and writes --help. */
-#ifndef ELASTO_COMMAND_LINE_H
-#define ELASTO_COMMAND_LINE_H
+#pragma once
 
 #include <stdio.h>
 
@@ -30,5 +29,3 @@ Status options_set(Options *options, const OptionRow *row, const char *text,
 
 /* Writes the text of --help, 80 columns wide. */
 void options_help(FILE *help);
-
-#endif

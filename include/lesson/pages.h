@@ -4,8 +4,7 @@
  * generated from src/lesson/pages.txt.  A new page needs a text there, and a
  * session for its claim in tests/data/claims.txt.
  */
-#ifndef ELASTO_PAGES_H
-#define ELASTO_PAGES_H
+#pragma once
 
 #include "run/message.h"
 #include "run/options.h"
@@ -79,5 +78,3 @@ void lecture_apply_page(const LecturePage *page, Options *options);
  * Returns OK or INVALID_INPUT.  A test checks that all pages return OK. */
 Status lecture_make_options(const LecturePage *page, Options *options,
                             Message message);
-
-#endif

@@ -15,8 +15,7 @@
  * the edges are sorted by their left side.  A point visits the edges from the
  * first one that may reach it to the right side of its own box.
  */
-#ifndef ELASTO_BOUNDARY_H
-#define ELASTO_BOUNDARY_H
+#pragma once
 
 #include "model/square_mesh.h"
 #include "model/system.h"
@@ -73,5 +72,3 @@ void boundary_update(Boundary *boundary, const System *system, const double *x,
  * Returns the spring of the edge; -1 after the last edge. */
 int boundary_next_edge(const Boundary *boundary, const System *system, int i,
                        int *cursor);
-
-#endif

@@ -9,8 +9,7 @@
  *
  * J_hat is 0.4: a triangle with more than 40 % of its area has no force.
  */
-#ifndef ELASTO_CELLS_H
-#define ELASTO_CELLS_H
+#pragma once
 
 #include "model/elements.h"
 #include "model/square_mesh.h"
@@ -32,5 +31,3 @@ extern const TermKind cell_energy;
  * Returns OK or OUT_OF_MEMORY. */
 Status cells_configure(System *system, const SquareMesh *shape,
                        double stiffness);
-
-#endif

@@ -13,8 +13,7 @@
  * c = A d_hat kappa/2 in J, where A is the length of boundary for each node.
  * Every node is tested, since a break turns inner nodes into boundary.
  */
-#ifndef ELASTO_CONTACT_H
-#define ELASTO_CONTACT_H
+#pragma once
 
 #include "model/elements.h"
 #include "model/square_mesh.h"
@@ -126,5 +125,3 @@ void push_begin_step(Contact *contact, const System *system, const double *x,
 /* Returns the largest part of a step's way that the held obstacle may move at
  * once: a ball moves at most half its radius, so that it skips no node. */
 double push_max_step(const Contact *contact, double h);
-
-#endif

@@ -13,8 +13,7 @@
  * by completing the square: a spring of the slides with other numbers for this
  * step.  Springs that flow (plasticity.h) use theta and E_n in their own law.
  */
-#ifndef ELASTO_DAMPING_H
-#define ELASTO_DAMPING_H
+#pragma once
 
 #include "model/system.h"
 
@@ -31,5 +30,3 @@ typedef struct Damping {
  * After a step it books the dissipated energy k l2 theta (E - E_n)^2, which is
  * the power k l2 eta (dE/dt)^2 times h. */
 extern const TermKind damping;
-
-#endif

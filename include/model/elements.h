@@ -11,8 +11,7 @@
  * The source of a term has W, its gradient and its Hessian in (a, b).  Loops,
  * the step from (a, b) to the nodes and the matrix are in elements.c.
  */
-#ifndef ELASTO_ELEMENTS_H
-#define ELASTO_ELEMENTS_H
+#pragma once
 
 #include "model/system.h"
 
@@ -155,5 +154,3 @@ bool elements_are_feasible(const EvalPoint *at);
     .element = &(kind), .value = elements_value,                               \
     .gradient = elements_gradient, .pattern = elements_pattern,                \
     .hessian = elements_hessian, .line_remainder = elements_line_remainder
-
-#endif

@@ -9,8 +9,7 @@
  * The strengths differ by up to a tenth, by a hash of the spring's number.
  * Without this, rounding would choose the springs of a symmetric scene.
  */
-#ifndef ELASTO_FRACTURE_H
-#define ELASTO_FRACTURE_H
+#pragma once
 
 #include "model/system.h"
 
@@ -34,5 +33,3 @@ extern const TermKind fracture;
 
 /* Returns the strain at which spring s breaks. */
 double fracture_strength(const Fracture *fracture, int s);
-
-#endif

@@ -17,8 +17,7 @@
  * Below the speed eps_v the contact sticks, apart from a slow creep.  Above
  * eps_v it slides with the force mu lambda.
  */
-#ifndef ELASTO_FRICTION_H
-#define ELASTO_FRICTION_H
+#pragma once
 
 #include "model/contact.h"
 
@@ -55,5 +54,3 @@ double friction_work_of_obstacles(const System *system, const double *u);
  * Returns OK or OUT_OF_MEMORY. */
 Status friction_configure(System *system, const TermKind *kind, bool wanted,
                           double slip_speed);
-
-#endif

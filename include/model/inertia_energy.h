@@ -7,8 +7,7 @@
  *   x_tilde  [2n] m, in
  *   m        [n] kg, in
  */
-#ifndef ELASTO_INERTIA_ENERGY_H
-#define ELASTO_INERTIA_ENERGY_H
+#pragma once
 
 /* E_I(x), kg m^2. */
 static inline double inertia_energy_value(int n, const double *x,
@@ -44,5 +43,3 @@ static inline void inertia_energy_hessian(int n, const double *m,
     for (int t = 0; t < 2 * n; t++)
         values[slot[t]] += m[t / 2];
 }
-
-#endif

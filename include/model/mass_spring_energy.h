@@ -1,6 +1,5 @@
 /* mass_spring_energy.h - energy of all springs (slide MassSpringEnergy.py). */
-#ifndef ELASTO_MASS_SPRING_ENERGY_H
-#define ELASTO_MASS_SPRING_ENERGY_H
+#pragma once
 
 #include "model/spring_law.h"
 #include "model/system.h"
@@ -54,5 +53,3 @@ static inline void mass_spring_add(const double H[3], const int e[2],
     out[s[9]] -= H[2];
     *slot += 10;
 }
-
-#endif

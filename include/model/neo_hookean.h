@@ -19,8 +19,7 @@
  * Lame's parameters in plane strain: mu = E/(2 (1 + nu)), lambda = E nu/((1 +
  * nu) (1 - 2 nu)).  Options refuse nu < 0: W would have no lower bound.
  */
-#ifndef ELASTO_NEO_HOOKEAN_H
-#define ELASTO_NEO_HOOKEAN_H
+#pragma once
 
 #include "model/elements.h"
 #include "model/square_mesh.h"
@@ -41,5 +40,3 @@ static inline const NeoHookean *neo_hookean_of(const System *system)
 {
     return system_term_data(system, &neo_hookean_energy);
 }
-
-#endif

@@ -13,8 +13,7 @@
  * with Y_n = Y + H kappa_n, the yield strain after the hardening so far.  For
  * |e| < Y_n the spring is elastic.  For H = 0 V is Huber's function.
  */
-#ifndef ELASTO_PLASTICITY_H
-#define ELASTO_PLASTICITY_H
+#pragma once
 
 #include "model/system.h"
 
@@ -55,5 +54,3 @@ extern const TermKind plastic_energy;
 /* Returns the law V of spring s, without damping; an elastic law if the system
  * has no plastic term. */
 FlowLaw plasticity_get_law(const System *system, int s);
-
-#endif

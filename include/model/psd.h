@@ -4,8 +4,7 @@
  * The eigenvectors of each energy are known, so no energy needs the eigenvalue
  * routine of the slide.  Springs use spring_hessian (spring_law.h).
  */
-#ifndef ELASTO_PSD_H
-#define ELASTO_PSD_H
+#pragma once
 
 #include <math.h>
 #include <stdbool.h>
@@ -55,5 +54,3 @@ static inline bool project_psd_2x2(Projection projection, double H[3])
     H[2] = new_low + factor * (H[2] - low);
     return true;
 }
-
-#endif

@@ -6,8 +6,7 @@
  * node towards the mouse.  The change of P in the step is the work of the hand;
  * no energy is stored between steps.
  */
-#ifndef ELASTO_PULL_ENERGY_H
-#define ELASTO_PULL_ENERGY_H
+#pragma once
 
 #include "model/system.h"
 
@@ -44,5 +43,3 @@ void hand_begin_step(Pull *hand, const double *x, const double *v, double m,
 
 /* Returns the work of the hand, J, as its node moves from x [2] to y [2], m. */
 double hand_work(const Pull *hand, const double *x, const double *y);
-
-#endif

@@ -18,8 +18,7 @@
  * The matrix has blocks for the pairs that may be near in this step.  Further
  * pairs that come near during the step get blocks then (TermKind.grow).
  */
-#ifndef ELASTO_SELF_CONTACT_H
-#define ELASTO_SELF_CONTACT_H
+#pragma once
 
 #include "model/boundary.h"
 #include "model/contact.h"
@@ -55,5 +54,3 @@ Status self_contact_configure(System *system, const SquareMesh *mesh,
 
 /* Returns the data of the term; NULL: the system has no self-contact. */
 SelfContact *self_contact_of(const System *system);
-
-#endif

@@ -15,8 +15,7 @@
  * negative eigenvalue, a compressed spring has one, and a spring shorter than
  * its rest length over sqrt(3) has two.
  */
-#ifndef ELASTO_SPRING_LAW_H
-#define ELASTO_SPRING_LAW_H
+#pragma once
 
 #include "model/psd.h"
 
@@ -99,5 +98,3 @@ static inline bool spring_hessian(const double d[2], double l2, double k,
     H[2] = c * across + slope * d[1] * d[1];
     return k > 0;
 }
-
-#endif

@@ -7,8 +7,7 @@
  * a body are in this order: horizontal, vertical, the two diagonals of each
  * cell. Only multigrid uses these numbers directly.
  */
-#ifndef ELASTO_SQUARE_MESH_H
-#define ELASTO_SQUARE_MESH_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -96,5 +95,3 @@ bool square_mesh_get_patch(const SquareMesh *shape, int c, int cells,
 /* Writes the nodes of edge k of the outline, 0 ... outline-1.  The edges of a
  * body go anticlockwise from its lower left corner. */
 void square_mesh_get_outline_edge(const SquareMesh *shape, int k, int node[2]);
-
-#endif

@@ -9,8 +9,7 @@
  * Code that changes a system calls system_mark_changed, which raises its
  * version.  Solvers store the version for which their results are valid.
  */
-#ifndef ELASTO_SYSTEM_H
-#define ELASTO_SYSTEM_H
+#pragma once
 
 #include <math.h>
 
@@ -131,5 +130,3 @@ double system_curvature_bound(const System *system);
 
 /* Returns |g|_(M^-1) = sqrt(sum |g_i|^2/m_i).  g [2n] in. */
 double system_inverse_mass_norm(const System *system, const double *g);
-
-#endif

@@ -8,8 +8,7 @@
  * A function pointer that is NULL means: this term adds nothing here.  Terms
  * ignore pins: the caller clears pinned nodes in g and in the Hessian.
  */
-#ifndef ELASTO_TERM_H
-#define ELASTO_TERM_H
+#pragma once
 
 #include "base/sparse.h"
 #include "model/psd.h"
@@ -154,5 +153,3 @@ void term_add_block(const System *system, int i, int j, Triplets *triplets);
 
 /* Appends the triplets xx and yy of node i. */
 void term_add_diagonal(const System *system, int i, Triplets *triplets);
-
-#endif

@@ -3,8 +3,7 @@
  * The origin is the upper left corner, y points down, and pixel (i, j) covers
  * [i, i+1) x [j, j+1).  A shape adds its colour in proportion to the part of
  * the pixel that it covers.  NaN and infinite coordinates draw nothing. */
-#ifndef ELASTO_CANVAS_H
-#define ELASTO_CANVAS_H
+#pragma once
 
 #include <stdint.h>
 
@@ -95,5 +94,3 @@ void canvas_disc(Canvas *canvas, double x, double y, double radius,
  *   mask  [height width] in, coverages 0 ... 255 */
 void canvas_fill_mask(Canvas *canvas, int x, int y, int width, int height,
                       const uint8_t *mask, Colour colour);
-
-#endif

@@ -4,8 +4,7 @@
  * The same contents and size of the paper give the same pixels.  Pointers are
  * not owned; an element whose pointer is NULL is not drawn.  A zeroed struct
  * with one pane is valid.  Texts are in the markup of text.h. */
-#ifndef ELASTO_FRAME_CONTENT_H
-#define ELASTO_FRAME_CONTENT_H
+#pragma once
 
 #include "picture/layout.h"
 #include "lesson/pages.h"
@@ -371,5 +370,3 @@ bool cards_need_line_energy(const Simulation *simulation, unsigned toggled);
  * quantities. */
 int picture_sample_energies(const Simulation *simulation,
                             Energy row[HISTORY_SERIES]);
-
-#endif

@@ -19,8 +19,7 @@
  * the chips.  In a bare window the stage is alone.  Pixels are those of the
  * canvas, y down.
  */
-#ifndef ELASTO_LAYOUT_H
-#define ELASTO_LAYOUT_H
+#pragma once
 
 #include "picture/canvas.h"
 
@@ -113,5 +112,3 @@ void lens_zoom(Lens *lens, Box box, double x, double y, double factor);
 
 /* Pans by (dx, dy) pixels. */
 void lens_pan(Lens *lens, Box box, double dx, double dy);
-
-#endif

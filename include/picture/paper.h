@@ -2,8 +2,7 @@
  *
  * Sizes are in ems.  An em is the size of plain text; layout_create chooses its
  * pixels.  Widths of lines are in units; a unit is 1/14 em. */
-#ifndef ELASTO_PAPER_H
-#define ELASTO_PAPER_H
+#pragma once
 
 #include "picture/text.h"
 
@@ -60,5 +59,3 @@ int paper_width(Paper *paper, Face face, double size, const char *markup);
  *   lines  the most lines to draw; 0: only measures the whole paragraph */
 int paper_write_paragraph(Paper *paper, Face face, double size, Colour colour,
                           Box box, int lines, const char *markup);
-
-#endif

@@ -2,8 +2,7 @@
  *
  * A scene names its picture.  A new picture is one source file and one row in
  * cards.txt, from which the tables are generated. */
-#ifndef ELASTO_PICTURE_H
-#define ELASTO_PICTURE_H
+#pragma once
 
 #include "picture/paper.h"
 #include "picture/frame_content.h"
@@ -94,5 +93,3 @@ void frame_draw(Paper *paper, const FrameContent *content);
 /* Draws the content of one card, without frame and title, on a whole paper.
  *   card  index in the picture of the active pane's scene */
 void frame_draw_card(Paper *paper, const FrameContent *content, int card);
-
-#endif

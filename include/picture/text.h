@@ -9,8 +9,7 @@
  *     {x} {xt} {p} {alpha}     letters of the slides in their colours (xt is x
  *                              with a tilde); in COLOUR_GREY they stay grey
  * Any other brace is an ordinary character. */
-#ifndef ELASTO_TEXT_H
-#define ELASTO_TEXT_H
+#pragma once
 
 #include <stddef.h>
 
@@ -77,5 +76,3 @@ typedef struct Glyph {
 /* Finds or draws a letter; size in pixels.  The pointer is valid until the next
  * call. */
 const Glyph *font_get_glyph(Text *text, Face face, int size, uint32_t letter);
-
-#endif

@@ -3,8 +3,7 @@
  * The table command_rows has a row for each command.  The window obeys the same
  * commands as a script, so a session can be saved as a script and played again.
  */
-#ifndef ELASTO_COMMAND_H
-#define ELASTO_COMMAND_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -130,5 +129,3 @@ const Command *script_due(Script *script, long step, bool waits);
 bool script_is_over(const Script *script);
 
 void script_free(Script *script);
-
-#endif

@@ -5,8 +5,7 @@
  *   a pipe, a device         is written directly
  * A run that fails or is killed leaves NAME.part; the next run overwrites it.
  */
-#ifndef ELASTO_OUTPUT_H
-#define ELASTO_OUTPUT_H
+#pragma once
 
 #include <stdbool.h>
 #include <stdio.h>
@@ -90,5 +89,3 @@ void table_add_row(Table *table, const double *value);
 
 /* Returns FILE_FAILED (message) if a write to an open table has failed. */
 Status table_check(const Table *table);
-
-#endif

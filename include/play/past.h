@@ -23,8 +23,7 @@
  * the pane with the longest one, and as many of the others as fit into it.  A
  * pane that cannot make its part ends; the others go on.
  */
-#ifndef ELASTO_PAST_H
-#define ELASTO_PAST_H
+#pragma once
 
 #include "play/command.h"
 #include "play/step_trace.h"
@@ -207,5 +206,3 @@ long past_find_drawable_step(const Past *past, int pane, long step);
 
 /* Fills the energies over time that plots of a pane show. */
 void past_fill_history(const Past *past, int pane, History *history);
-
-#endif

@@ -9,8 +9,7 @@
  * From a key to Newton's method: player_obey_input, player_obey, player_work,
  * past_iterate, simulation_advance, time_integrator_advance, newton_minimise.
  */
-#ifndef ELASTO_PLAYER_H
-#define ELASTO_PLAYER_H
+#pragma once
 
 #include <signal.h>
 
@@ -271,5 +270,3 @@ int program_begin(int argc, char **argv, const volatile sig_atomic_t *stop,
 /* Finishes the files after the last status of a run, and prints the summary or
  * why the run failed.  Returns the exit code. */
 int program_end(Player *player, Status status);
-
-#endif

@@ -10,8 +10,7 @@
  * The program ffmpeg makes films of frames from a pipe, 60 frames a second; in
  * .gif 50, since .gif counts hundredths of a second.
  */
-#ifndef ELASTO_RECORDING_H
-#define ELASTO_RECORDING_H
+#pragma once
 
 #include "picture/canvas.h"
 #include "play/output.h"
@@ -99,5 +98,3 @@ void recording_free(Recording *recording);
  *   message  as of output_open
  * Returns OK, OUT_OF_MEMORY, FILE_FAILED (errno says why). */
 Status png_file_write(const char *name, char *message, const Canvas *canvas);
-
-#endif

@@ -2,8 +2,7 @@
  *
  * A round is a Newton iteration; a place is a line of Algorithm 3 in a round.
  */
-#ifndef ELASTO_STEP_TRACE_H
-#define ELASTO_STEP_TRACE_H
+#pragma once
 
 #include "picture/frame_content.h"
 
@@ -99,5 +98,3 @@ int step_trace_peak(const StepTrace *trace);
  * `shown` lead into the trace.  Returns the positions to draw, [size] m; NULL:
  * the positions after the step. */
 const double *step_trace_fill(const StepTrace *trace, int place, Trace *shown);
-
-#endif

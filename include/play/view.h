@@ -1,6 +1,5 @@
 /* view.h - shows the window, by SDL or in a web page, and reads its inputs. */
-#ifndef ELASTO_VIEW_H
-#define ELASTO_VIEW_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -66,5 +65,3 @@ Input window_read_input(void);
 
 /* Waits for an input, at most for this time. */
 void window_wait_for_input(int milliseconds);
-
-#endif

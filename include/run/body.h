@@ -1,6 +1,5 @@
 /* body.h - the body of the options, with mesh, start, obstacles and terms. */
-#ifndef ELASTO_BODY_H
-#define ELASTO_BODY_H
+#pragma once
 
 #include "model/contact.h"
 #include "run/simulation.h"
@@ -54,5 +53,3 @@ Status start_table_read(const Options *options, int run, int nodes, double *x,
                         double *v, Message message);
 Status start_springs_read(const Options *options, int run, System *system,
                           Message message);
-
-#endif

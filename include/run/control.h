@@ -1,6 +1,5 @@
 /* control.h - the inputs of a step: control (a user's decisions) and state. */
-#ifndef ELASTO_CONTROL_H
-#define ELASTO_CONTROL_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -66,5 +65,3 @@ void state_restore(const void *bytes, Simulation *simulation);
 uint64_t state_hash(const Simulation *simulation, uint64_t seed);
 
 #define STATE_HASH_SEED UINT64_C(14695981039346656037)
-
-#endif

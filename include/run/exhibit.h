@@ -1,8 +1,7 @@
 /* exhibit.h - data of the lecture's small scenes, which are part of the saved
  * state, and the points and switches that a user can move in them.
  */
-#ifndef ELASTO_EXHIBIT_H
-#define ELASTO_EXHIBIT_H
+#pragma once
 
 #include "run/scene.h"
 #include "step/time_integrator.h"
@@ -140,5 +139,3 @@ int exhibit_spring_kind(const struct Simulation *simulation, int spring);
 void exhibit_drag_handle(struct Simulation *simulation, int handle, double x,
                          double y);
 void exhibit_flip_switch(struct Simulation *simulation, int number);
-
-#endif

@@ -1,6 +1,5 @@
 /* message.h - buffers for messages of one line. */
-#ifndef ELASTO_MESSAGE_H
-#define ELASTO_MESSAGE_H
+#pragma once
 
 #include <stddef.h>
 
@@ -26,5 +25,3 @@ typedef struct Message {
 /* Writes a message as one line.  Returns INVALID_INPUT. */
 Status refuse(Message message, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
-
-#endif

@@ -3,8 +3,7 @@
  * A row of the table is the only description of an option: the command line,
  * --help, the window's row of numbers, scripts and labels of panes read it.
  */
-#ifndef ELASTO_OPTIONS_H
-#define ELASTO_OPTIONS_H
+#pragma once
 
 #include <stddef.h>
 
@@ -259,5 +258,3 @@ const IntegratorMethod *options_method(const Options *options);
 
 /* Returns the name of a solver on the command line. */
 const char *solver_name(int solver);
-
-#endif

@@ -3,8 +3,7 @@
  * A new scene is a row in scene.c and a function that fills the system and the
  * start, such as create_square.  Keys, files, options and --list read the row.
  */
-#ifndef ELASTO_SCENE_H
-#define ELASTO_SCENE_H
+#pragma once
 
 #include "base/status.h"
 
@@ -94,5 +93,3 @@ typedef struct Scene {
     /* Names of the parts of the picture that can be switched. */
     const char *switch_labels[SCENE_MAX_SWITCHES];
 } Scene;
-
-#endif

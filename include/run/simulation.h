@@ -1,8 +1,7 @@
 /* simulation.h - a scene while it runs: a system and one to three runs of it,
  * each with its integrator and its state.
  */
-#ifndef ELASTO_SIMULATION_H
-#define ELASTO_SIMULATION_H
+#pragma once
 
 #include "run/exhibit.h"
 #include "run/message.h"
@@ -185,5 +184,3 @@ int simulation_find_point(const Simulation *simulation, double at[2]);
  *   mode  [2n] out, of length 1 */
 double simulation_find_fastest_mode(const Simulation *simulation,
                                     const double *x, double *mode);
-
-#endif

@@ -1,6 +1,5 @@
 /* scenes.h - the table of scenes. */
-#ifndef ELASTO_SCENES_H
-#define ELASTO_SCENES_H
+#pragma once
 
 #include "run/scene.h"
 
@@ -10,5 +9,3 @@ extern const Scene scenes[];
 
 /* Returns the scene with this name, or this number from 1; NULL: none. */
 const Scene *scene_find(const char *text);
-
-#endif

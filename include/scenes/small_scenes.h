@@ -16,8 +16,7 @@
  *
  * run/exhibit.h has the data of these scenes.
  */
-#ifndef ELASTO_SMALL_SCENES_H
-#define ELASTO_SMALL_SCENES_H
+#pragma once
 
 #include "run/simulation.h"
 
@@ -170,5 +169,3 @@ Status step_envelope(Simulation *simulation);
 /* Runs the steps of a cell, with the h of its column and the k of its row, as
  * run 0.  Returns OK, also if steps did not converge, or OUT_OF_MEMORY. */
 Status envelope_run_cell(Simulation *simulation, int column, int row);
-
-#endif

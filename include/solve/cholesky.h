@@ -3,8 +3,7 @@
  * The pattern is analysed once; each change of the values needs a new factor.
  * Solves allocate nothing.  CHOLMOD's types stay inside cholesky.c.
  */
-#ifndef ELASTO_CHOLESKY_H
-#define ELASTO_CHOLESKY_H
+#pragma once
 
 #include "base/sparse.h"
 
@@ -37,5 +36,3 @@ Status cholesky_solve(Cholesky *cholesky, const double *b, double *x);
 /* Returns the number of negative pivots of the last factor, of kind INDEFINITE,
  * which is the number of negative eigenvalues of A. */
 int cholesky_negative_pivots(const Cholesky *cholesky);
-
-#endif

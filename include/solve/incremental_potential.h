@@ -6,8 +6,7 @@
  * u = x - x_n, so that v = u/h has full accuracy even where h v is far below
  * the rounding of x.
  */
-#ifndef ELASTO_INCREMENTAL_POTENTIAL_H
-#define ELASTO_INCREMENTAL_POTENTIAL_H
+#pragma once
 
 #include "base/sparse.h"
 #include "model/system.h"
@@ -108,5 +107,3 @@ double incremental_potential_max_step(const Iterate *at);
 /* Whether every term allows u, x [2n]. */
 bool incremental_potential_allows(const IncrementalPotential *E,
                                   const double *u, const double *x);
-
-#endif

@@ -5,8 +5,7 @@
  * the difference of the two (incremental_potential_prepare_line), so that
  * rounding of large energies does not hide a small decrease.
  */
-#ifndef ELASTO_LINE_SEARCH_H
-#define ELASTO_LINE_SEARCH_H
+#pragma once
 
 #include "base/status.h"
 
@@ -29,5 +28,3 @@ enum { LINE_SEARCH_MAX_HALVINGS = 64 };
  * Returns OK, LINE_SEARCH_LIMIT. */
 Status line_search_backtrack(EnergyDifference difference, const void *function,
                              double *alpha, int *trials);
-
-#endif

@@ -6,8 +6,7 @@
  * tests.  The observer of the records may pause the loop, and the next call of
  * newton_minimise continues it.
  */
-#ifndef ELASTO_NEWTON_H
-#define ELASTO_NEWTON_H
+#pragma once
 
 #include "solve/line_search.h"
 #include "solve/cholesky.h"
@@ -176,5 +175,3 @@ Status newton_minimise(Newton *newton);
 
 /* Returns the limit of iterations: max_iterations, or less on large squares. */
 int newton_most_iterations(const Newton *newton);
-
-#endif

@@ -7,8 +7,7 @@
  *
  * Newton's observer may pause a step, which time_integrator_advance continues.
  */
-#ifndef ELASTO_TIME_INTEGRATOR_H
-#define ELASTO_TIME_INTEGRATOR_H
+#pragma once
 
 #include "solve/newton.h"
 
@@ -104,5 +103,3 @@ Status time_integrator_advance(TimeIntegrator *run);
 
 /* Makes a whole step.  Returns as time_integrator_advance does at the end. */
 Status time_integrator_step(TimeIntegrator *run);
-
-#endif

@@ -1,6 +1,5 @@
 /* hints.h - names for users who mistyped one, or who used a removed option. */
-#ifndef ELASTO_HINTS_H
-#define ELASTO_HINTS_H
+#pragma once
 
 #include "run/options.h"
 
@@ -22,5 +21,3 @@ Phrase suggest_name(const char *text, const char *dashes, Names names);
  * earlier version had; NULL: no version had it.
  *   value  "": the option itself */
 const char *find_replacement(const char *option, const char *value);
-
-#endif

@@ -8,8 +8,7 @@
  *
  * `unit` below is a factor that makes J relative: unit J is 1 at rest.
  */
-#ifndef ELASTO_AREA_H
-#define ELASTO_AREA_H
+#pragma once
 
 #include "model/elements.h"
 
@@ -88,5 +87,3 @@ void area_assemble_hessian(const AreaHessian *area, double H[4][4]);
  *   v, Hv  [4] in, out */
 void area_multiply_hessian(const AreaHessian *area, const double v[4],
                            double Hv[4]);
-
-#endif

@@ -9,8 +9,7 @@
  * f is convex and has a continuous slope.  s > 0 is a distance divided by the
  * distance at which the barrier begins.
  */
-#ifndef ELASTO_BARRIER_H
-#define ELASTO_BARRIER_H
+#pragma once
 
 double barrier_value(double s);     /* f(s) */
 double barrier_slope(double s);     /* f'(s) */
@@ -22,5 +21,3 @@ double barrier_taylor_remainder(double s, double t);
 
 /* Returns log1p(z) - z, z > -1, without cancellation for small z. */
 double log1p_minus(double z);
-
-#endif

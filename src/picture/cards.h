@@ -1,6 +1,5 @@
 /* cards.h - functions and tables that pictures, cards and cards.txt share. */
-#ifndef ELASTO_CARDS_H
-#define ELASTO_CARDS_H
+#pragma once
 
 #include "picture/colour_map.h"
 #include "picture/live_values.h"
@@ -151,5 +150,3 @@ long time_line_steps(const FrameContent *content);
 
 /* Returns the step length alpha of trial 1, 2, ... of the line search. */
 double trace_step_length(const Trace *trace, int trial);
-
-#endif

@@ -2,8 +2,7 @@
  *
  * Each colour has one meaning.  Colours that appear side by side can be told
  * apart by colour-blind people (Okabe and Ito 2008). */
-#ifndef ELASTO_COLOUR_MAP_H
-#define ELASTO_COLOUR_MAP_H
+#pragma once
 
 #include "picture/text.h"
 
@@ -60,5 +59,3 @@ Colour colour_of_term(int term);
 
 /* Returns the colour of an energy or an integrator by name. */
 Colour colour_of_name(const char *name);
-
-#endif

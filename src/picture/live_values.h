@@ -10,8 +10,7 @@
  *   - "#warning " before a line sets its colour; "#warning* ": bold, too.
  *   - Lines after a line "@" are repeated with the values of the runs 1, 2, 3;
  *     "#run " is the run's colour. */
-#ifndef ELASTO_LIVE_VALUES_H
-#define ELASTO_LIVE_VALUES_H
+#pragma once
 
 #include "picture/picture.h"
 
@@ -68,5 +67,3 @@ void card_write_text(const Plot *card, const LiveValues *values,
  *   draw  false: the line is only measured */
 int card_write_flow(const Plot *card, int at[2], double size, double gap,
                     const TextLine *line, bool draw);
-
-#endif

@@ -9,8 +9,7 @@
  * at the box, and discs and rings whose centre lies outside are left out.  A
  * stage is clipped by its canvas.
  */
-#ifndef ELASTO_PLOT_H
-#define ELASTO_PLOT_H
+#pragma once
 
 #include "base/mathematics.h"
 #include "picture/paper.h"
@@ -198,5 +197,3 @@ Plot stage_create(Paper *paper, const FrameContent *content,
 
 /* Draws a ring at each of the scene's handles, which the mouse can drag. */
 void stage_draw_handles(const Plot *stage);
-
-#endif

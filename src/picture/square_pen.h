@@ -1,7 +1,6 @@
 /* square_pen.h - the layers from which square_picture.c draws a body of springs
  * or triangles: springs, nodes, faces, outlines, obstacles, contact forces. */
-#ifndef ELASTO_SQUARE_PEN_H
-#define ELASTO_SQUARE_PEN_H
+#pragma once
 
 #include "model/contact.h"
 #include "picture/plot.h"
@@ -64,5 +63,3 @@ void square_write_friction(const SquarePen *pen);
  * their nodes, with their scale in the legend.  A disc marks a node that
  * friction holds, a ring a node that slides. */
 void square_draw_forces(const SquarePen *pen, int runs);
-
-#endif

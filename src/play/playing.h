@@ -1,6 +1,5 @@
 /* playing.h - functions that files of play share, lowest layer first. */
-#ifndef ELASTO_PLAYING_H
-#define ELASTO_PLAYING_H
+#pragma once
 
 #include "play/player.h"
 #include "lesson/command_line.h"
@@ -186,5 +185,3 @@ Status player_obey_queue(Player *player, bool now);
 
 /* Continues the work that leads to a step, and obeys the queue. */
 Status player_continue(Player *player);
-
-#endif

@@ -18,8 +18,7 @@
  * added in a fixed order, and then the bands are.  The bits are therefore the
  * same everywhere.
  */
-#ifndef ELASTO_GRID_H
-#define ELASTO_GRID_H
+#pragma once
 
 #include <stddef.h>
 
@@ -139,5 +138,3 @@ void grid_add_step(const Grid *grid, double a, const double *p);
 
 /* Computes single_x. */
 void grid_narrow_x(const Grid *grid);
-
-#endif

@@ -1,7 +1,6 @@
 /* grid_loops.h - loops over the nodes of a grid, several nodes at once, and
  * over the springs of each node. */
-#ifndef ELASTO_GRID_LOOPS_H
-#define ELASTO_GRID_LOOPS_H
+#pragma once
 
 #include <stdint.h> /* defines __GLIBC__ if the library is glibc */
 #ifdef __wasm_simd128__
@@ -169,5 +168,3 @@ INLINE double sum_lanes(const double s[LANES])
 {
     return ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7]));
 }
-
-#endif

@@ -3,8 +3,7 @@
  *
  * A spring adds c/4 s^2 to E, s = |d|^2 - l2, c = 2 w k/l2.  The gradient is
  * c s d, the Hessian c (iso I + along d d^T) with iso = s and along = 2. */
-#ifndef ELASTO_GRID_SPRING_H
-#define ELASTO_GRID_SPRING_H
+#pragma once
 
 #include "solve/grid_loops.h"
 
@@ -62,5 +61,3 @@ INLINE void spring_line_polynomial(Spring s, Pair ux, Pair uy, Pair *q0,
     *q2 += cB * C;
     *q3 += cC * C;
 }
-
-#endif

@@ -17,8 +17,7 @@
  *
  * A step depends on its arguments alone.  Results have the same bits for every
  * width of registers. */
-#ifndef ELASTO_MULTIGRID_H
-#define ELASTO_MULTIGRID_H
+#pragma once
 
 #include "solve/newton.h"
 
@@ -31,5 +30,3 @@ void multigrid_free(Multigrid *multigrid);
  * settings ask for multigrid, and all terms suit it.  newton->refusal becomes
  * the reason why multigrid cannot, or NULL. */
 bool multigrid_accepts(Newton *newton);
-
-#endif

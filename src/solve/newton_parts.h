@@ -1,8 +1,7 @@
 /* newton_parts.h - the parts of Newton's loop (newton.c), each in a file of its
  * own.
  */
-#ifndef ELASTO_NEWTON_PARTS_H
-#define ELASTO_NEWTON_PARTS_H
+#pragma once
 
 #include "solve/newton.h"
 
@@ -98,5 +97,3 @@ bool energy_is_within_limit(const Newton *newton, const double *u,
  * ROUNDING_LIMIT if the last change of E is below roundoff, and ITERATION_LIMIT
  * if there is no line search.  Otherwise RUNNING. */
 Status rounding_test_stagnation(Newton *newton);
-
-#endif

@@ -15,8 +15,7 @@
  * arithmetic.  In panels.c four columns go through a panel at a time: half the
  * time at 32 segments, four fifths at 64 and above.
  */
-#ifndef ELASTO_PANELS_H
-#define ELASTO_PANELS_H
+#pragma once
 
 typedef struct Panel {
     int columns, rows;
@@ -30,5 +29,3 @@ typedef struct Panel {
  * from known rows below.  w [rows] in/out. */
 void panel_forward(const Panel *panel, double *w);
 void panel_backward(const Panel *panel, double *w);
-
-#endif

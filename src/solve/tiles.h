@@ -12,8 +12,7 @@
  *
  * Tiles work in single precision on a copy of x.  Their result is a direction,
  * along which the caller minimises E in double precision. */
-#ifndef ELASTO_TILES_H
-#define ELASTO_TILES_H
+#pragma once
 
 #include "solve/grid.h"
 
@@ -36,5 +35,3 @@ void tiles_lay_out(const Grid *grid, Memory *memory, Tiles *tiles);
  *         time
  *   p     [2 planes] out, displacements of the nodes */
 void tiles_relax(Tiles *tiles, double pace, double *p);
-
-#endif

@@ -16,8 +16,7 @@
  * order, after it; so the cycle is symmetric and positive definite.  Nodes of
  * one colour share no spring, so the bits do not depend on the number of lanes.
  */
-#ifndef ELASTO_V_CYCLE_H
-#define ELASTO_V_CYCLE_H
+#pragma once
 
 #include "solve/grid.h"
 
@@ -69,5 +68,3 @@ bool v_cycle_solve(VCycle *cycle, const double *g, double square,
  *   longest  largest |p_x| + |p_y| of a node with which p passes the test */
 bool v_cycle_passes(const Grid *grid, double largest, double square,
                     double longest);
-
-#endif

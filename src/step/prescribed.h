@@ -3,8 +3,7 @@
  * A step has one or several minimisations: prescribed_start moves walls and
  * pins as far as there is room and starts one, prescribed_end_part says whether
  * another one follows. */
-#ifndef ELASTO_PRESCRIBED_H
-#define ELASTO_PRESCRIBED_H
+#pragma once
 
 #include "step/time_integrator.h"
 
@@ -29,5 +28,3 @@ bool prescribed_end_part(TimeIntegrator *run, Status *status);
  * their reaction, the gradient of E there, times their way.  The obstacles'
  * work is their force on the nodes, normal and of friction, times their way. */
 double prescribed_work(const TimeIntegrator *run);
-
-#endif

@@ -1,8 +1,7 @@
 /* document.h - writes the texts of a frame, which the page shows beside its
  * canvas.
  */
-#ifndef ELASTO_DOCUMENT_H
-#define ELASTO_DOCUMENT_H
+#pragma once
 
 #include "play/player.h"
 
@@ -24,5 +23,3 @@ unsigned document_colour(Colour colour);
  *     pages ADDRESS TOPIC, scenes ADDRESS TEXT, keys KEY MEANING
  *   text  [DOCUMENT_SIZE] out */
 void document_write_lists(char *text);
-
-#endif
