@@ -141,7 +141,7 @@ typedef struct Pick {
 /* Bounds of a pane's view while the mouse drags a thing: the view stands still,
  * so that the thing stays under the mouse. */
 typedef struct HeldBounds {
-    bool on;   /* the view is held */
+    bool on;   /* during a drag */
     bool away; /* the mouse has left the stage, so the view is free for now */
     int pane;
     double bounds[4]; /* left, bottom, right, top, m */

@@ -89,7 +89,7 @@ typedef struct Commands {
     Queue queue;
     int gesture;         /* id of the present gesture, which is undone as one */
     int gestures;        /* number of gestures so far, the id of the newest */
-    int held;            /* id of the last grab or push, for its drags */
+    int held;            /* gesture that drags join: last grab or push */
     Script journal;      /* commands of the session, with undo and redo */
     CommandKind leaving; /* command of which a second one ends the program */
     bool refused;        /* a line of the script was refused */
@@ -101,7 +101,7 @@ typedef struct Tour {
     const LecturePage *revealed; /* page whose answer is shown, or NULL */
     char verdict[VALUE_SIZE];    /* verdict on the guess at the page, or "" */
     int guesses, right_guesses;  /* numbers of guesses so far */
-    bool obeys_page;             /* commands of a page are obeyed */
+    bool obeys_page;             /* a page's commands are running */
     Options own[OPTIONS_MAX_DRAWN]; /* the page's own options of each pane */
     int panes;                      /* the page's own number of panes */
 } Tour;

@@ -54,7 +54,7 @@ Status control_apply(Simulation *simulation, const Control *control);
 /* Writes the state as bytes, unless `bytes` is NULL.  Returns their number. */
 size_t state_save(const Simulation *simulation, void *bytes);
 
-/* Restores a saved state.  The stiffness of unbroken springs and the numbers of
+/* Restores a saved state.  The stiffness of unbroken springs and the values of
  * obstacles are those of the simulation's options.
  *   bytes  in, from a simulation with the same system */
 void state_restore(const void *bytes, Simulation *simulation);

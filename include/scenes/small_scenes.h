@@ -84,8 +84,8 @@ Status create_tangent(Simulation *simulation);
 Status create_landscape(Simulation *simulation);
 
 /* Makes one Newton update (Algorithm 1), with the projection (Algorithm 3, line
- * 3) and line search (Algorithm 2) of the options.  The loop tests |g| in one
- * unknown, and also without projection and line search; else |p|/h. */
+ * 3) and line search (Algorithm 2) of the options.  Convergence is tested by
+ * |g| for one unknown or with neither of the two, else by |p|/h. */
 Status step_descent(Simulation *simulation);
 
 /* Computes the direction at the present iterate with the present options. */

@@ -367,7 +367,7 @@ static bool run_function(const Task *task, int case_number, Function *function,
     return true;
 }
 
-/* Returns the sentence of the mistake with the student's numbers, or NULL. */
+/* Returns the sentence of the mistake that gives `yours`, or NULL. */
 static const char *find_mistake(const Task *task, int case_number,
                                 const double *yours)
 {

@@ -63,10 +63,10 @@ double triangle_max_step(const EvalPoint *at, const Element *element,
 /* Makes triangle t an element with a = x_b - x_a, b = x_c - x_a, without s. */
 void triangle_set_element(const EvalPoint *at, int t, Element *element);
 
-/* A Hessian H by its eigenspaces.  H is on_plus in the space of f+, on_minus in
- * the space of f-, plus second (unit K f)(unit K f)^T.  H maps the plane of
- * a = f+/|f+| and b = f-/|f-| to itself, with the matrix Q.  The other two
- * eigenvectors are across_a in the space of f+ and across_b in that of f-. */
+/* A Hessian H by its eigenspaces.  H is on_plus in the space of f+
+ * (area_split), on_minus in that of f-, plus second (unit K f)(unit K f)^T.  Q
+ * is H in the plane of a = f+/|f+| and b = f-/|f-|.  The other two eigenvectors
+ * are across_a in the space of f+ and across_b in that of f-. */
 typedef struct AreaHessian {
     double a[4], b[4], across_a[4], across_b[4]; /* unit vectors */
     double Q[3];                                 /* Q_aa, Q_ab, Q_bb */

@@ -70,15 +70,16 @@ static void add_lines(const char *text, bool live, char *out, size_t size)
 }
 
 /* Copies the answer of the page.  If options are changed, lines with live
- * values come first; the other lines follow below the heading lecture->own. */
+ * values come first; the other lines, if any, follow below lecture->own. */
 static void fill_look(const LecturePage *page, LectureContent *lecture)
 {
-    char *look = lecture->look;
+    char *look = lecture->look, others[LOOK_SIZE] = "";
     look[0] = '\0';
+    add_lines(page->look, false, others, sizeof others);
     if (lecture->own[0]) {
         add_lines(page->look, true, look, LOOK_SIZE);
-        append(look, LOOK_SIZE, "%s\n", lecture->own);
-        add_lines(page->look, false, look, LOOK_SIZE);
+        if (others[0])
+            append(look, LOOK_SIZE, "%s\n%s", lecture->own, others);
     } else {
         append(look, LOOK_SIZE, "%s", page->look);
     }

@@ -100,7 +100,7 @@ Status player_restart_runs(Player *player, const Options *options, int panes,
     if (opens)
         player->time.walk_unit = UNIT_STEP;
     if (!status && opens &&
-        player->setup.asks) { /* a script repeats the opening commands itself */
+        player->setup.asks) { /* a script has the page's commands in it */
         player->commands.queue.pins = before;
         return player_enqueue_page(player);
     }

@@ -56,9 +56,9 @@ typedef struct Grid {
     Rows rows;
     int segments, bands;
     double length, mass, energy; /* grid units in a m, kg, J s^2 */
-    /* Equal rows of masses share their place, and so do equal rows of springs.
-     * The mass of the node with index q in row i is m[q + node_shift[i]]; the
-     * springs that start at the node have the index q + spring_shift[i + 1]. */
+    /* Equal rows of masses are stored once, and so are equal rows of springs.
+     * Node q in row i has the mass m[q + node_shift[i]]; the springs that start
+     * there have the index q + spring_shift[i + 1]; [0] is for row -1. */
     int *node_shift, *spring_shift; /* [nodes + 1] shifts by row */
     double *c[KINDS];  /* [plane] 2 w k/l2 by kind of spring; 0: no spring */
     double *l2[KINDS]; /* [plane] squared rest length */
