@@ -79,7 +79,7 @@ void system_remove_term(System *system, const TermKind *kind);
 void system_book_loss(System *system, const TermKind *kind, double energy);
 
 /* Whether the point is feasible for all terms (elements_are_feasible). */
-bool system_allows(EvalPoint at);
+bool system_is_feasible(EvalPoint at);
 
 /* Returns the smallest elements_max_step of all terms along p [2n] m, in;
  * `internal`: without the external terms. */

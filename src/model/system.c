@@ -126,7 +126,7 @@ const TermKind *eval_point_next_term(EvalPoint *at)
     return at->term ? at->term->kind : NULL;
 }
 
-bool system_allows(EvalPoint at)
+bool system_is_feasible(EvalPoint at)
 {
     for (const TermKind *kind; (kind = eval_point_next_term(&at));)
         if (kind->element && !elements_are_feasible(&at))

@@ -86,8 +86,8 @@ typedef struct LawGap {
     double d_hat;   /* m, distance at which the force begins */
 } LawGap;
 
-/* Finds the contact with the largest force.  Returns false if no distance is
- * below d_hat, or if the law is not about contact. */
+/* Finds the contact with the largest force.  Returns false if all
+ * distances are above d_hat, or the law is of another kind. */
 bool law_find_gap(const Simulation *simulation, LawGap *gap);
 
 /* Finds how far the last body has slid, and how far a rigid body would slide,

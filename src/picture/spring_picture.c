@@ -61,8 +61,8 @@ static void draw_coil(Plot *stage, const double *x, Colour colour)
 }
 
 /* Draws the spring and its force.  The spring has another colour if projection
- * changes its block.  A page about modes has no force, but the eigenvectors (q,
- * -q) of the block: longer for larger eigenvalues, red for negative ones. */
+ * changes its block.  On a page about modes the eigenvectors (q, -q) of the
+ * block replace the force: longer for larger eigenvalues, red for negative. */
 void spring_draw(Plot *stage)
 {
     const Simulation *simulation = stage->simulation;

@@ -246,7 +246,7 @@ Status simulation_place_node(Simulation *simulation, int node, double x,
     run->x[2 * node] = x;
     run->x[2 * node + 1] = y;
     bool allowed =
-        system_allows(eval_point_at(run->system, NULL, NULL, run->x));
+        system_is_feasible(eval_point_at(run->system, NULL, NULL, run->x));
     for (size_t i = 0; i < run->size; i++)
         p[i] = run->x[i] - before[i];
     allowed = allowed && system_path_is_free(run->system, before, p);

@@ -164,7 +164,7 @@ double incremental_potential_max_step(const Iterate *at)
 bool incremental_potential_allows(const IncrementalPotential *E,
                                   const double *u, const double *x)
 {
-    return system_allows(eval_point_of(E, u, x));
+    return system_is_feasible(eval_point_of(E, u, x));
 }
 
 void incremental_potential_absorb_pulls(const Iterate *iterate, double *m,

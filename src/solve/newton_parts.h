@@ -58,9 +58,9 @@ void swap_iterates(Newton *newton);
  * which is at most sum |p_i| |g_i|. */
 bool turns_may_follow(const Newton *newton);
 
-/* Turns all nodes to the angle at which E is lowest.  Does nothing unless P
- * stays the same in a turn (system_turns_freely) and the scene is stiff or
- * turns_may_follow.  Then angular momentum is exact:
+/* Turns all nodes to the angle at which E is lowest, if P stays the same in a
+ * turn (system_turns_freely), and the scene is stiff or turns_may_follow.
+ * Then angular momentum is exact:
  * sum m d x (u - u_tilde) = 0, with d the vector from the pivot to a node.
  * Newton's directions are straight and stretch what they turn, so a stiff body
  * would turn by tiny steps, which pass the test.  Returns the change of E, J

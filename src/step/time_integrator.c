@@ -33,7 +33,7 @@ Status time_integrator_create(const IntegratorMethod *method, System *system,
     size_t size = 2 * (size_t)system->nodes;
     *run = (TimeIntegrator){
         .method = method, .system = system, .size = size, .h = settings->h};
-    if (!system_allows(eval_point_at(system, x, NULL, x)) ||
+    if (!system_is_feasible(eval_point_at(system, x, NULL, x)) ||
         integrator_method_refuses(method, system) ||
         (system->pin_v && !method->ends_at_minimiser))
         return STATUS_INVALID_INPUT;
