@@ -48,6 +48,11 @@ typedef struct TextExtent {
 } TextExtent;
 TextExtent text_extent(Text *text, const TextStyle *style, const char *markup);
 
+/* Counts the bytes of a text, fewer than `room`, that fit into this width.  The
+ * text is cut at a blank outside of braces; at least one word fits. */
+size_t text_count_fitting_bytes(Text *text, const TextStyle *style, int width,
+                                const char *markup, size_t room);
+
 /* Draws one line.  Words are below y; fractions and matrices reach higher.
  * Returns the width. */
 int text_draw(Text *text, Canvas *canvas, const TextStyle *style, double x,

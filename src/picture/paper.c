@@ -96,39 +96,16 @@ int paper_write_on_panel(Paper *paper, Face face, double size, Colour colour,
     return paper_write(paper, face, size, colour, x, y, align, "%s", markup);
 }
 
-/* Counts the bytes of a text that fit into this width.  The text is cut at a
- * blank outside of braces; at least one word fits. */
-static size_t count_fitting_bytes(Paper *paper, const TextStyle *style,
-                                  int width, const char *markup)
-{
-    char part[PAPER_TEXT];
-    size_t fits = 0, length = strlen(markup);
-    int depth = 0;
-    if (length < sizeof part &&
-        text_extent(paper->text, style, markup).width <= width)
-        return length;
-    for (size_t end = 0; end <= length && end < sizeof part; end++) {
-        depth += (markup[end] == '{') - (markup[end] == '}');
-        if (end == 0 || (end < length && (depth > 0 || markup[end] != ' ')))
-            continue;
-        memcpy(part, markup, end);
-        part[end] = '\0';
-        if (fits > 0 && text_extent(paper->text, style, part).width > width)
-            break;
-        fits = end;
-    }
-    return fits;
-}
-
 void paper_shorten(Paper *paper, double size, int width, char *words,
                    size_t room)
 {
     static const char end[] = " \u2026";
     TextStyle style = paper_style(paper, FACE_REGULAR, size, 0);
     int rest = width - paper_width(paper, FACE_REGULAR, size, end);
-    size_t fits = count_fitting_bytes(paper, &style, width, words);
+    size_t fits =
+        text_count_fitting_bytes(paper->text, &style, width, words, room);
     if (words[fits])
-        fits = count_fitting_bytes(paper, &style, rest, words);
+        fits = text_count_fitting_bytes(paper->text, &style, rest, words, room);
     if (words[fits])
         snprintf(words + fits, room - fits, "%s", end);
 }
@@ -140,7 +117,8 @@ int paper_write_paragraph(Paper *paper, Face face, double size, Colour colour,
     TextStyle style = paper_style(paper, face, size, colour);
     double y = box.y, above = text_extent(paper->text, &style, "").above;
     for (int line = 1; *markup && (line <= lines || lines == 0); line++) {
-        size_t count = count_fitting_bytes(paper, &style, box.width, markup);
+        size_t count = text_count_fitting_bytes(paper->text, &style, box.width,
+                                                markup, sizeof part);
         if (count == 0)
             break;
         memcpy(part, markup, count);

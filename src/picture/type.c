@@ -289,10 +289,10 @@ enum { COMMANDS = sizeof commands / sizeof *commands };
 static int find_command(const char *string, const char **brace)
 {
     for (int i = 0; i < COMMANDS; i++) {
-        size_t length = strlen(commands[i].name);
-        if (strncmp(string, commands[i].name, length) != 0)
+        const char *name = commands[i].name;
+        if (*string != *name || strncmp(string, name, strlen(name)) != 0)
             continue;
-        *brace = string + (commands[i].expansion ? 0 : length);
+        *brace = string + (commands[i].expansion ? 0 : strlen(name));
         if (commands[i].set_in_braces == set_coloured)
             *brace += strspn(*brace, "abcdefghijklmnopqrstuvwxyz0123456789");
         if (**brace == '{')
@@ -310,24 +310,31 @@ bool text_is_markup_brace(const char *text, const char *brace)
     return false;
 }
 
-static void set_markup(Pen *pen, MarkupPart part, int depth)
+/* Sets the letter or the command at the start of a part.  Returns the byte
+ * after it. */
+static const char *set_first(Pen *pen, MarkupPart part, int depth)
 {
     const char *at = part.from, *brace = at;
-    while (at < part.end) {
-        bool plain = pen->style.plain || depth >= MAX_DEPTH;
-        int command = plain ? COMMANDS : find_command(at, &brace);
-        if (command < COMMANDS && commands[command].expansion) {
-            set_markup(pen, whole_text(commands[command].expansion), depth);
-            at += strlen(commands[command].name);
-        } else if (command < COMMANDS && brace < part.end) {
-            MarkupPart inside = {brace + 1, part.end};
-            inside.end = find_outside_braces(inside, NULL);
-            commands[command].set_in_braces(pen, inside, depth + 1);
-            at = inside.end + (inside.end < part.end);
-        } else {
-            set_letter(pen, read_letter(&at));
-        }
+    bool plain = pen->style.plain || depth >= MAX_DEPTH;
+    int command = plain ? COMMANDS : find_command(at, &brace);
+    if (command < COMMANDS && commands[command].expansion) {
+        set_markup(pen, whole_text(commands[command].expansion), depth);
+        return at + strlen(commands[command].name);
     }
+    if (command < COMMANDS && brace < part.end) {
+        MarkupPart inside = {brace + 1, part.end};
+        inside.end = find_outside_braces(inside, NULL);
+        commands[command].set_in_braces(pen, inside, depth + 1);
+        return inside.end + (inside.end < part.end);
+    }
+    set_letter(pen, read_letter(&at));
+    return at;
+}
+
+static void set_markup(Pen *pen, MarkupPart part, int depth)
+{
+    while (part.from < part.end)
+        part.from = set_first(pen, part, depth);
 }
 
 /* ---- lines -------------------------------------------------------------- */
@@ -337,11 +344,16 @@ double text_line_height(double size)
     return (LINE_ASCENT + LINE_DESCENT) * size;
 }
 
+static bool is_legible(const TextStyle *style)
+{
+    return style->size >= MIN_SIZE && style->size <= MAX_SIZE;
+}
+
 TextExtent text_extent(Text *text, const TextStyle *style, const char *markup)
 {
     Pen pen = {.text = text, .style = *style};
     TextExtent ink = {0, 0, 0};
-    if (style->size >= MIN_SIZE && style->size <= MAX_SIZE)
+    if (is_legible(style))
         ink = measure_markup(&pen, whole_text(markup), 0);
     double above = LINE_ASCENT * style->size,
            below = LINE_DESCENT * style->size;
@@ -349,6 +361,30 @@ TextExtent text_extent(Text *text, const TextStyle *style, const char *markup)
     return (TextExtent){ceil(ink.width),
                         ink.above > above ? ink.above + air : above,
                         ink.below > below ? ink.below + air : below};
+}
+
+size_t text_count_fitting_bytes(Text *text, const TextStyle *style, int width,
+                                const char *markup, size_t room)
+{
+    Pen pen = {.text = is_legible(style) ? text : NULL, .style = *style};
+    MarkupPart rest = whole_text(markup);
+    size_t fits = 0;
+    for (int depth = 0;;) {
+        size_t count = (size_t)(rest.from - markup);
+        bool ends = rest.from == rest.end;
+        if (count >= room)
+            return fits;
+        if (count > 0 && (ends || (depth <= 0 && *rest.from == ' '))) {
+            if (fits > 0 && is_legible(style) && ceil(pen.x) > width)
+                return fits;
+            fits = count;
+        }
+        if (ends)
+            return fits;
+        const char *next = set_first(&pen, rest, 0);
+        for (; rest.from < next; rest.from++)
+            depth += (*rest.from == '{') - (*rest.from == '}');
+    }
 }
 
 /* Letters start at whole pixels.  A text far outside of the canvas is not
