@@ -27,11 +27,11 @@ typedef struct Command {
     long number; /* index of a node, card, obstacle, row of options, ... */
     double x, y; /* place, m; x also the numeric value of an option */
     char text[COMMAND_TEXT_SIZE]; /* name or value that is no number, or "" */
-    bool joins; /* is undone together with the command before: "& set ..." */
+    bool joined; /* is undone together with the command before: "& set ..." */
 } Command;
 
 /* The part of the window that gets the keys; a row can name several. */
-typedef enum Keyboard {
+typedef enum KeyScope {
     AT_RUN = 1,       /* no number, list, field, sheet, question is open */
     AT_NUMBER = 2,    /* a number is selected */
     AT_LIST = 4,      /* the list of pages or of numbers is open */
@@ -40,7 +40,7 @@ typedef enum Keyboard {
     AT_QUESTION = 32, /* a page waits for a guess */
     AT_PLAY = AT_RUN | AT_NUMBER | AT_LIST | AT_QUESTION,
     AT_ANY = AT_PLAY | AT_SHEET
-} Keyboard;
+} KeyScope;
 
 enum {
     REPEATS = 1,    /* is repeated while the key is held down */
@@ -51,17 +51,17 @@ enum {
 };
 
 typedef struct CommandRow {
-    const char *word;  /* name in scripts; NULL: none */
+    const char *name;  /* name in scripts; NULL: none */
     const char *help;  /* explanation for --help commands */
     unsigned flags;    /* bits REPEATS, IN_SCRIPT, ... */
     const char *keys;  /* "Space", "Ctrl+R"; several: "?|F1"; "*": any key;
                           "letters": keys that type text; NULL: none */
     const char *label; /* text in the list of keys; "": the keys are listed with
                           those of the row before; NULL: not listed */
-    const char *takes; /* arguments: "N X Y", a whole number from 0 and two
-                          numbers; "OPTION VALUE"; a name; NULL: none */
-    Keyboard keyboard; /* places where the keys work; 0: AT_PLAY */
-    const char *chip;  /* labels of its chip, by state: "pause|play" */
+    const char *args;  /* arguments: "N X Y", a whole number from 0 and two
+                           numbers; "OPTION VALUE"; a name; NULL: none */
+    KeyScope key_scope; /* places where the keys work; 0: AT_PLAY */
+    const char *chips;  /* labels of its chip, by state: "pause|play" */
 } CommandRow;
 
 extern const CommandRow command_rows[COMMAND_KINDS];
@@ -69,7 +69,7 @@ extern const CommandRow command_rows[COMMAND_KINDS];
 /* Returns the command of a key such as "Shift+N", with the key as its text, or
  * COMMAND_NONE.
  *   repeats  in, the key is held down */
-Command command_from_key(const char *key, bool repeats, Keyboard keyboard);
+Command command_from_key(const char *key, bool repeats, KeyScope keyboard);
 
 /* Prints the text of --help commands. */
 void commands_print_help(FILE *file);
@@ -95,15 +95,15 @@ bool command_replaces(const Command *command, const Command *before);
  * A command with & is undone together with the command of the line before.  A
  * line waits for its step, unless the run is paused or at its end. */
 typedef struct ScriptLine {
-    long step;
+    long due_step;
     Command command;
     int gesture; /* id of the command's gesture; 0: not known */
 } ScriptLine;
 
 typedef struct Script {
-    ScriptLine *line;   /* [count] */
-    size_t count, size; /* number of lines; memory is reserved for size */
-    size_t next;        /* index of the next line to be obeyed */
+    ScriptLine *line;       /* [lines] */
+    size_t lines, capacity; /* number of lines; memory is reserved for size */
+    size_t next_line;       /* index of the next line to be obeyed */
 } Script;
 
 /* Appends a line.  A command of the same gesture that the new one replaces

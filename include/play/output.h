@@ -21,7 +21,7 @@ enum {
 typedef struct Output {
     FILE *file;                  /* stream; NULL: the output is not open */
     char name[OUTPUT_NAME];      /* name as given, for messages */
-    char temporary[OUTPUT_NAME]; /* NAME.part; "": the file has no such part */
+    char part_name[OUTPUT_NAME]; /* NAME.part; "": the file has no such part */
     char *message; /* [OUTPUT_MESSAGE] or NULL: "NAME: why" of a failure */
 } Output;
 
@@ -73,7 +73,7 @@ typedef struct Table {
         char kind; /* 'w': whole number, 't': text, 0: number */
     } column[TABLE_COLUMNS];
     /* Returns the text that a number stands for in a column of kind 't'. */
-    const char *(*text)(const char *column, int number);
+    const char *(*get_text)(const char *column, int number);
 } Table;
 
 /* Adds columns that are new.

@@ -37,7 +37,7 @@
 
 /* A stored state, which entries of several branches can share. */
 typedef struct State {
-    int users;              /* number of entries that share the state */
+    int user_count;         /* number of entries that share the state */
     size_t size;            /* bytes of memory, with this struct */
     bool is_set;            /* set by a start or a drag, not made by a step */
     const Control *control; /* control under which the state was saved */
@@ -55,7 +55,7 @@ typedef struct Sample {
 typedef struct Outcome {
     int updates;   /* number of Newton's updates in all substeps */
     Status status; /* worst status of the substeps */
-    double change; /* change of E in the step, J s^2 */
+    double energy_change; /* change of E in the step, J s^2 */
     double extent; /* m, largest coordinate of run 0 */
 } Outcome;
 
@@ -73,14 +73,14 @@ typedef struct Entry {
 /* Entries of all panes from one step on. */
 typedef struct Branch {
     bool from_options; /* starts from options, not from the branch below */
-    long first;  /* step of entry 0 */
-    long count;  /* number of entries, at least 1 */
-    long room;   /* entries that memory is reserved for */
-    int copied;  /* entries copied from below: 1, or 2 to repeat a step */
+    long first_step;   /* step of entry 0 */
+    long entries;      /* number of entries, at least 1 */
+    long capacity;     /* entries that memory is reserved for */
+    int copies;        /* entries copied from below: 1, or 2 to repeat a step */
     long left_step; /* step that was shown when the user left the branch */
     long stride; /* every stride-th entry stores its state */
     int panes;
-    Entry *entry; /* [room][panes]; entry `count` is being made */
+    Entry *entry; /* [capacity][panes]; entry `entries` is being made */
     int gesture;  /* id; edits of one gesture share a branch; 0: none */
     Command edit; /* edit that began the branch */
 } Branch;
@@ -88,17 +88,17 @@ typedef struct Branch {
 /* The simulation of a pane, and its position in the present branch. */
 typedef struct PaneRun {
     Simulation simulation;
-    const Control *start;   /* control at step 0 of the run, or NULL */
+    const Control *start_control; /* control at step 0 of the run, or NULL */
     const Control *control; /* control of the simulation */
     bool has_state;         /* the simulation has the state of `step` */
     long step;
-    bool iterating;  /* a step of the simulation has begun */
+    bool is_iterating; /* a step of the simulation has begun */
     int substeps;    /* steps of the simulation since `step` */
-    long before;     /* steps of the simulation before the present substep */
+    long steps_before; /* steps of the simulation before this substep */
     Outcome outcome; /* outcome of the step in progress, else of the last one */
-    bool failed;     /* the step after `step` could not be made */
+    bool has_failed; /* the step after `step` could not be made */
     StepTrace trace; /* iterates of the last step that was made */
-    bool known;      /* trace and records are of `step` or the failed step */
+    bool has_trace;  /* trace, records: of `step` or the failed step */
     Records records; /* Newton's records of the last step, for the log */
 } PaneRun;
 
@@ -113,35 +113,35 @@ typedef enum Work {
 
 typedef struct Past {
     Branch *branch;     /* [branches] branches from the bottom of the stack */
-    int branches, room; /* number of branches; memory is reserved for room */
-    int now; /* index of the present branch; branches above it are undone */
+    int branches, capacity; /* branches; branches that memory is reserved for */
+    int current; /* index of the present branch; those above are undone */
     long step;          /* step that is shown in all panes */
     PaneRun pane[OPTIONS_MAX_PANES];
     bool stores_states;    /* states are stored: the user may go back */
     bool panes_fail_alone; /* a pane that fails ends alone; the others go on */
-    long written; /* last step whose rows in the tables are valid; -1: none */
-    long booked;  /* last step whose energies in the tables are valid: an edit
-                     after a step changes them, too */
-    size_t bytes, limit; /* memory of states and samples, and its limit */
+    long written; /* last step with valid rows in the tables; -1: none */
+    long booked;  /* last step whose energies in the tables are valid: an
+                          edit after a step changes them, too */
+    size_t used_bytes, max_bytes; /* memory of states, samples; its limit */
     int line_pane;       /* pane in which E along p is drawn; -1: none */
-    Work work;           /* stage of the work that leads to `aim` */
-    long aim;            /* step that is to be shown */
-    long from;           /* step to which WORK_LOADS brings the runs of panes */
-    bool samples_line;   /* E along p is sampled in each iteration of the aim */
+    Work work_stage;     /* stage of the work that leads to `aim_step` */
+    long aim_step;       /* step that is to be shown */
+    long load_step;      /* step to which WORK_LOADS brings the panes */
+    bool samples_energy; /* samples E along p in each iteration of the aim */
     double end_time;     /* s, end of the new step */
-    Status worst;        /* worst status of the panes in the new step */
+    Status worst_status; /* worst status of the panes in the new step */
 } Past;
 
 /* Whether there is work left that leads to the aim. */
 static inline bool past_works(const Past *past)
 {
-    return past->work != WORK_DONE;
+    return past->work_stage != WORK_DONE;
 }
 
 /* Whether a new step is being made. */
 static inline bool past_makes(const Past *past)
 {
-    return past->work >= WORK_MAKES;
+    return past->work_stage >= WORK_MAKES;
 }
 
 void past_create(bool stores_states, bool panes_fail_alone, Past *past);

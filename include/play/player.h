@@ -22,12 +22,12 @@
 /* Command line and script of the program, and what follows from them. */
 typedef struct Setup {
     Options options[OPTIONS_MAX_PANES]; /* options of each pane */
-    char *const *words; /* words of the command line, ended by NULL; or NULL */
+    char *const *arguments; /* command line, ended by NULL; or NULL */
     Script script;
-    const volatile sig_atomic_t *stop; /* not 0 after a signal: the run ends */
-    double started; /* s, time on the wall clock when the run began */
-    bool attended;  /* a window, script or page can pause and go back */
-    bool asks;      /* pages wait for a guess before they show the answer */
+    const volatile sig_atomic_t *stop_signal; /* not 0: the run ends */
+    double start_time; /* s, time on the wall clock when the run began */
+    bool is_attended;  /* a window, script or page can pause and go back */
+    bool asks_guess;   /* pages hide the answer until the user guesses */
 } Setup;
 
 enum {
@@ -63,13 +63,13 @@ typedef struct PaneView {
 typedef struct Time {
     Mode mode;
     TimeUnit walk_unit; /* unit of "next" and "back" */
-    AfterWork after;
-    TracePlace place; /* place to show again after an edit; round -1: none */
-    int speed;  /* 2^speed steps a frame, or a step every 2^-speed frames */
+    AfterWork after_work;
+    TracePlace wanted_place; /* place to show after an edit; round -1: none */
+    int log_speed;           /* 2^log_speed steps a frame */
     double due; /* s on the wall clock, time of the next step */
     double work_start; /* s on the wall clock; 0: there is no work */
-    bool warned;  /* the run has stopped at a step that did not converge */
-    bool gained;  /* a rise of the total energy was reported */
+    bool has_warned;   /* the run has stopped at a step that did not converge */
+    bool told_gain;    /* a rise of the total energy was reported */
 } Time;
 
 enum { QUEUE_MOST = 16 };
@@ -79,7 +79,7 @@ enum { QUEUE_MOST = 16 };
 typedef struct Queue {
     Command command[QUEUE_MOST];
     int count;
-    bool of_page;        /* the commands belong to a page */
+    bool is_of_page;     /* the commands belong to a page */
     const Control *pins; /* pins to be set at the end of the queue, or NULL */
     char note[SENTENCE_SIZE]; /* message at the end of the queue, or "" */
 } Queue;
@@ -89,10 +89,10 @@ typedef struct Commands {
     Queue queue;
     int gesture;         /* id of the present gesture, which is undone as one */
     int gestures;        /* number of gestures so far, the id of the newest */
-    int held;            /* gesture that drags join: last grab or push */
+    int held_gesture;    /* gesture that drags join: last grab, push */
     Script journal;      /* commands of the session, with undo and redo */
-    CommandKind leaving; /* command of which a second one ends the program */
-    bool refused;        /* a line of the script was refused */
+    CommandKind leave_command; /* command that ends the program if repeated */
+    bool line_refused;         /* a line of the script was refused */
 } Commands;
 
 /* The guided tour, page by page. */
@@ -102,8 +102,8 @@ typedef struct Tour {
     char verdict[VALUE_SIZE];    /* verdict on the guess at the page, or "" */
     int guesses, right_guesses;  /* numbers of guesses so far */
     bool obeys_page;             /* a page's commands are running */
-    Options own[OPTIONS_MAX_DRAWN]; /* the page's own options of each pane */
-    int panes;                      /* the page's own number of panes */
+    Options own_options[OPTIONS_MAX_DRAWN]; /* page's options of each pane */
+    int own_panes;                          /* page's number of panes */
 } Tour;
 
 enum { LABEL_SIZE = 64 }; /* bytes */
@@ -116,26 +116,26 @@ typedef struct Frame {
     char label[LAYOUT_PANES][LABEL_SIZE]; /* values that differ by pane */
     char chip_key[LAYOUT_CHIPS][VALUE_SIZE];
     char chip_label[LAYOUT_CHIPS][VALUE_SIZE];
-    CommandKind chip[LAYOUT_CHIPS]; /* command that a click on the chip gives */
-    int numbers;                    /* number of options in the row */
-    const OptionRow *number[OPTIONS_MAX_ROWS];
+    CommandKind chip_command[LAYOUT_CHIPS]; /* command of a click on it */
+    int options;                            /* number of options in the row */
+    const OptionRow *option[OPTIONS_MAX_ROWS];
 } Frame;
 
 /* How the window or the frames show the past. */
 typedef struct Screen {
-    bool draws;  /* frames are drawn, for a window or for files */
-    bool window; /* a window is open */
+    bool draws_frames; /* frames are drawn, for a window or for files */
+    bool has_window;   /* a window is open */
     Paper paper;
-    int size[2];  /* pixels of the paper; 0: the size of the window */
-    bool changed; /* the frame must be drawn again */
-    long drawn;   /* step of the last frame; -1: this frame is out of date */
+    int paper_size[2]; /* pixels of the paper; 0: the size of the window */
+    bool must_redraw;  /* the frame must be drawn again */
+    long drawn_step;   /* step of the last frame; -1: out of date */
     const struct Scene *scene; /* scene that camera and cards are set for */
     const LecturePage *page;   /* page that camera and cards are set for */
     Column column;
     struct Sheet *sheet; /* open sheet of scenes, or NULL */
-    bool strain;         /* springs' colours show strain where the scene's do
-                            not, and the other way round */
-    bool bare;           /* the picture is shown without texts and cards */
+    bool shows_strain;   /* springs' colours show strain where the scene's do
+                              not, and the other way round */
+    bool is_bare;        /* the picture is shown without texts and cards */
     bool is_black;       /* a black screen is shown */
     unsigned toggled_cards; /* bit c: card c was opened or closed by the user */
     int enlarged_card;      /* index of the enlarged card; -1: none */
@@ -148,24 +148,24 @@ typedef struct Mouse {
     double x, y;      /* pixels */
     bool has_position; /* x and y are known */
     CommandKind drag; /* command of a drag; COMMAND_NONE: no button is down */
-    int index; /* index of what is dragged, by `drag`; -1: edge of the square */
-    double from[2];  /* pixels, start of the drag, or of its last pan */
-    bool moved;      /* the mouse has moved farther than a click may */
-    double grip[2];  /* m, from the mouse to the dragged obstacle */
-    bool repins;     /* the dragged node is pinned again after the drag */
+    int item;         /* index of what is dragged; -1: edge of the square */
+    double drag_start[2];  /* pixels, start of the drag, or of its last pan */
+    bool has_moved;        /* the mouse has moved farther than a click may */
+    double grip_offset[2]; /* m, from the mouse to the dragged obstacle */
+    bool repins_node;      /* the dragged node is pinned again after the drag */
     bool was_wheel;  /* the last input was a turn of the wheel */
     int gesture;     /* id of the last key, click or turn of the wheel */
-    Options options; /* values at the start of a drag of a number */
+    Options start_options; /* values at the start of a drag of a number */
 } Mouse;
 
 /* The hands of the user: held, selected and typed things. */
 typedef struct Hands {
     Mouse mouse;
-    bool holds;  /* a node or an obstacle is held */
-    long pulled; /* step at which the held node or obstacle was last moved */
+    bool holding;     /* a node or an obstacle is held */
+    long pulled_step; /* step at which the hand last moved what it holds */
     const OptionRow *selected; /* selected number, or NULL */
-    uint64_t added;            /* bit r: the user added option row r */
-    bool typing;               /* a field is open: keys go into `typed` */
+    uint64_t added_rows;       /* bit r: the user added option row r */
+    bool is_typing;            /* a field is open: keys go into `typed` */
     char typed[28];            /* typed value, answer, or line of a list */
 } Hands;
 
@@ -180,12 +180,12 @@ typedef struct Player {
     Tour tour;
     Screen screen;
     Hands hands;
-    bool quit;                /* the program is asked to end */
+    bool is_quitting;         /* the program is asked to end */
     char message[768];        /* why a command was refused, or "" */
     char note[SENTENCE_SIZE]; /* message below the picture, or "" */
-    bool warning;             /* the note is a warning */
-    bool explains; /* the mouse has moved to another thing since the note was
-                      written; a sentence about the thing replaces the note */
+    bool is_warning;          /* the note is a warning */
+    bool must_explain; /* the mouse has moved to another thing since the note
+                     was written; a sentence about it replaces the note */
 } Player;
 
 /* Creates a player, which without a screen writes 100 frames to "frames".

@@ -57,12 +57,12 @@ enum { FRAMES_MOST = 1000000 }; /* frames have numbers of six digits */
 typedef struct Recording {
     const char *folder; /* folder of the frames, or NULL */
     long frames;        /* number of frames written */
-    unsigned char *is_old; /* [step] the frame is of an earlier run; or NULL */
+    unsigned char *old_frame; /* [step] 1: is of an earlier run; or NULL */
     Film film;
     int panes; /* number of panes at the start */
     Table table[RECORDING_TABLES];
-    bool tables;                  /* a table is open */
-    bool standard;                /* a table goes to standard output */
+    bool has_tables;              /* a table is open */
+    bool uses_stdout;             /* a table goes to standard output */
     char message[OUTPUT_MESSAGE]; /* the first failure, or "" */
 } Recording;
 

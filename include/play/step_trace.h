@@ -16,9 +16,9 @@ enum { ROUND_PARTS = 32, ROUND_VALUES = ROUND_PARTS * 3 / 2 + 1 };
 
 /* Records of Newton's iterations. */
 typedef struct Records {
-    NewtonRecord *row; /* [count] */
-    int count, room;
-    bool lost; /* memory was missing for a record */
+    NewtonRecord *record; /* [count] */
+    int count, capacity;
+    bool is_incomplete; /* memory was missing for a record */
 } Records;
 
 /* Reserves memory for `count` records.  Returns false if memory is missing. */
@@ -26,14 +26,14 @@ bool records_reserve(Records *records, int count);
 
 /* A Newton iteration and its line search. */
 typedef struct Round {
-    double *x, *p, *u; /* [size] m, x^i, p^i, x^i - x_n; NULL: not stored */
+    double *x, *p, *u; /* [x_length] m, x^i, p^i, x^i - x_n; NULL: not stored */
     double first_trial; /* alpha, first trial of the line search */
     Quartic polynomial; /* polynomial part of E(x + alpha p) - E(x), J s^2 */
     bool has_remainder; /* E along p is not only its polynomial part */
-    bool sampled;       /* `value` has the samples of E along p */
+    bool has_samples;   /* `energy_samples` is filled */
     double alpha;      /* step length that was taken */
-    double change;     /* change of E at alpha, J s^2 */
-    double *value;     /* [ROUND_VALUES] J s^2, samples of E along p */
+    double energy_change;   /* change of E at alpha, J s^2 */
+    double *energy_samples; /* [ROUND_VALUES] J s^2, samples of E along p */
 } Round;
 
 /* Units in which a user goes through time. */
@@ -47,16 +47,16 @@ typedef struct TracePlace {
 } TracePlace;
 
 typedef struct StepTrace {
-    Trace start;       /* h and tolerance, which all places show */
-    int size;          /* 2n; 0: no rounds are stored */
+    Trace start_trace; /* h and tolerance, which all places show */
+    int x_length;      /* 2n; 0: no rounds are stored */
     Records records;   /* Newton's record of each round */
     Round *round;      /* [records.count] */
-    int room;          /* rounds that memory was reserved for */
-    bool samples_all;  /* E along p is sampled in each round */
-    bool samples_last; /* E along p is sampled in the last round */
-    double *x_tilde;   /* [size] m, or NULL */
-    double *end;       /* [size] m, x after the last iteration, or NULL */
-    size_t bytes;      /* memory of the rounds */
+    int capacity;      /* rounds that memory was reserved for */
+    bool samples_all_rounds; /* E along p is sampled in each round */
+    bool samples_last_round; /* E along p is sampled in the last round */
+    double *x_tilde;         /* [x_length] m, or NULL */
+    double *end_x;     /* [x_length] m, x after the last iteration, or NULL */
+    size_t used_bytes; /* memory of the rounds */
     TracePlace *place; /* [places] in the order of the walk */
     int places;        /* number of places; 0 if memory is missing */
 } StepTrace;
@@ -95,6 +95,6 @@ int step_trace_find_place(const StepTrace *trace, int round, Line line);
 int step_trace_peak(const StepTrace *trace);
 
 /* Fills what a picture shows at a place; place -1: after the step.  Pointers of
- * `shown` lead into the trace.  Returns the positions to draw, [size] m; NULL:
+ * `shown` lead into the trace.  Returns positions to draw, [x_length] m; NULL:
  * the positions after the step. */
 const double *step_trace_fill(const StepTrace *trace, int place, Trace *shown);

@@ -8,11 +8,11 @@
 
 /* Decisions of a user about a run.  A control that steps share is constant. */
 typedef struct Control {
-    int users; /* reference count; the last user frees the control */
+    int user_count; /* reference count; the last user frees the control */
     Options options;
-    int hand;         /* node that the mouse holds; -1: none */
-    int push;         /* obstacle that the mouse holds; -1: none */
-    double target[2]; /* m, place to which the hand pulls or pushes */
+    int held_node;     /* node that the mouse holds; -1: none */
+    int held_obstacle; /* obstacle that the mouse holds; -1: none */
+    double target[2];  /* m, place to which the hand pulls or pushes */
     int nodes;
     unsigned char pinned[]; /* [nodes] 1: pinned, 0: free */
 } Control;

@@ -40,7 +40,7 @@ Status obey_hold(Player *player, const Command *command)
                             .x = place[0],
                             .y = place[1]};
     Status status = edit_all_panes(player, &change);
-    player->hands.holds = player->hands.holds || !status;
+    player->hands.holding = player->hands.holding || !status;
     if (!status && player_is_stopped(player))
         player_note(player,
                     "paused: the hand %s as soon as time goes on (Space, N)",
@@ -80,8 +80,8 @@ Status obey_drag(Player *player, const Command *command)
 {
     if (!control_hand_holds(past_control(&player->past, player->active)))
         return player_refuse(player, "the hand holds nothing");
-    player->hands.holds = command->kind == COMMAND_DRAG;
-    player->hands.pulled = player->past.step;
+    player->hands.holding = command->kind == COMMAND_DRAG;
+    player->hands.pulled_step = player->past.step;
     return edit_all_panes(player, command);
 }
 
@@ -92,7 +92,7 @@ Status obey_handle(Player *player, const Command *command)
     Status status = STATUS_OK;
     unsigned needs = player_simulation(player)->scene->needs;
     long step = past->step;
-    int now = past->now;
+    int now = past->current;
     if (command->kind == COMMAND_HANDLE && (needs & NEEDS_START) &&
         !(needs & NEEDS_TIME)) {
         player_pause(player);
@@ -101,7 +101,7 @@ Status obey_handle(Player *player, const Command *command)
     }
     if (!status)
         status = edit_all_panes(player, command);
-    if (past->now > now)
+    if (past->current > now)
         past->branch[now].left_step = step; /* undo shows this step again */
     return status;
 }

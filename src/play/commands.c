@@ -43,12 +43,12 @@ static bool has_key(const char *keys, const char *key)
     return false;
 }
 
-Command command_from_key(const char *key, bool repeats, Keyboard keyboard)
+Command command_from_key(const char *key, bool repeats, KeyScope keyboard)
 {
     Command command = {.kind = COMMAND_NONE};
     for (int i = COMMAND_KINDS - 1; i > 0 && !command.kind; i--) {
         const CommandRow *row = &command_rows[i];
-        unsigned listens = row->keyboard ? row->keyboard : AT_PLAY;
+        unsigned listens = row->key_scope ? row->key_scope : AT_PLAY;
         if (!(listens & keyboard) || !has_key(row->keys, key))
             continue;
         if (repeats && !(row->flags & REPEATS))
@@ -73,10 +73,10 @@ void commands_print_help(FILE *file)
     for (int kind = 1; kind < COMMAND_KINDS; kind++) {
         const CommandRow *row = &command_rows[kind];
         char start[64];
-        if (!row->word)
+        if (!row->name)
             continue;
-        snprintf(start, sizeof start, "  %s %s", row->word,
-                 row->takes ? row->takes : "");
+        snprintf(start, sizeof start, "  %s %s", row->name,
+                 row->args ? row->args : "");
         fprintf(file, "%-20s %s", start, row->help);
         if (row->keys)
             fprintf(file, " [%.*s]", (int)strcspn(row->keys, "|"), row->keys);
@@ -99,7 +99,7 @@ static bool take_word(const char **line, char *word)
     return fits;
 }
 
-/* Returns the next argument in CommandRow.takes, or NULL. */
+/* Returns the next argument in CommandRow.args, or NULL. */
 static const char *find_next_argument(const char *at)
 {
     at = strchr(at, ' ');
@@ -150,18 +150,18 @@ Status command_parse(const char *line, Command *command, Message message)
     char word[COMMAND_TEXT_SIZE], next[COMMAND_TEXT_SIZE];
     int kind = 1;
     line += strspn(line, blanks);
-    *command = (Command){.joins = *line == '&'};
-    line += command->joins;
+    *command = (Command){.joined = *line == '&'};
+    line += command->joined;
     take_word(&line, word);
-    while (kind < COMMAND_KINDS && (!command_rows[kind].word ||
-                                    strcmp(command_rows[kind].word, word) != 0))
+    while (kind < COMMAND_KINDS && (!command_rows[kind].name ||
+                                    strcmp(command_rows[kind].name, word) != 0))
         kind++;
     if (kind == COMMAND_KINDS)
         return refuse(message,
                       "there is no command '%.20s': elasto --help commands",
                       word);
     command->kind = (CommandKind)kind;
-    const char *takes = command_rows[kind].takes;
+    const char *takes = command_rows[kind].args;
     bool good = true;
     for (const char *at = takes; at && good; at = find_next_argument(at))
         good = take_word(&line, next) && read_argument(next, *at, command);
@@ -175,10 +175,10 @@ void command_format(const Command *command, char *line, size_t size)
 {
     const CommandRow *row = &command_rows[command->kind];
     const OptionRow *option = NULL;
-    if (row->takes && row->takes[0] == 'O' && command->number >= 0)
+    if (row->args && row->args[0] == 'O' && command->number >= 0)
         option = &option_rows[command->number];
-    snprintf(line, size, "%s%s", command->joins ? "& " : "", row->word);
-    for (const char *at = row->takes; at; at = find_next_argument(at)) {
+    snprintf(line, size, "%s%s", command->joined ? "& " : "", row->name);
+    for (const char *at = row->args; at; at = find_next_argument(at)) {
         char word[COMMAND_TEXT_SIZE];
         if (*at == 'V' && command->number < 0)
             continue; /* an unknown option was written with its value */
@@ -209,26 +209,26 @@ Status script_add(Script *script, long step, const Command *command,
                   int gesture)
 {
     ScriptLine line = {step, *command, gesture};
-    ScriptLine *last = script->count ? script->line + script->count - 1 : NULL;
+    ScriptLine *last = script->lines ? script->line + script->lines - 1 : NULL;
     bool same = gesture && last && last->gesture == gesture;
     if (gesture) /* drag and release need no &: they join their grab */
-        line.command.joins = same && command->kind != COMMAND_DRAG &&
-                             command->kind != COMMAND_RELEASE;
-    if (same && last->step == step &&
+        line.command.joined = same && command->kind != COMMAND_DRAG &&
+                              command->kind != COMMAND_RELEASE;
+    if (same && last->due_step == step &&
         command_replaces(command, &last->command)) {
-        line.command.joins = last->command.joins;
+        line.command.joined = last->command.joined;
         *last = line;
         return STATUS_OK;
     }
-    if (script->count == script->size) {
-        size_t size = script->size ? 2 * script->size : 64;
+    if (script->lines == script->capacity) {
+        size_t size = script->capacity ? 2 * script->capacity : 64;
         ScriptLine *lines = realloc(script->line, size * sizeof *lines);
         if (!lines)
             return STATUS_OUT_OF_MEMORY;
         script->line = lines;
-        script->size = size;
+        script->capacity = size;
     }
-    script->line[script->count++] = line;
+    script->line[script->lines++] = line;
     return STATUS_OK;
 }
 
@@ -275,10 +275,10 @@ Status script_write(const char *name, const char *line, const Script *script)
         return status;
     errno = 0;
     fprintf(output.file, "# %s\n", line);
-    for (size_t i = 0; i < script->count; i++) {
+    for (size_t i = 0; i < script->lines; i++) {
         char text[512];
         command_format(&script->line[i].command, text, sizeof text);
-        fprintf(output.file, "%ld %s\n", script->line[i].step, text);
+        fprintf(output.file, "%ld %s\n", script->line[i].due_step, text);
     }
     return output_close(&output, KEEP_WHOLE);
 }
@@ -287,16 +287,16 @@ const Command *script_due(Script *script, long step, bool waits)
 {
     if (script_is_over(script))
         return NULL;
-    const ScriptLine *line = &script->line[script->next];
-    if (waits && step < line->step)
+    const ScriptLine *line = &script->line[script->next_line];
+    if (waits && step < line->due_step)
         return NULL;
-    script->next++;
+    script->next_line++;
     return &line->command;
 }
 
 bool script_is_over(const Script *script)
 {
-    return script->next >= script->count;
+    return script->next_line >= script->lines;
 }
 
 void script_free(Script *script)

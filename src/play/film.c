@@ -12,7 +12,7 @@
 
 static const struct FilmKind {
     const char *suffix; /* end of the film's name: ".mp4" */
-    int rate;          /* frames a second */
+    int frame_rate;     /* frames a second */
     const char *arguments; /* options of ffmpeg for its output */
 } film_kinds[] = {
     {".mp4", 60, COMMON},
@@ -65,9 +65,9 @@ static void start_ffmpeg(Film *film, const Canvas *canvas)
              "exec $(command -v setsid) ffmpeg -loglevel quiet -xerror -y "
              "-f rawvideo -pixel_format bgr0 -video_size %dx%d -framerate %d "
              "-i pipe:0 %s -f %s \"file:$ELASTO_FILM\" >/dev/null 2>&1",
-             film->width, film->height, film->kind->rate, film->kind->arguments,
-             film->kind->suffix + 1);
-    if (setenv("ELASTO_FILM", film->output.temporary, 1) == 0)
+             film->width, film->height, film->kind->frame_rate,
+             film->kind->arguments, film->kind->suffix + 1);
+    if (setenv("ELASTO_FILM", film->output.part_name, 1) == 0)
         film->pipe = popen(line, "we");
     if (film->pipe)
         setvbuf(film->pipe, NULL, _IOFBF, 1 << 16); /* size of a pipe */
@@ -103,7 +103,7 @@ Status film_close(Film *film, FileEnding keep)
     if (!film_runs(film))
         return STATUS_OK;
     bool well = film->pipe && pclose(film->pipe) == 0;
-    bool full = stat(output->temporary, &info) == 0 && info.st_size > 0;
+    bool full = stat(output->part_name, &info) == 0 && info.st_size > 0;
     if (!well || !full)
         status = output_report_failure(
             output, film->frames == 0 ? "no frame was drawn for it"

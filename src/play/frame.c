@@ -71,10 +71,10 @@ static void fill_settings(const Player *player, Frame *frame)
     const Options shown = player_shown_options(player), *options = &shown;
     const OptionRow *all[OPTIONS_MAX_ROWS];
     content->settings.selected = -1;
-    frame->numbers = player_list_options(player, false, frame->number);
-    bool over = mouse->zone == ZONE_SETTING && mouse->index < frame->numbers;
-    for (int i = 0; i < frame->numbers; i++) {
-        const OptionRow *row = frame->number[i];
+    frame->options = player_list_options(player, false, frame->option);
+    bool over = mouse->zone == ZONE_SETTING && mouse->index < frame->options;
+    for (int i = 0; i < frame->options; i++) {
+        const OptionRow *row = frame->option[i];
         Setting *setting = &content->settings.item[content->settings.count++];
         char now[COMMAND_TEXT_SIZE], start[COMMAND_TEXT_SIZE];
         setting->name = option_label(row);
@@ -95,10 +95,10 @@ static void fill_settings(const Player *player, Frame *frame)
                      row->name, idle ? idle : row->help);
         if (row == player->hands.selected)
             content->settings.selected = i;
-        if (row == player->hands.selected && player->hands.typing)
+        if (row == player->hands.selected && player->hands.is_typing)
             snprintf(setting->value, VALUE_SIZE, "%s_", player->hands.typed);
     }
-    if (player_list_options(player, true, all) > frame->numbers)
+    if (player_list_options(player, true, all) > frame->options)
         content->settings.item[content->settings.count++] =
             (Setting){"", "+ more", 0, false, false};
 }
@@ -126,12 +126,12 @@ static void fill_options(const Player *player, FrameContent *content)
 /* ---- the chips ----------------------------------------------------------- */
 
 /* Adds the chip of a command, with its first key and one of its labels.
- *   state  in, index of the label in CommandRow.chip */
+ *   state  in, index of the label in CommandRow.chips */
 static void add_chip(Frame *frame, CommandKind kind, int state, bool lit)
 {
     int i = frame->content.chips.count;
     const CommandRow *row = &command_rows[kind];
-    const char *label = row->chip;
+    const char *label = row->chips;
     if (i >= LAYOUT_CHIPS)
         return;
     char *key = frame->chip_key[i], *text = frame->chip_label[i];
@@ -140,7 +140,7 @@ static void add_chip(Frame *frame, CommandKind kind, int state, bool lit)
     snprintf(text, VALUE_SIZE, "%.*s", (int)strcspn(label, "|"), label);
     snprintf(key, VALUE_SIZE, "%.*s", (int)strcspn(row->keys, "|"), row->keys);
     shorten_key(key);
-    frame->chip[i] = kind;
+    frame->chip_command[i] = kind;
     frame->content.chips.item[frame->content.chips.count++] =
         (Chip){key, text, lit};
 }
@@ -183,7 +183,7 @@ static void fill_chips(const Player *player, Frame *frame)
                  options->line_search == LINE_SEARCH_NONE, false);
     if (time && simulation->runs == 1)
         add_chip(frame, COMMAND_METHOD, 0, false);
-    if (player->past.now > 0)
+    if (player->past.current > 0)
         add_chip(frame, COMMAND_UNDO, 0, false);
     add_chip(frame, COMMAND_SHEET, 0, false);
     add_chip(frame, COMMAND_KEYS, 0, player->screen.column == COLUMN_KEYS);
@@ -259,7 +259,7 @@ static void fill_pane(const Player *player, int p, Frame *frame)
                    .failure = run->outcome.status};
     if (past_panes(&player->past) > 1)
         pane->label = frame->label[p];
-    if (run->known && simulation_has_updates(simulation)) {
+    if (run->has_trace && simulation_has_updates(simulation)) {
         pane->trace = &frame->trace[p];
         pane->x = step_trace_fill(&run->trace, view->place, &frame->trace[p]);
     }
@@ -301,11 +301,11 @@ static void fill_time(const Player *player, FrameContent *content)
         append(text, SENTENCE_SIZE, " of %ld", past_newest(past));
     if (!turn)
         append(text, SENTENCE_SIZE, "   t = %.4g s", time);
-    if (!turn && player->time.speed != 0)
+    if (!turn && player->time.log_speed != 0)
         append(text, SENTENCE_SIZE,
-               player->time.speed < 0 ? "   slowed %.4g times"
-                                      : "   %.4g steps a frame",
-               ldexp(1, abs(player->time.speed)));
+               player->time.log_speed < 0 ? "   slowed %.4g times"
+                                          : "   %.4g steps a frame",
+               ldexp(1, abs(player->time.log_speed)));
     snprintf(content->strip.state, VALUE_SIZE, "%s",
              player->time.mode == MODE_REST ? "at rest" : "");
     if (!past_makes(past) ||
@@ -322,8 +322,8 @@ static void fill_time(const Player *player, FrameContent *content)
 static int find_changed_pane(const Player *player, const OptionRow *row)
 {
     const Past *past = &player->past;
-    for (int p = 0; p < player->tour.panes && p < past_panes(past); p++)
-        if (!option_is_equal(row, &player->tour.own[p],
+    for (int p = 0; p < player->tour.own_panes && p < past_panes(past); p++)
+        if (!option_is_equal(row, &player->tour.own_options[p],
                              &past_control(past, p)->options))
             return p;
     return -1;
@@ -334,12 +334,12 @@ static int find_changed_pane(const Player *player, const OptionRow *row)
 static void fill_own_options(const Player *player, LectureContent *lecture)
 {
     const OptionRow *row[OPTIONS_MAX_ROWS];
-    const Options *own = player->tour.own;
+    const Options *own = player->tour.own_options;
     char text[SENTENCE_SIZE] = "As the page opened", value[VALUE_SIZE];
     const char *before = ", with ";
     const LecturePage *page = past_control(&player->past, 0)->options.page;
     /* After undo the window may show another page than the one opened last. */
-    if (!page || page != own->page || !player->setup.asks)
+    if (!page || page != own->page || !player->setup.asks_guess)
         return;
     int rows = player_list_options(player, true, row);
     bool is_changed =
@@ -367,10 +367,10 @@ static void fill_frame(const Player *player, Frame *frame)
     frame_create(player_simulation(player), content);
     content->view = &player->screen.view;
     content->text = player->screen.paper.text;
-    content->min_em = player->screen.window  ? window_find_font_size()
-                      : player->screen.draws ? SMALL_LETTER
-                                             : 0;
-    content->in_page = player->screen.window && window_is_in_page();
+    content->min_em = player->screen.has_window     ? window_find_font_size()
+                      : player->screen.draws_frames ? SMALL_LETTER
+                                                    : 0;
+    content->in_page = player->screen.has_window && window_is_in_page();
     content->in_document = content->in_page && window_has_document();
     content->panes = past_panes(past);
     if (content->panes > LAYOUT_PANES) /* scripts can have more panes */
@@ -384,25 +384,25 @@ static void fill_frame(const Player *player, Frame *frame)
     const Control *control = past_control(past, active);
     if (control_hand_holds(control) && player->view_of_pane[active].place < 0)
         content->hand = (HeldByHand){true,
-                                     control->hand,
-                                     control->push,
+                                     control->held_node,
+                                     control->held_obstacle,
                                      {control->target[0], control->target[1]}};
     content->time_line.steps = past->stores_states ? past_newest(past) : 0;
     content->time_line.bar = find_step_bar;
     content->time_line.bar_data = player;
     content->time_line.step = past->step;
-    content->strip.is_warning = player->warning;
+    content->strip.is_warning = player->is_warning;
     content->cards.enlarged = player->screen.enlarged_card;
     content->shows_strain =
-        player->screen.strain !=
+        player->screen.shows_strain !=
         (content->pane[0].simulation->scene->strain_colour_max > 0);
-    content->bare = player->screen.bare;
+    content->bare = player->screen.is_bare;
     if (player->screen.column == COLUMN_KEYS)
         fill_help(content);
     if (player->screen.column == COLUMN_OPTIONS)
         fill_options(player, content);
-    if (!(player->explains && content->strip.sentence[0] &&
-          !player->hands.typing))
+    if (!(player->must_explain && content->strip.sentence[0] &&
+          !player->hands.is_typing))
         snprintf(content->strip.message, SENTENCE_SIZE, "%s", player->note);
     content->lecture.hides_answer = player_hides_answer(player);
     fill_own_options(player, &content->lecture);
@@ -450,8 +450,8 @@ Paper *player_prepare_paper(Player *player)
     const char *font = getenv("ELASTO_FONT"); /* "": pictures have no words */
     Paper *paper = &player->screen.paper;
     const Canvas *canvas = &paper->canvas;
-    int size[2] = {player->screen.size[0], player->screen.size[1]};
-    if (!player->screen.draws)
+    int size[2] = {player->screen.paper_size[0], player->screen.paper_size[1]};
+    if (!player->screen.draws_frames)
         return NULL;
     if (size[0] == 0)
         window_find_size(size);

@@ -53,7 +53,7 @@ static Status obey_at(Player *player, CommandKind kind, long number,
                       const double at[2])
 {
     const Command command = {
-        .kind = kind, .number = number, .x = at[0], .y = at[1], .joins = true};
+        .kind = kind, .number = number, .x = at[0], .y = at[1], .joined = true};
     return player_obey(player, &command);
 }
 
@@ -72,17 +72,17 @@ static Status raise_number(Player *player, const OptionRow *row, int notches)
 /* ---- the keyboard -------------------------------------------------------- */
 
 /* Returns the part of the window that gets the keys now. */
-static Keyboard find_focus(const Player *player)
+static KeyScope find_focus(const Player *player)
 {
     bool number = player->hands.selected;
     bool list = player_shows_list(player);
     bool asks = player_hides_answer(player);
-    return player->hands.typing && (number || list || asks) ? AT_FIELD
-           : player->screen.sheet                           ? AT_SHEET
-           : number                                         ? AT_NUMBER
-           : list                                           ? AT_LIST
-           : asks                                           ? AT_QUESTION
-                                                            : AT_RUN;
+    return player->hands.is_typing && (number || list || asks) ? AT_FIELD
+           : player->screen.sheet                              ? AT_SHEET
+           : number                                            ? AT_NUMBER
+           : list                                              ? AT_LIST
+           : asks                                              ? AT_QUESTION
+                                                               : AT_RUN;
 }
 
 /* Opens the page, or adds the number, of a line of the open list.
@@ -90,7 +90,7 @@ static Keyboard find_focus(const Player *player)
 static Status choose_list_line(Player *player, const char *line)
 {
     const OptionRow *all[OPTIONS_MAX_ROWS];
-    Command page = {.kind = COMMAND_PAGE, .joins = true};
+    Command page = {.kind = COMMAND_PAGE, .joined = true};
     char *end;
     long number = strtol(line, &end, 10);
     if (player->screen.column != COLUMN_OPTIONS || player->screen.sheet) {
@@ -110,7 +110,7 @@ static Status enter_typed(Player *player)
     Status status;
     if (!row && player_shows_list(player)) {
         status = choose_list_line(player, player->hands.typed);
-        player->hands.typing = player->hands.typing && status;
+        player->hands.is_typing = player->hands.is_typing && status;
         return status;
     }
     if (row) {
@@ -136,10 +136,10 @@ static Status drag_number(Player *player, const MouseTarget *target)
 {
     const Mouse *mouse = &player->hands.mouse;
     const Options now = player_shown_options(player);
-    bool edge = mouse->index < 0;
+    bool edge = mouse->item < 0;
     const OptionRow *row =
         edge ? option_find("stretch") : player->hands.selected;
-    double notches = (mouse->x - mouse->from[0]) / NOTCH_PIXELS;
+    double notches = (mouse->x - mouse->drag_start[0]) / NOTCH_PIXELS;
     double wanted =
         fmax(rint(200 * fabs(target->place[0]) / now.side), 2) / 100;
     if (!row)
@@ -152,7 +152,7 @@ static Status drag_number(Player *player, const MouseTarget *target)
     else if (notches == rint(notches))
         notches += 1e-9; /* keeps option_turn_wheel from rounding */
     if (!edge)
-        wanted = option_turn_wheel(row, &mouse->options, notches);
+        wanted = option_turn_wheel(row, &mouse->start_options, notches);
     const Command set = make_set_command(row, wanted);
     return now.number[row->slot] == wanted ? STATUS_OK
                                            : player_obey(player, &set);
@@ -188,20 +188,20 @@ static Status press_target(Player *player, const MouseTarget *target)
     Mouse *mouse = &player->hands.mouse;
     const LecturePage *page = player_active_options(player)->page;
     double point[2];
-    mouse->index = target->pick.index;
+    mouse->item = target->pick.index;
     player->screen.view.held = frame_hold_bounds(&player->screen.frame.content,
                                                  &target->layout, target->pane);
     switch (target->pick.kind) {
     case PICK_OBSTACLE:
         mouse->drag = COMMAND_OBSTACLE;
-        simulation_find_obstacle(player_simulation(player), 0, mouse->index,
+        simulation_find_obstacle(player_simulation(player), 0, mouse->item,
                                  point);
-        mouse->grip[0] = point[0] - target->place[0];
-        mouse->grip[1] = point[1] - target->place[1];
+        mouse->grip_offset[0] = point[0] - target->place[0];
+        mouse->grip_offset[1] = point[1] - target->place[1];
         return STATUS_OK;
     case PICK_EDGE:
         mouse->drag = COMMAND_SET;
-        mouse->index = -1;
+        mouse->item = -1;
         return STATUS_OK;
     case PICK_HANDLE:
         mouse->drag = COMMAND_HANDLE;
@@ -214,13 +214,13 @@ static Status press_target(Player *player, const MouseTarget *target)
         if (page_wants_click(page) && !player_simulation(player)->done)
             return obey_at(player, COMMAND_PREDICT, 0, target->pick.point);
         mouse->drag = COMMAND_START;
-        return obey_at(player, COMMAND_START, mouse->index, target->pick.point);
+        return obey_at(player, COMMAND_START, mouse->item, target->pick.point);
     default:
         if (target->pick.kind !=
             PICK_NODE) /* a click ends the highlight of a spring */
             player->screen.view.hover.kind = PICK_NONE;
-        mouse->index = target->pick.nearest_node;
-        mouse->drag = mouse->index < 0             ? COMMAND_PAN
+        mouse->item = target->pick.nearest_node;
+        mouse->drag = mouse->item < 0              ? COMMAND_PAN
                       : drag_places_things(player) ? COMMAND_PLACE
                                                    : COMMAND_GRAB;
         return STATUS_OK;
@@ -253,10 +253,10 @@ static Status add_ball(Player *player, const double at[2])
 static Status drag_obstacle(Player *player, const double at[2])
 {
     Past *past = &player->past;
-    int number = player->hands.mouse.index;
+    int number = player->hands.mouse.item;
     double part = 1, from[2];
-    if (player->hands.holds || !drag_places_things(player)) {
-        Status status = player->hands.holds
+    if (player->hands.holding || !drag_places_things(player)) {
+        Status status = player->hands.holding
                             ? STATUS_OK
                             : obey(player, COMMAND_PUSH, number);
         return status ? status : obey_at(player, COMMAND_DRAG, 0, at);
@@ -279,27 +279,28 @@ static Status go_on_dragging(Player *player)
     Mouse *mouse = &player->hands.mouse;
     const Simulation *simulation = player_simulation(player);
     MouseTarget target = find_mouse_target(player);
-    double dx = mouse->x - mouse->from[0], dy = mouse->y - mouse->from[1];
+    double dx = mouse->x - mouse->drag_start[0],
+           dy = mouse->y - mouse->drag_start[1];
     Status status = STATUS_OK;
-    mouse->moved = mouse->moved || math_hypot(dx, dy) > CLICK_ROOM;
-    switch (mouse->moved ? mouse->drag : COMMAND_NONE) {
+    mouse->has_moved = mouse->has_moved || math_hypot(dx, dy) > CLICK_ROOM;
+    switch (mouse->has_moved ? mouse->drag : COMMAND_NONE) {
     case COMMAND_GRAB: /* a drag frees a pinned node */
-        if (!player->hands.holds) {
-            mouse->repins = simulation->system.pinned[mouse->index];
-            if (mouse->repins)
-                status = obey(player, COMMAND_PIN, mouse->index);
+        if (!player->hands.holding) {
+            mouse->repins_node = simulation->system.pinned[mouse->item];
+            if (mouse->repins_node)
+                status = obey(player, COMMAND_PIN, mouse->item);
             if (!status)
-                status = obey(player, COMMAND_GRAB, mouse->index);
+                status = obey(player, COMMAND_GRAB, mouse->item);
         }
         return status ? status : obey_at(player, COMMAND_DRAG, 0, target.place);
     case COMMAND_OBSTACLE:
-        target.place[0] += mouse->grip[0];
-        target.place[1] += mouse->grip[1];
+        target.place[0] += mouse->grip_offset[0];
+        target.place[1] += mouse->grip_offset[1];
         return drag_obstacle(player, target.place);
     case COMMAND_PLACE:
     case COMMAND_START:
     case COMMAND_HANDLE:
-        return obey_at(player, mouse->drag, mouse->index, target.place);
+        return obey_at(player, mouse->drag, mouse->item, target.place);
     case COMMAND_SET:
         return drag_number(player, &target);
     case COMMAND_GOTO:
@@ -309,9 +310,9 @@ static Status go_on_dragging(Player *player)
     case COMMAND_PAN:
         lens_pan(&player->screen.view.lens, target.layout.pane[target.pane], dx,
                  dy);
-        player->screen.changed = true;
-        mouse->from[0] = mouse->x;
-        mouse->from[1] = mouse->y;
+        player->screen.must_redraw = true;
+        mouse->drag_start[0] = mouse->x;
+        mouse->drag_start[1] = mouse->y;
         return STATUS_OK;
     default:
         return STATUS_OK;
@@ -337,9 +338,9 @@ static Status note_hover(Player *player)
         view->chosen = target.hit.index;
     view->mouse = target.hit;
     view->hover = pick;
-    player->explains = player->explains || !same;
+    player->must_explain = player->must_explain || !same;
     if (!same || !idle)
-        player->screen.changed = true;
+        player->screen.must_redraw = true;
     return pick.kind == PICK_CELL && !same
                ? obey(player, COMMAND_CELL, pick.index)
                : STATUS_OK;
@@ -349,16 +350,16 @@ static Status note_hover(Player *player)
 static Status press_number(Player *player, int index, int clicks)
 {
     Mouse *mouse = &player->hands.mouse;
-    if (index >= player->screen.frame.numbers) /* the last item is "+ more" */
+    if (index >= player->screen.frame.options) /* the last item is "+ more" */
         return obey(player, COMMAND_OPTIONS, 0);
-    player->hands.selected = player->screen.frame.number[index];
-    player->screen.changed = true;
+    player->hands.selected = player->screen.frame.option[index];
+    player->screen.must_redraw = true;
     if (clicks == 2)
         return obey(player, COMMAND_DEFAULT,
                     player->hands.selected - option_rows);
     mouse->drag = COMMAND_SET;
-    mouse->index = index;
-    mouse->options = player_shown_options(player);
+    mouse->item = index;
+    mouse->start_options = player_shown_options(player);
     return STATUS_OK;
 }
 
@@ -376,7 +377,7 @@ static Status press_left_button(Player *player, const MouseTarget *target,
     player_deselect(player);
     switch (target->hit.zone) {
     case ZONE_CHIP:
-        return obey(player, player->screen.frame.chip[index], 0);
+        return obey(player, player->screen.frame.chip_command[index], 0);
     case ZONE_CARD_CLOSE:
         return obey(player, COMMAND_CARD, index);
     case ZONE_CARD:
@@ -384,7 +385,7 @@ static Status press_left_button(Player *player, const MouseTarget *target,
     case ZONE_TIME:
         player->hands.mouse.drag = COMMAND_GOTO;
         /* A click without a movement goes to its step, too. */
-        player->hands.mouse.moved = true;
+        player->hands.mouse.has_moved = true;
         return go_on_dragging(player);
     case ZONE_SETTING:
         return press_number(player, index, clicks);
@@ -422,9 +423,9 @@ static Status press_button(Player *player, const Input *input)
     const Scene *scene = player_simulation(player)->scene;
     bool nodes = (scene->needs & NEEDS_MESH) && !scene->step;
     int near = target.pick.nearest_node;
-    mouse->from[0] = mouse->x;
-    mouse->from[1] = mouse->y;
-    mouse->moved = false;
+    mouse->drag_start[0] = mouse->x;
+    mouse->drag_start[1] = mouse->y;
+    mouse->has_moved = false;
     player->note[0] = '\0';
     if (input->button == BUTTON_LEFT)
         return press_left_button(player, &target, input->clicks);
@@ -436,7 +437,7 @@ static Status press_button(Player *player, const Input *input)
     if (input->button == BUTTON_RIGHT)
         return obey(player, COMMAND_PIN, near < 0 ? 0 : near);
     mouse->drag = COMMAND_PAN;
-    mouse->moved = true;
+    mouse->has_moved = true;
     return STATUS_OK;
 }
 
@@ -447,26 +448,26 @@ static Status release_button(Player *player)
     Mouse *mouse = &player->hands.mouse;
     const Simulation *simulation = player_simulation(player);
     CommandKind drag = mouse->drag;
-    int node = mouse->index;
+    int node = mouse->item;
     mouse->drag = COMMAND_NONE;
     player->screen.view.held.on = false;
-    if (!mouse->moved && (drag == COMMAND_GRAB || drag == COMMAND_PLACE) &&
+    if (!mouse->has_moved && (drag == COMMAND_GRAB || drag == COMMAND_PLACE) &&
         node < simulation->mesh.nodes)
         player_note(player, "a drag moves node %d, a right click %s it", node,
                     simulation->system.pinned[node] ? "frees" : "pins");
     if ((drag == COMMAND_OBSTACLE || drag == COMMAND_GRAB) &&
-        player->hands.holds) {
+        player->hands.holding) {
         player_enqueue(player,
-                       &(Command){.kind = COMMAND_RELEASE, .joins = true});
-        if (drag == COMMAND_GRAB && mouse->repins)
-            player_enqueue(
-                player,
-                &(Command){.kind = COMMAND_PIN, .number = node, .joins = true});
+                       &(Command){.kind = COMMAND_RELEASE, .joined = true});
+        if (drag == COMMAND_GRAB && mouse->repins_node)
+            player_enqueue(player, &(Command){.kind = COMMAND_PIN,
+                                              .number = node,
+                                              .joined = true});
         return player_show_refusal(player, player_obey_queue(player, false));
     }
-    if (drag == COMMAND_SET && mouse->moved)
+    if (drag == COMMAND_SET && mouse->has_moved)
         player_deselect(player); /* after a click the number stays selected */
-    if (drag == COMMAND_SET && !mouse->moved && mouse->index >= 0 &&
+    if (drag == COMMAND_SET && !mouse->has_moved && mouse->item >= 0 &&
         player->hands.selected && player->hands.selected->kind == OPTION_NAME)
         return raise_number(player, player->hands.selected, 1);
     return STATUS_OK;
@@ -476,9 +477,9 @@ static Status turn_wheel(Player *player, double amount)
 {
     MouseTarget target = find_mouse_target(player);
     if (target.hit.zone == ZONE_SETTING &&
-        target.hit.index < player->screen.frame.numbers)
+        target.hit.index < player->screen.frame.options)
         return raise_number(player,
-                            player->screen.frame.number[target.hit.index],
+                            player->screen.frame.option[target.hit.index],
                             amount > 0 ? 1 : -1);
     if (target.hit.zone == ZONE_TIME)
         return obey(player, amount > 0 ? COMMAND_BACK : COMMAND_NEXT, 0);
@@ -487,7 +488,7 @@ static Status turn_wheel(Player *player, double amount)
     lens_zoom(&player->screen.view.lens, target.layout.pane[target.hit.index],
               player->hands.mouse.x, player->hands.mouse.y,
               pow(WHEEL_ZOOM, amount));
-    player->screen.changed = true;
+    player->screen.must_redraw = true;
     return STATUS_OK;
 }
 
@@ -504,7 +505,7 @@ static Status obey_mouse(Player *player, const Input *input)
     if (input->kind == INPUT_RELEASE)
         return release_button(player);
     if (input->kind == INPUT_WHEEL)
-        return turn_wheel(player, input->amount);
+        return turn_wheel(player, input->wheel_notches);
     if (mouse->drag != COMMAND_NONE)
         return go_on_dragging(player);
     return rests ? STATUS_OK : note_hover(player);
@@ -523,10 +524,10 @@ Status player_obey_input(Player *player, const Input *input)
         status = release_button(player); /* a second button ends the drag */
     if (!status)
         status = player_show_refusal(
-            player, player_obey_queue(player, press && player->hands.holds));
+            player, player_obey_queue(player, press && player->hands.holding));
     if (status)
         return status;
-    bool key = input->kind == INPUT_KEY && !input->repeats &&
+    bool key = input->kind == INPUT_KEY && !input->is_repeat &&
                mouse->drag == COMMAND_NONE;
     if (press || key || (wheel && !mouse->was_wheel))
         mouse->gesture = ++player->commands.gestures;
@@ -535,8 +536,8 @@ Status player_obey_input(Player *player, const Input *input)
     switch (input->kind) {
     case INPUT_KEY:
         command =
-            command_from_key(input->key, input->repeats, find_focus(player));
-        command.joins = true;
+            command_from_key(input->key, input->is_repeat, find_focus(player));
+        command.joined = true;
         if (command.kind)
             status = player_obey(player, &command);
         return !status && command.kind == COMMAND_ENTER ? enter_typed(player)
@@ -548,7 +549,7 @@ Status player_obey_input(Player *player, const Input *input)
         player->screen.view.mouse = (Hit){.zone = ZONE_NONE};
         /* fall through */
     case INPUT_REDRAW:
-        player->screen.changed = true;
+        player->screen.must_redraw = true;
         return STATUS_OK;
     default:
         return obey_mouse(player, input);

@@ -26,11 +26,11 @@ static void find_free_name(const Player *player, const char *end, char *name,
 Status obey_shot(Player *player, const Command *command)
 {
     char name[80];
-    const bool draws = player->screen.draws;
-    player->screen.draws = true;
+    const bool draws = player->screen.draws_frames;
+    player->screen.draws_frames = true;
     Paper *paper = player_prepare_paper(player);
     Status status = paper ? STATUS_OK : STATUS_OUT_OF_MEMORY;
-    player->screen.draws = draws;
+    player->screen.draws_frames = draws;
     find_free_name(player, ".png", name, sizeof name);
     if (paper) {
         player_paint_frame(player, paper);
@@ -48,14 +48,14 @@ Status obey_film(Player *player, const Command *command)
     char name[80], message[OUTPUT_MESSAGE] = "";
     Film *film = &player->recording.film;
     bool ends = film_runs(film);
-    if (!player->screen.draws)
+    if (!player->screen.draws_frames)
         return player_refuse(player, "nothing is drawn that could be filmed");
     find_free_name(player, ".mp4", name, sizeof name);
     film->output.message = message;
     Status status =
         ends ? film_close(film, KEEP_WHOLE) : film_open(name, message, film);
     film->output.message = player->recording.message;
-    player->screen.drawn = -1; /* the film begins with the present frame */
+    player->screen.drawn_step = -1; /* the film begins with the present frame */
     if (status)
         player_note(player, "no film: %s", message);
     else if (ends)
@@ -68,7 +68,7 @@ Status obey_film(Player *player, const Command *command)
 
 int player_next_scene_argument(const Player *player, int i)
 {
-    char *const *words = player->setup.words;
+    char *const *words = player->setup.arguments;
     const OptionRow *first = option_find("steps");
     for (; words && words[0] && words[i]; i++) {
         char name[32];
@@ -113,7 +113,7 @@ static char *write_command_line(const Player *player, const char *script)
         return NULL;
     fputs("elasto", file);
     for (int i = 0; (i = player_next_scene_argument(player, i + 1));)
-        put_word(file, player->setup.words[i]);
+        put_word(file, player->setup.arguments[i]);
     if (script)
         fprintf(file, " --script %s", script);
     else
@@ -132,13 +132,13 @@ static Status write_journal(Player *player, const char *name, const char *line)
 {
     const Command pause = {.kind = COMMAND_PAUSE};
     Script *journal = &player->commands.journal;
-    size_t count = journal->count;
+    size_t count = journal->lines;
     Status status = STATUS_OK;
     if (!player_is_stopped(player))
         status = script_add(journal, player->past.step, &pause, 0);
     if (!status)
         status = script_write(name, line, journal);
-    journal->count = count;
+    journal->lines = count;
     return status;
 }
 
@@ -147,7 +147,7 @@ static Status write_journal(Player *player, const char *name, const char *line)
 Status obey_hash(Player *player, const Command *command)
 {
     char name[80], hash[64];
-    bool commands = player->commands.journal.count > 0;
+    bool commands = player->commands.journal.lines > 0;
     find_free_name(player, ".script", name, sizeof name);
     char *line = write_command_line(player, commands ? name : NULL);
     Status status = line ? STATUS_OK : STATUS_OUT_OF_MEMORY;

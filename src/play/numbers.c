@@ -23,7 +23,7 @@ int player_list_options(const Player *player, bool all,
     const Options options = player_shown_options(player);
     int own = all ? 0 : options_list_visible(&options, found), count = own;
     for (const OptionRow *row = option_rows; row->name; row++) {
-        bool more = all || player->hands.added >> (row - option_rows) & 1;
+        bool more = all || player->hands.added_rows >> (row - option_rows) & 1;
         more = more && is_scene_number(player, row);
         for (int i = 0; i < own; i++)
             more = more && found[i] != row;
@@ -61,7 +61,7 @@ Status obey_add(Player *player, const Command *command)
     const char *idle = player_idle_reason(player, row);
     if (idle)
         return player_refuse(player, "%s: %s", row->name, idle);
-    player->hands.added |= (uint64_t)1 << (row - option_rows);
+    player->hands.added_rows |= (uint64_t)1 << (row - option_rows);
     player->screen.column = COLUMN_CARDS;
     player_deselect(player);
     player->hands.selected = row;
@@ -91,9 +91,9 @@ Status obey_type(Player *player, const Command *command)
         page_wants_click(player_active_options(player)->page))
         return player_refuse(player, "a click on the picture is the answer "
                                      "here; N shows it");
-    if (!player->hands.typing)
+    if (!player->hands.is_typing)
         typed[0] = '\0';
-    player->hands.typing = true;
+    player->hands.is_typing = true;
     size_t length = strlen(typed);
     if (strcmp(key, "Backspace") == 0)
         typed[length > 0 ? length - 1 : 0] = '\0';
@@ -155,7 +155,7 @@ Status obey_set(Player *player, const Command *command)
     change.x = options[player->active].number[row->slot];
     const State *state = past_entry(&player->past, 0, player->past.step)->state;
     bool is_set = state && state->is_set; /* by a start or a drag */
-    bool again = (!is_set || player_active_run(player)->failed) &&
+    bool again = (!is_set || player_active_run(player)->has_failed) &&
                  (row->effect == EFFECT_AGAIN ||
                   (player_active_options(player)->law &&
                    player->past.step > 0 && player_is_stopped(player)) ||

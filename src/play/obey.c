@@ -53,7 +53,7 @@ static Status check_target(Player *player, const Command *command)
                 player,
                 count > 0 ? "%s: there is no number %ld; they are 0 to %ld"
                           : "%s: this scene has none",
-                command_rows[command->kind].word, command->number, count - 1);
+                command_rows[command->kind].name, command->number, count - 1);
     }
     return STATUS_OK;
 }
@@ -75,8 +75,8 @@ static Command resolve_command(const Player *player, const Command *asked)
 /* Stores the option that a command of a page has set as the page's own. */
 static void store_own_option(Player *player, const Command *command)
 {
-    Options *own = &player->tour.own[player->active];
-    player->tour.panes = past_panes(&player->past);
+    Options *own = &player->tour.own_options[player->active];
+    player->tour.own_panes = past_panes(&player->past);
     if (command->kind == COMMAND_FLIP)
         own->flips = exhibit_find_flips(player_simulation(player));
     if (command->kind == COMMAND_SET)
@@ -96,10 +96,10 @@ Status player_obey_queue(Player *player, bool now)
         const Command *command = &queue.command[i];
         bool pulls = command->kind == COMMAND_RELEASE &&
                      !player_is_stopped(player) &&
-                     past->step <= player->hands.pulled;
+                     past->step <= player->hands.pulled_step;
         if (!now && (past_works(past) || pulls))
             break;
-        player->tour.obeys_page = obeys_page || queue.of_page;
+        player->tour.obeys_page = obeys_page || queue.is_of_page;
         status = player_obey(player, command);
         if (player->tour.obeys_page && !status)
             store_own_option(player, command);
@@ -127,7 +127,7 @@ static Status abandon_step(Player *player)
 {
     int gesture = player->commands.gesture;
     past_choose_step(&player->past, player->past.step, false);
-    player->time.after = AFTER_NOTHING;
+    player->time.after_work = AFTER_NOTHING;
     Status status =
         player_show_refusal(player, player_obey_queue(player, true));
     player->commands.gesture = gesture;
@@ -141,14 +141,14 @@ static void begin_command(Player *player, const Command *command)
     unsigned flags = command_rows[command->kind].flags;
     Commands *commands = &player->commands;
     if (command->kind == COMMAND_DRAG || command->kind == COMMAND_RELEASE)
-        commands->gesture = commands->held;
-    else if (!command->joins)
+        commands->gesture = commands->held_gesture;
+    else if (!command->joined)
         commands->gesture = ++commands->gestures;
     if (command->kind == COMMAND_GRAB || command->kind == COMMAND_PUSH)
-        commands->held = commands->gesture;
-    if (commands->leaving != command->kind)
-        commands->leaving = COMMAND_NONE;
-    player->screen.changed = true;
+        commands->held_gesture = commands->gesture;
+    if (commands->leave_command != command->kind)
+        commands->leave_command = COMMAND_NONE;
+    player->screen.must_redraw = true;
     player->message[0] = '\0';
     if (!(flags & KEEPS_NOTE || (flags & REPLACES && player->hands.mouse.drag)))
         player->note[0] = '\0';
@@ -174,7 +174,7 @@ Status player_obey(Player *player, const Command *command)
     Command meant = resolve_command(player, command);
     const unsigned flags = command_rows[meant.kind].flags;
     long step = past->step, newest = past_newest(past);
-    int now = past->now;
+    int now = past->current;
     bool stops = false;
     Status status = STATUS_OK;
     begin_command(player, &meant);
@@ -204,8 +204,8 @@ Status player_obey(Player *player, const Command *command)
         Status shown = player_work(player);
         status = status ? status : shown;
     }
-    if (past->now > now && meant.kind != COMMAND_REDO &&
-        !past->branch[past->now].from_options && step < newest)
+    if (past->current > now && meant.kind != COMMAND_REDO &&
+        !past->branch[past->current].from_options && step < newest)
         append(player->note, sizeof player->note,
                "%ssteps %ld ... %ld: Ctrl+Z leads back",
                player->note[0] ? "; " : "", step + 1, newest);

@@ -59,8 +59,8 @@ Status output_open(const char *name, char *message, Output *output)
     else if (exists && !S_ISREG(info.st_mode))
         output->file = fopen(name, "wbe");
     else if (!exists || access(name, W_OK) == 0) { /* not read-only */
-        snprintf(output->temporary, OUTPUT_NAME, "%.4096s.part", name);
-        output->file = fopen(output->temporary, "wbe");
+        snprintf(output->part_name, OUTPUT_NAME, "%.4096s.part", name);
+        output->file = fopen(output->part_name, "wbe");
     }
     return output->file ? STATUS_OK : output_report_failure(output, NULL);
 }
@@ -69,7 +69,7 @@ Status output_open(const char *name, char *message, Output *output)
 Status output_close(Output *output, FileEnding keep)
 {
     FILE *file = output->file;
-    bool beside = output->temporary[0];
+    bool beside = output->part_name[0];
     if (!file)
         return STATUS_OK;
     bool whole = !ferror(file);
@@ -77,9 +77,9 @@ Status output_close(Output *output, FileEnding keep)
     if (file != stdout)
         whole = fclose(file) == 0 && whole;
     if (beside && keep == KEEP_NOTHING)
-        remove(output->temporary);
+        remove(output->part_name);
     else if (beside && keep == KEEP_WHOLE && whole)
-        whole = rename(output->temporary, output->name) == 0;
+        whole = rename(output->part_name, output->name) == 0;
     output->file = NULL;
     return whole ? STATUS_OK : output_report_failure(output, NULL);
 }
@@ -118,7 +118,7 @@ void table_add_row(Table *table, const double *value)
     for (int c = 0; c < table->columns && !ferror(file); c++) {
         char kind = table->column[c].kind;
         if (kind == 't')
-            fputs(table->text(table->column[c].name, (int)value[c]), file);
+            fputs(table->get_text(table->column[c].name, (int)value[c]), file);
         else if (kind == '\0')
             fprintf(file, "%.17g", value[c]);
         else if (value[c] >= 0)

@@ -11,7 +11,7 @@
 
 static Branch *present_branch(const Past *past)
 {
-    return &past->branch[past->now];
+    return &past->branch[past->current];
 }
 
 int past_panes(const Past *past)
@@ -21,7 +21,7 @@ int past_panes(const Past *past)
 
 long past_newest(const Past *past)
 {
-    return present_branch(past)->first + present_branch(past)->count - 1;
+    return present_branch(past)->first_step + present_branch(past)->entries - 1;
 }
 
 /* Returns which pane of the branch before, branch[-1], this pane continues.  A
@@ -37,10 +37,10 @@ static int find_pane_below(const Branch *branch, int pane)
  * Returns NULL if the step has no entry. */
 static Entry *find_branch_entry(const Branch *branch, int pane, long step)
 {
-    for (; step < branch->first && !branch->from_options; branch--)
+    for (; step < branch->first_step && !branch->from_options; branch--)
         pane = find_pane_below(branch, pane);
-    long i = step - branch->first;
-    return i < 0 || i >= branch->room
+    long i = step - branch->first_step;
+    return i < 0 || i >= branch->capacity
                ? NULL
                : &branch->entry[i * branch->panes + pane];
 }
@@ -103,13 +103,13 @@ long past_find_drawable_step(const Past *past, int pane, long step)
 static void drop_state(Past *past, Entry *entry)
 {
     State *state = entry->state;
-    if (state && --state->users == 0) {
-        past->bytes -= state->size;
+    if (state && --state->user_count == 0) {
+        past->used_bytes -= state->size;
         control_release(state->control);
         free(state);
     }
     if (entry->sample)
-        past->bytes -= sizeof *entry->sample;
+        past->used_bytes -= sizeof *entry->sample;
     free(entry->sample);
     entry->state = NULL;
     entry->sample = NULL;
@@ -126,24 +126,24 @@ static void drop_entry(Past *past, Entry *entry)
 static Status reserve_entry(Past *past, Branch *branch)
 {
     size_t row = (size_t)branch->panes * sizeof(Entry);
-    if (!past->stores_states && branch->count == 2) {
+    if (!past->stores_states && branch->entries == 2) {
         for (int p = 0; p < branch->panes; p++)
             drop_entry(past, &branch->entry[p]);
         memmove(branch->entry, branch->entry + branch->panes, row);
         memset(branch->entry + branch->panes, 0, row);
-        branch->first++;
-        branch->count--;
+        branch->first_step++;
+        branch->entries--;
     }
-    if (branch->count < branch->room)
+    if (branch->entries < branch->capacity)
         return STATUS_OK;
-    long room = branch->room ? 2 * branch->room : 4;
+    long room = branch->capacity ? 2 * branch->capacity : 4;
     Entry *entry = realloc(branch->entry, (size_t)room * row);
     if (!entry)
         return STATUS_OUT_OF_MEMORY;
-    memset((char *)entry + (size_t)branch->room * row, 0,
-           (size_t)(room - branch->room) * row);
+    memset((char *)entry + (size_t)branch->capacity * row, 0,
+           (size_t)(room - branch->capacity) * row);
     branch->entry = entry;
-    branch->room = room;
+    branch->capacity = room;
     return STATUS_OK;
 }
 
@@ -151,7 +151,7 @@ static void drop_branches(Past *past, int from)
 {
     while (past->branches > from) {
         Branch *branch = &past->branch[--past->branches];
-        for (long i = 0; i < branch->room * branch->panes; i++)
+        for (long i = 0; i < branch->capacity * branch->panes; i++)
             drop_entry(past, &branch->entry[i]);
         free(branch->entry);
     }
@@ -176,14 +176,14 @@ static bool thin_states(Past *past)
     for (int b = 0; b < past->branches; b++) {
         Branch *branch = &past->branch[b];
         bool finer = !finest || branch->stride < finest->stride ||
-                     (branch->stride == finest->stride && b != past->now);
-        if (branch->stride <= branch->count && finer)
+                     (branch->stride == finest->stride && b != past->current);
+        if (branch->stride <= branch->entries && finer)
             finest = branch;
     }
     if (!finest)
         return false;
     finest->stride *= 2;
-    for (long i = 0; i < finest->room * finest->panes; i++)
+    for (long i = 0; i < finest->capacity * finest->panes; i++)
         if (!keeps_state(finest, &finest->entry[i]))
             drop_state(past, &finest->entry[i]);
     return true;
@@ -214,14 +214,14 @@ static Status store_state(Past *past, int pane, bool set, Entry *entry)
     /* Memory for the state and for the sample, which is made next. */
     size_t both = size + sizeof *entry->sample;
     drop_state(past, entry);
-    while (past->bytes + both > past->limit && thin_states(past))
+    while (past->used_bytes + both > past->max_bytes && thin_states(past))
         continue;
     State *state = malloc(size);
     if (!state)
         return STATUS_OUT_OF_MEMORY;
     *state = (State){1, size, set, control_retain(run->control)};
     state_save(simulation, state->bytes);
-    past->bytes += size;
+    past->used_bytes += size;
     entry->state = state;
     return STATUS_OK;
 }
@@ -234,7 +234,7 @@ static void pane_run_leave_step(Past *past, int pane)
     const Branch *branch = present_branch(past);
     if (!run->has_state)
         return;
-    while (run->step < branch->first && !branch->from_options)
+    while (run->step < branch->first_step && !branch->from_options)
         branch--;
     Entry *entry = find_entry(past, pane, run->step);
     if (!keeps_state(branch, entry))
@@ -249,18 +249,18 @@ static void leave_all_steps(Past *past)
 }
 
 /* Puts a branch on top of the present one, and drops undone branches.  The
- * first `copied` entries are copies from the branch below; entry 0 shares its
+ * first `copies` entries are copies from the branch below; entry 0 shares its
  * state with the copied entry.  Returns NULL if memory is missing. */
 static Branch *push_branch(Past *past, Branch wanted, const Command *edit)
 {
-    drop_branches(past, past->now + 1);
-    if (past->branches == past->room) {
-        int room = past->room ? 2 * past->room : 16;
+    drop_branches(past, past->current + 1);
+    if (past->branches == past->capacity) {
+        int room = past->capacity ? 2 * past->capacity : 16;
         Branch *grown = realloc(past->branch, (size_t)room * sizeof *grown);
         if (!grown)
             return NULL;
         past->branch = grown;
-        past->room = room;
+        past->capacity = room;
     }
     Branch *branch = &past->branch[past->branches];
     *branch = wanted;
@@ -268,27 +268,27 @@ static Branch *push_branch(Past *past, Branch wanted, const Command *edit)
     branch->edit = *edit;
     if (reserve_entry(past, branch))
         return NULL;
-    branch->count = 1;
+    branch->entries = 1;
     for (int p = 0; p < past_panes(past); p++)
         if (branch->from_options || p >= branch->panes ||
-            past->pane[p].step > branch->first)
+            past->pane[p].step > branch->first_step)
             pane_run_leave_step(past, p);
     for (int p = 0; p < branch->panes && !branch->from_options; p++)
-        for (int i = 0; i < branch->copied; i++) {
+        for (int i = 0; i < branch->copies; i++) {
             Entry *to = &branch->entry[i * branch->panes + p];
             *to = *find_branch_entry(branch - 1, find_pane_below(branch, p),
-                                     branch->first + i);
+                                     branch->first_step + i);
             control_retain(to->control);
             to->sample = NULL;
             if (i > 0)
                 to->state = NULL;
             if (to->state)
-                to->state->users++;
+                to->state->user_count++;
         }
     if (past->branches > 0)
         branch[-1].left_step = past->step;
-    past->now = past->branches++;
-    past->step = past->aim = branch->first;
+    past->current = past->branches++;
+    past->step = past->aim_step = branch->first_step;
     return branch;
 }
 
@@ -317,38 +317,38 @@ static const Newton *find_traced_newton(const Simulation *simulation)
 static bool observe_newton(void *user, const NewtonRecord *record)
 {
     PaneRun *run = user;
-    if (!run->iterating)
+    if (!run->is_iterating)
         return false;
     run->outcome.updates += record->alpha != 0;
     if (run->simulation.scene->step) /* a step is one update */
-        run->outcome.change = record->change;
+        run->outcome.energy_change = record->change;
     const Newton *newton = find_traced_newton(&run->simulation);
-    if (newton && run->trace.size > 0 && record->iteration >= 0)
+    if (newton && run->trace.x_length > 0 && record->iteration >= 0)
         step_trace_add_round(&run->trace, newton, record);
     Records *records = &run->records;
     if (records_reserve(records, records->count + 1))
-        records->row[records->count++] = *record;
+        records->record[records->count++] = *record;
     else
-        records->lost = true;
+        records->is_incomplete = true;
     return false;
 }
 
 /* Discards the records of the last step. */
 static void pane_run_forget_step(PaneRun *run)
 {
-    run->known = run->failed = false;
+    run->has_trace = run->has_failed = false;
     run->substeps = 0;
     run->trace.places = run->records.count = 0;
-    run->records.lost = false;
+    run->records.is_incomplete = false;
 }
 
 static void pane_run_free(PaneRun *run)
 {
     simulation_free(&run->simulation);
     control_release(run->control);
-    control_release(run->start);
-    run->control = run->start = NULL;
-    run->has_state = run->iterating = false;
+    control_release(run->start_control);
+    run->control = run->start_control = NULL;
+    run->has_state = run->is_iterating = false;
     pane_run_forget_step(run);
 }
 
@@ -386,7 +386,7 @@ static Status pane_run_set_step(Past *past, int pane, long step)
         return status;
     if (!entry->sample) {
         entry->sample = malloc(sizeof *entry->sample);
-        past->bytes += entry->sample ? sizeof *entry->sample : 0;
+        past->used_bytes += entry->sample ? sizeof *entry->sample : 0;
     }
     if (entry->sample) {
         entry->sample->time = simulation_time(&run->simulation);
@@ -427,9 +427,9 @@ static Status pane_run_seek(Past *past, int pane, long goal)
         pane_run_forget_step(run);
         run->outcome = entry->outcome;
     }
-    if (run->start != start) {
+    if (run->start_control != start) {
         status = pane_run_create(run, &start->options);
-        run->start = status ? NULL : control_retain(start);
+        run->start_control = status ? NULL : control_retain(start);
     }
     if (!status)
         status = pane_run_load_state(run, entry->state);
@@ -442,22 +442,22 @@ static Status pane_run_seek(Past *past, int pane, long goal)
  * this step must load its state again. */
 static void abandon_work(Past *past)
 {
-    if (past->work == WORK_DONE)
+    if (past->work_stage == WORK_DONE)
         return;
     long new = past_newest(past) + 1;
     for (int p = 0; p < past_panes(past); p++) {
         PaneRun *run = &past->pane[p];
-        if (run->iterating || run->substeps > 0 || run->step >= new)
+        if (run->is_iterating || run->substeps > 0 || run->step >= new)
             run->has_state = false;
-        run->iterating = false;
+        run->is_iterating = false;
         run->substeps = 0;
         if (!past_makes(past))
             continue;
         drop_state(past, find_entry(past, p, new));
-        if (present_branch(past)->count >= present_branch(past)->copied)
+        if (present_branch(past)->entries >= present_branch(past)->copies)
             drop_entry(past, find_entry(past, p, new)); /* was not copied */
     }
-    past->work = WORK_DONE;
+    past->work_stage = WORK_DONE;
 }
 
 static bool is_out_of_memory(Status status)
@@ -483,9 +483,9 @@ static Status end_failed_pane(Past *past, int pane, Status why)
     run->step = step;
     run->substeps = 0;
     run->outcome = past_entry(past, pane, last)->outcome;
-    run->outcome.status = past->worst = why;
+    run->outcome.status = past->worst_status = why;
     if (past_makes(past))
-        past->work = WORK_MADE;
+        past->work_stage = WORK_MADE;
     return pane_run_finish_step(past, pane);
 }
 
@@ -500,13 +500,13 @@ static Status pane_run_fail(Past *past, int pane, Status status)
             return status;
     }
     abandon_work(past);
-    if (!is_out_of_memory(status) && run->start) {
-        run->failed = run->known = true;
+    if (!is_out_of_memory(status) && run->start_control) {
+        run->has_failed = run->has_trace = true;
         run->outcome.status = status;
     }
     /* Some runs may have made the next step, so the state is not of `step`. */
     run->has_state = false;
-    past->aim = past->step;
+    past->aim_step = past->step;
     return status;
 }
 
@@ -525,7 +525,7 @@ static Status pane_run_finish_step(Past *past, int pane)
         to->outcome = run->outcome;
     }
     if (past_makes(past) && run->substeps > 0)
-        past->work = WORK_MADE;
+        past->work_stage = WORK_MADE;
     run->substeps = 0;
     pane_run_leave_step(past, pane);
     if (to->state && to->state->is_set)
@@ -546,23 +546,23 @@ static Status pane_run_end_iteration(Past *past, int pane, Status status)
     Outcome *outcome = &run->outcome;
     if (status == STATUS_RUNNING)
         return status;
-    run->iterating = false;
+    run->is_iterating = false;
     if (past->stores_states)
         step_trace_end(&run->trace, &simulation->options);
-    bool moved = simulation->steps > run->before;
+    bool moved = simulation->steps > run->steps_before;
     outcome->status = status ? status : outcome->status;
     outcome->extent = 0;
     for (int i = 0; i < 2 * simulation->system.nodes; i++)
         outcome->extent = fmax(outcome->extent, fabs(simulation->run[0].x[i]));
     for (int r = 0; r < simulation->runs && !simulation->scene->step; r++)
         if (simulation->run[r].newton)
-            outcome->change += simulation->run[r].newton->change;
+            outcome->energy_change += simulation->run[r].newton->change;
     if (status && !moved && (is_out_of_memory(status) || !simulation->done))
         return pane_run_fail(past, pane, status);
-    run->known = past->stores_states;
+    run->has_trace = past->stores_states;
     run->substeps += moved;
     if (past_makes(past) && status)
-        past->worst = status;
+        past->worst_status = status;
     double middle = simulation_time(simulation) + 0.5 * find_pane_timestep(run);
     const Entry *to = past_entry(past, pane, run->step + 1);
     bool more = to ? run->substeps < to->substeps
@@ -577,7 +577,7 @@ static Status pane_run_iterate(Past *past, int pane)
     PaneRun *run = &past->pane[pane];
     const Entry *from = past_entry(past, pane, run->step);
     const Entry *to = past_entry(past, pane, run->step + 1);
-    if (run->iterating)
+    if (run->is_iterating)
         return pane_run_end_iteration(past, pane,
                                       simulation_advance(&run->simulation));
     if (run->substeps == 0) {
@@ -591,10 +591,10 @@ static Status pane_run_iterate(Past *past, int pane)
     if (to && entry_is_failure(to))
         return end_failed_pane(past, pane, to->outcome.status);
     if (past->stores_states)
-        step_trace_begin(&run->trace, &run->simulation, past->samples_line,
+        step_trace_begin(&run->trace, &run->simulation, past->samples_energy,
                          pane == past->line_pane);
-    run->before = run->simulation.steps;
-    run->iterating = true;
+    run->steps_before = run->simulation.steps;
+    run->is_iterating = true;
     return pane_run_end_iteration(past, pane,
                                   simulation_begin_step(&run->simulation));
 }
@@ -613,50 +613,51 @@ static Status begin_new_step(Past *past)
         longest = pace;
         past->end_time = simulation_time(&run->simulation) + pace;
     }
-    past->worst = STATUS_OK;
+    past->worst_status = STATUS_OK;
     if (reserve_entry(past, present_branch(past)))
         return pane_run_fail(past, 0, STATUS_OUT_OF_MEMORY);
-    past->work = WORK_MAKES;
+    past->work_stage = WORK_MAKES;
     return STATUS_RUNNING;
 }
 
-/* Ends the work when all panes are at the step `aim`.  If no pane could make a
- * new step, as its scene is over or it has failed, the newest step is shown. */
+/* Ends the work when all panes are at `aim_step`.  If no pane could make a new
+ * step, as its scene is over or it has failed, the newest step is shown. */
 static Status end_work(Past *past)
 {
-    Status worst = past_makes(past) ? past->worst : STATUS_OK;
-    if (past->work == WORK_MADE) {
-        present_branch(past)->count++;
-    } else if (past->work == WORK_MAKES) {
-        past->aim = past_newest(past);
+    Status worst = past_makes(past) ? past->worst_status : STATUS_OK;
+    if (past->work_stage == WORK_MADE) {
+        present_branch(past)->entries++;
+    } else if (past->work_stage == WORK_MAKES) {
+        past->aim_step = past_newest(past);
         for (int p = 0; p < past_panes(past); p++)
-            past->pane[p].step = past->aim;
+            past->pane[p].step = past->aim_step;
         abandon_work(past);
     }
-    past->work = WORK_DONE;
-    past->step = past->aim;
+    past->work_stage = WORK_DONE;
+    past->step = past->aim_step;
     return worst;
 }
 
 Status past_iterate(Past *past)
 {
-    if (past->work == WORK_DONE)
+    if (past->work_stage == WORK_DONE)
         return STATUS_OK;
     int panes = past_panes(past), pane = 0;
-    for (; past->work == WORK_LOADS && pane < panes; pane++) {
-        Status status = pane_run_seek(past, pane, past->from);
+    for (; past->work_stage == WORK_LOADS && pane < panes; pane++) {
+        Status status = pane_run_seek(past, pane, past->load_step);
         if (status)
             return pane_run_fail(past, pane, status);
     }
-    if (past->work == WORK_LOADS)
-        past->work = WORK_REPEATS;
+    if (past->work_stage == WORK_LOADS)
+        past->work_stage = WORK_REPEATS;
     /* Each pane in turn repeats known steps and makes its part of a new one. */
     long newest = past_newest(past);
-    long goal = past_makes(past) || past->aim < newest ? past->aim : newest;
+    long aim = past->aim_step,
+         goal = past_makes(past) || aim < newest ? aim : newest;
     for (pane = 0; pane < panes; pane++)
-        if (past->pane[pane].iterating || past->pane[pane].step < goal)
+        if (past->pane[pane].is_iterating || past->pane[pane].step < goal)
             return pane_run_iterate(past, pane);
-    return goal < past->aim ? begin_new_step(past) : end_work(past);
+    return goal < past->aim_step ? begin_new_step(past) : end_work(past);
 }
 
 Status past_finish_work(Past *past)
@@ -667,7 +668,7 @@ Status past_finish_work(Past *past)
     return status;
 }
 
-/* Whether the trace of the step `aim` is missing and is quick to make. */
+/* Whether the trace of `aim_step` is missing and is quick to make. */
 static bool can_trace_aim(const Past *past)
 {
     enum { SHORT = 400000 }; /* limit of nodes times updates */
@@ -675,10 +676,10 @@ static bool can_trace_aim(const Past *past)
     for (int p = 0; p < past_panes(past); p++) {
         const PaneRun *run = &past->pane[p];
         const Simulation *simulation = &run->simulation;
-        const Entry *entry = past_entry(past, p, past->aim);
-        long behind = past->aim - run->step;
+        const Entry *entry = past_entry(past, p, past->aim_step);
+        long behind = past->aim_step - run->step;
         bool is_known =
-            run->has_state && (behind == 1 || (behind == 0 && run->known));
+            run->has_state && (behind == 1 || (behind == 0 && run->has_trace));
         if (!is_known && simulation->run[0].newton && entry->substeps > 0 &&
             simulation_is_draggable(simulation))
             work += simulation->system.nodes * (1 + entry->outcome.updates);
@@ -690,14 +691,14 @@ void past_choose_step(Past *past, long step, bool again)
 {
     abandon_work(past);
     long newest = past_newest(past);
-    past->aim = step < 0 ? 0 : step > newest ? newest + 1 : step;
-    past->from = past->aim < newest ? past->aim : newest;
-    past->work = WORK_LOADS;
-    past->samples_line = again;
-    if (past->aim == 0 || past->aim > newest || !past->stores_states ||
-        !(again || can_trace_aim(past)))
+    past->aim_step = step < 0 ? 0 : step > newest ? newest + 1 : step;
+    past->load_step = past->aim_step < newest ? past->aim_step : newest;
+    past->work_stage = WORK_LOADS;
+    past->samples_energy = again;
+    if (past->aim_step == 0 || past->aim_step > newest ||
+        !past->stores_states || !(again || can_trace_aim(past)))
         return;
-    past->from = past->aim - 1;
+    past->load_step = past->aim_step - 1;
     for (int p = 0; p < past_panes(past); p++)
         step_trace_clear(&past->pane[p].trace);
     leave_all_steps(past);
@@ -740,12 +741,12 @@ Status past_begin_runs(Past *past, const Options *options, int panes,
             break;
         }
         control->options = options[p];
-        run->start = control;
+        run->start_control = control;
         run->control = control_retain(control);
         run->outcome = (Outcome){.status = run->simulation.status};
         step_trace_clear(&run->trace);
     }
-    if (status && past->now >= 0)
+    if (status && past->current >= 0)
         past_choose_step(past, past->step, false);
     if (status)
         return status;
@@ -755,7 +756,7 @@ Status past_begin_runs(Past *past, const Options *options, int panes,
     invalidate_tables(past, 0, true);
     for (int p = 0; p < panes && !status; p++) {
         Entry *entry = &branch->entry[p];
-        entry->control = control_retain(past->pane[p].start);
+        entry->control = control_retain(past->pane[p].start_control);
         entry->substeps = 1;
         if (past->stores_states)
             status = store_state(past, p, true, entry);
@@ -799,11 +800,12 @@ static const Control *make_edited_control(const Control *from,
     if (edit->kind == COMMAND_PIN)
         control->pinned[edit->number] = edit->x != 0;
     bool takes = edit->kind == COMMAND_GRAB || edit->kind == COMMAND_PUSH;
-    if ((takes || edit->kind == COMMAND_RELEASE) && from->push >= 0)
-        control_store_obstacle(control, from->push, simulation);
+    if ((takes || edit->kind == COMMAND_RELEASE) && from->held_obstacle >= 0)
+        control_store_obstacle(control, from->held_obstacle, simulation);
     if (takes || edit->kind == COMMAND_RELEASE) {
-        control->hand = edit->kind == COMMAND_GRAB ? (int)edit->number : -1;
-        control->push = edit->kind == COMMAND_PUSH ? (int)edit->number : -1;
+        int number = (int)edit->number;
+        control->held_node = edit->kind == COMMAND_GRAB ? number : -1;
+        control->held_obstacle = edit->kind == COMMAND_PUSH ? number : -1;
     }
     if (takes || edit->kind == COMMAND_DRAG) {
         control->target[0] = edit->x;
@@ -849,13 +851,13 @@ Status past_edit(Past *past, const Command *edit, int from, int to, bool again,
                  !branch->from_options && panes == branch->panes && !again &&
                  past->step == past_newest(past) &&
                  edit_sets_state(edit) == edit_sets_state(&branch->edit) &&
-                 (!edit_sets_state(edit) || branch->count == 1);
-    const Branch wanted = {.first = past->step - again,
-                           .copied = 1 + again,
+                 (!edit_sets_state(edit) || branch->entries == 1);
+    const Branch wanted = {.first_step = past->step - again,
+                           .copies = 1 + again,
                            .panes = panes,
                            .gesture = gesture};
     if (joins) /* the edit replaces undone branches */
-        drop_branches(past, past->now + 1);
+        drop_branches(past, past->current + 1);
     else
         branch = push_branch(past, wanted, edit);
     if (!branch)
@@ -863,7 +865,7 @@ Status past_edit(Past *past, const Command *edit, int from, int to, bool again,
     if (edit->kind == branch->edit.kind)
         branch->edit = *edit; /* undo reports the last edit of the gesture */
     invalidate_tables(past, past->step, edit_changes_state(edit));
-    for (long i = branch->count - 1; i < branch->count + again; i++)
+    for (long i = branch->entries - 1; i < branch->entries + again; i++)
         for (int p = from; p < to && !status; p++)
             status = edit_entry(past, p, edit,
                                 &branch->entry[i * branch->panes + p]);
@@ -872,7 +874,7 @@ Status past_edit(Past *past, const Command *edit, int from, int to, bool again,
 
 const Command *past_undo(Past *past, int way)
 {
-    int from = past->now, to = from + way;
+    int from = past->current, to = from + way;
     int last = way < 0 ? 0 : past->branches - 1;
     if (to < 0 || to >= past->branches)
         return NULL;
@@ -881,13 +883,13 @@ const Command *past_undo(Past *past, int way)
         to += way;
     int low = way < 0 ? to : from, high = way < 0 ? from : to;
     for (int b = low + 1; b <= high; b++)
-        invalidate_tables(past, past->branch[b].first,
+        invalidate_tables(past, past->branch[b].first_step,
                           past->branch[b].from_options ||
                               edit_changes_state(&past->branch[b].edit));
     abandon_work(past);
     leave_all_steps(past);
     present_branch(past)->left_step = past->step;
-    past->now = to;
+    past->current = to;
     past->step = present_branch(past)->left_step;
     past_choose_step(past, past->step, false);
     return &past->branch[high].edit;
@@ -895,12 +897,12 @@ const Command *past_undo(Past *past, int way)
 
 void past_create(bool stores_states, bool panes_fail_alone, Past *past)
 {
-    *past = (Past){.now = -1,
+    *past = (Past){.current = -1,
                    .stores_states = stores_states,
                    .panes_fail_alone = panes_fail_alone,
                    .written = -1,
                    .booked = -1,
-                   .limit = PAST_BYTES,
+                   .max_bytes = PAST_BYTES,
                    .line_pane = -1};
 }
 
@@ -911,7 +913,7 @@ void past_free(Past *past)
     for (int p = 0; p < OPTIONS_MAX_PANES; p++) {
         pane_run_free(&past->pane[p]);
         step_trace_free(&past->pane[p].trace);
-        free(past->pane[p].records.row);
+        free(past->pane[p].records.record);
     }
-    *past = (Past){.now = -1};
+    *past = (Past){.current = -1};
 }

@@ -20,24 +20,24 @@ static const double EARLY = 0.002; /* s by which a frame may be drawn early */
 
 Status player_draw(Player *player)
 {
-    player->screen.changed = false;
-    if (!player->screen.draws)
+    player->screen.must_redraw = false;
+    if (!player->screen.draws_frames)
         return STATUS_OK;
     if (past_works(&player->past) && !past_makes(&player->past)) {
         /* The frame is drawn when the work has led to its step. */
-        player->screen.changed = true;
+        player->screen.must_redraw = true;
         return STATUS_OK;
     }
     Paper *paper = player_prepare_paper(player);
     if (!paper)
         return STATUS_OUT_OF_MEMORY;
-    bool fresh = player->screen.drawn != player->past.step;
+    bool fresh = player->screen.drawn_step != player->past.step;
     bool filmed = film_runs(&player->recording.film);
-    player->screen.drawn = player->past.step;
+    player->screen.drawn_step = player->past.step;
     player_paint_frame(player, paper);
     Status status =
-        player->screen.size[0] ? STATUS_OK : window_show(&paper->canvas);
-    int slow = player->time.speed < 0 ? -player->time.speed : 0;
+        player->screen.paper_size[0] ? STATUS_OK : window_show(&paper->canvas);
+    int slow = player->time.log_speed < 0 ? -player->time.log_speed : 0;
     if (!status && (fresh || filmed))
         status = recording_write_frame(&player->recording, &paper->canvas,
                                        player->past.step, 1 << slow);
@@ -51,19 +51,19 @@ bool player_ended(const Player *player)
     const Options *options = &player->setup.options[0];
     const Simulation *simulation = &player->past.pane[0].simulation;
     bool counted = options->steps >= 0;
-    if (player->quit || *player->setup.stop)
+    if (player->is_quitting || *player->setup.stop_signal)
         return true;
     if (!script_is_over(&player->setup.script) || past_works(&player->past))
         return false;
     return (counted && player->past.step >= options->steps) ||
-           ((!player->screen.window || counted) && simulation->done) ||
-           (!player->screen.window && player_is_stopped(player));
+           ((!player->screen.has_window || counted) && simulation->done) ||
+           (!player->screen.has_window && player_is_stopped(player));
 }
 
 static Status obey_script(Player *player)
 {
     Status status = STATUS_OK;
-    while (!status && !player->quit) {
+    while (!status && !player->is_quitting) {
         bool done = player->past.pane[0].simulation.done;
         const Command *command =
             script_due(&player->setup.script, player->past.step,
@@ -77,7 +77,7 @@ static Status obey_script(Player *player)
             print_line(stderr, "script: step %ld: '%s': %s", player->past.step,
                        line, player->message);
             player->message[0] = '\0';
-            player->commands.refused = true;
+            player->commands.line_refused = true;
             status = STATUS_OK;
         }
     }
@@ -90,8 +90,8 @@ static Status make_due_steps(Player *player)
 {
     const Past *past = &player->past;
     Status status = STATUS_OK;
-    int count = player->screen.window && player->time.speed > 0
-                    ? 1 << player->time.speed
+    int count = player->screen.has_window && player->time.log_speed > 0
+                    ? 1 << player->time.log_speed
                     : 1;
     double begin = count > 1 ? clock_now() : 0;
     for (int i = 0; i < count && !status; i++) {
@@ -111,11 +111,12 @@ static Status make_due_steps(Player *player)
 
 Status player_frame(Player *player)
 {
-    double period = ldexp(1.0 / FRAME_RATE,
-                          player->time.speed < 0 ? -player->time.speed : 0);
+    double period =
+        ldexp(1.0 / FRAME_RATE,
+              player->time.log_speed < 0 ? -player->time.log_speed : 0);
     double start = clock_now();
     Status status = STATUS_OK;
-    while (player->screen.window && !status && !player->quit) {
+    while (player->screen.has_window && !status && !player->is_quitting) {
         Input input = window_read_input();
         if (input.kind == INPUT_NONE)
             break;
@@ -123,15 +124,15 @@ Status player_frame(Player *player)
     }
     if (!status && !past_works(&player->past))
         status = obey_script(player);
-    double now = player->screen.window ? clock_now() : 0;
-    if (player->screen.drawn < 0) /* a new run is drawn before its first step */
+    double now = player->screen.has_window ? clock_now() : 0;
+    if (player->screen.drawn_step < 0) /* draw a run before its first step */
         player->time.due = now + period;
-    bool due = !player->screen.window || now >= player->time.due - EARLY;
-    bool first = player->screen.drawn < 0 && player->screen.draws;
+    bool due = !player->screen.has_window || now >= player->time.due - EARLY;
+    bool first = player->screen.drawn_step < 0 && player->screen.draws_frames;
     bool works = past_works(&player->past);
     /* Work that begins in this frame waits until the frame is drawn. */
     bool begins = works && player->time.work_start > start;
-    bool lives = player->screen.sheet && player->screen.window;
+    bool lives = player->screen.sheet && player->screen.has_window;
     bool goes = !lives && !player_is_stopped(player) && due && !first &&
                 !player_ended(player);
     if (!status && !begins && (works || goes)) {
@@ -143,14 +144,14 @@ Status player_frame(Player *player)
         player->time.due = now + 1.0 / FRAME_RATE;
         sheet_advance(player);
     }
-    if (!status && !player->quit && player->screen.changed)
+    if (!status && !player->is_quitting && player->screen.must_redraw)
         status = player_draw(player);
     return status;
 }
 
 bool player_is_idle(const Player *player)
 {
-    return player->screen.window && player_is_stopped(player) &&
+    return player->screen.has_window && player_is_stopped(player) &&
            !player->screen.sheet && !past_works(&player->past) &&
            script_is_over(&player->setup.script);
 }
@@ -160,7 +161,7 @@ int player_find_wait_time(const Player *player)
     double wait = 1e3 * (player->time.due - clock_now());
     if (player_is_idle(player))
         return IDLE_WAIT;
-    if (!player->screen.window || past_works(&player->past) ||
+    if (!player->screen.has_window || past_works(&player->past) ||
         (player_is_stopped(player) && !script_is_over(&player->setup.script)))
         return 0;
     return (int)fmax(fmin(ceil(wait), IDLE_WAIT), 0);
@@ -170,7 +171,7 @@ Status player_run(Player *player)
 {
     Status status = player_frame(player);
     while (!status && !player_ended(player)) {
-        if (player->screen.window)
+        if (player->screen.has_window)
             window_wait_for_input(player_find_wait_time(player));
         status = player_frame(player);
     }
@@ -185,8 +186,8 @@ static void open_view(Player *player)
     Options *options = &player->setup.options[0];
     const int size[] = {(int)options->size[0], (int)options->size[1]};
     if (!options->headless)
-        player->screen.window = window_open(size, options->fullscreen);
-    if (!options->headless && !player->screen.window) {
+        player->screen.has_window = window_open(size, options->fullscreen);
+    if (!options->headless && !player->screen.has_window) {
         if (!options->frames && !options->film)
             options->frames = "frames";
         print_line(stderr, "no screen: %.300s; the frames go to %.300s%s",
@@ -195,14 +196,14 @@ static void open_view(Player *player)
                    options->frames ? "/" : "");
         window_close();
     }
-    if (!player->screen.window && !options->script) {
+    if (!player->screen.has_window && !options->script) {
         options->steps = options->steps < 0 ? WINDOWLESS_STEPS : options->steps;
         options->paused = 0; /* without a window no key can end a pause */
     }
-    player->screen.draws =
-        player->screen.window || options->frames || options->film;
-    for (int i = 0; i < 2 && !player->screen.window; i++)
-        player->screen.size[i] = size[i] > 0 ? size[i] : FRAME_SIZE;
+    player->screen.draws_frames =
+        player->screen.has_window || options->frames || options->film;
+    for (int i = 0; i < 2 && !player->screen.has_window; i++)
+        player->screen.paper_size[i] = size[i] > 0 ? size[i] : FRAME_SIZE;
 }
 
 Status player_create(const Options *options, int count, char *const *words,
@@ -210,27 +211,27 @@ Status player_create(const Options *options, int count, char *const *words,
 {
     const Command begin = {.kind = COMMAND_RESTART};
     const Command pause = {.kind = COMMAND_PAUSE};
-    *player = (Player){.setup = {.words = words, .stop = stop},
+    *player = (Player){.setup = {.arguments = words, .stop_signal = stop},
                        .tour.last_page = options->page};
     memcpy(player->setup.options, options, (size_t)count * sizeof *options);
-    player->setup.started = clock_now();
+    player->setup.start_time = clock_now();
     Status status = script_read(options->script, &player->setup.script,
                                 MESSAGE(player->message));
     if (status)
         return status;
     open_view(player);
-    player->setup.asks = player->screen.window && !options->script;
-    player->setup.attended =
-        player->screen.window || options->script || options->page;
+    player->setup.asks_guess = player->screen.has_window && !options->script;
+    player->setup.is_attended =
+        player->screen.has_window || options->script || options->page;
     options = player->setup.options;
     if (options->page)
         player_store_own_options(player, options);
-    if (options->paused || (player->setup.asks && options->steps < 0 &&
+    if (options->paused || (player->setup.asks_guess && options->steps < 0 &&
                             (options->page || options->scene->starts_paused)))
         player->time.mode = MODE_PAUSE;
     status = recording_open(options, count, &player->recording);
-    past_create(player->setup.attended || player->screen.draws,
-                player->setup.attended && options->steps < 0, &player->past);
+    past_create(player->setup.is_attended || player->screen.draws_frames,
+                player->setup.is_attended && options->steps < 0, &player->past);
     if (!status)
         status =
             player_begin_runs(player, player->setup.options, count, &begin);
@@ -238,10 +239,10 @@ Status player_create(const Options *options, int count, char *const *words,
     if (!status && player_is_stopped(player))
         status = script_add(&player->commands.journal, 0, &pause, 0);
     bool nodes = !status && player_simulation(player)->mesh.nodes > 0;
-    if (!status && player->setup.asks && options->page) {
+    if (!status && player->setup.asks_guess && options->page) {
         status = player_enqueue_page(player);
         status = status ? status : player_obey_queue(player, false);
-    } else if (!status && player->setup.asks &&
+    } else if (!status && player->setup.asks_guess &&
                simulation_is_draggable(player_simulation(player)))
         player_note(player,
                     "pull at a %s with the mouse%s; G: scenes; Page "
@@ -255,7 +256,7 @@ static void close_view(Player *player)
 {
     paper_free(&player->screen.paper);
     window_close();
-    player->screen.draws = false;
+    player->screen.draws_frames = false;
 }
 
 Status player_finish(Player *player, Status status)

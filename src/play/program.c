@@ -77,7 +77,7 @@ static int report_failure(const Player *player, Status status)
     const char *message = player->message;
     int panes = past_panes(&player->past), p = 0;
     char pane[32] = "";
-    if (status == STATUS_FILE_FAILED && player->recording.standard &&
+    if (status == STATUS_FILE_FAILED && player->recording.uses_stdout &&
         reader_is_gone())
         return code;
     if (!message[0])
@@ -181,7 +181,7 @@ static void print_summary(FILE *file, const Player *player)
         fputs(panes > 1 ? "\n\n" : "\n", file);
     }
     print_quantity(file, "wall time", "%.3f s",
-                   clock_now() - player->setup.started);
+                   clock_now() - player->setup.start_time);
     if (recording->folder)
         print_quantity(file, "frames written", "%ld, in %s/", recording->frames,
                        recording->folder);
@@ -197,8 +197,8 @@ static void print_old_frames(const Recording *recording)
 {
     char range[48] = "";
     long count = 0, first = 0, last = 0;
-    for (long step = 0; recording->is_old && step < FRAMES_MOST; step++)
-        if (recording->is_old[step]) {
+    for (long step = 0; recording->old_frame && step < FRAMES_MOST; step++)
+        if (recording->old_frame[step]) {
             first = count++ == 0 ? step : first;
             last = step;
         }
@@ -224,10 +224,10 @@ int program_end(Player *player, Status status)
         return report_failure(player, status);
     errno = 0;
     if (!player->setup.options[0].quiet)
-        print_summary(player->recording.standard ? stderr : stdout, player);
+        print_summary(player->recording.uses_stdout ? stderr : stdout, player);
     print_old_frames(&player->recording);
     int code = check_standard_output();
-    if (code == EXIT_FINE && player->commands.refused)
+    if (code == EXIT_FINE && player->commands.line_refused)
         return EXIT_MISUSED;
     for (int i = 0; i < past_panes(&player->past) && code == EXIT_FINE; i++) {
         const Simulation *simulation = &player->past.pane[i].simulation;

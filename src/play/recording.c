@@ -19,15 +19,16 @@ typedef struct RunAtStep {
     double step, time;
     int run_index;            /* index of the run in its simulation */
     int pane;                 /* number of the pane, from 1 */
-    int runs, nodes, springs; /* counts in all runs before this run */
+    int first_run, first_node, first_spring; /* counts in the runs before */
 } RunAtStep;
 
 static void add_states(Table *table, const RunAtStep *at)
 {
     for (int i = 0; i < at->run->system->nodes; i++) {
         const double *x = at->run->x + 2 * i, *v = at->run->v + 2 * i;
-        const double row[] = {at->step, at->time, at->nodes + i, x[0],
-                              x[1],     v[0],     v[1],          at->pane};
+        const double row[] = {at->step, at->time, at->first_node + i,
+                              x[0],     x[1],     v[0],
+                              v[1],     at->pane};
         table_add_row(table, row);
     }
 }
@@ -41,8 +42,8 @@ static void add_springs(Table *table, const RunAtStep *at)
         const int *e = system->e + 2 * s;
         double l2 = system->l2[s];
         double strain = spring_strain(spring_vector(e, at->run->x, d), l2);
-        double spring = at->springs + s, i = at->nodes + e[0];
-        double j = at->nodes + e[1], whole = !spring_is_broken(system, s);
+        double spring = at->first_spring + s, i = at->first_node + e[0];
+        double j = at->first_node + e[1], whole = !spring_is_broken(system, s);
         double plastic = flow ? flow->ep[s] : 0;
         double flowed = flow ? flow->kappa[s] : 0;
         const double row[] = {at->step, at->time, spring,   i,
@@ -62,7 +63,7 @@ static void add_energies(Table *table, const RunAtStep *at)
         for (int r = 0; r < energies.rows; r++)
             if (strcmp(energies.row[r].name, table->column[c].name) == 0)
                 row[c] = energies.row[r].value;
-    row[table->columns - 1] = at->runs;
+    row[table->columns - 1] = at->first_run;
     table_add_row(table, row);
 }
 
@@ -139,13 +140,13 @@ static void find_old_frames(Recording *recording)
 {
     DIR *folder = opendir(recording->folder);
     struct dirent *file;
-    recording->is_old = calloc(FRAMES_MOST, 1);
-    while (folder && recording->is_old && (file = readdir(folder))) {
+    recording->old_frame = calloc(FRAMES_MOST, 1);
+    while (folder && recording->old_frame && (file = readdir(folder))) {
         int end = 0, step = 0;
         if (sscanf(file->d_name, "frame_%6d.png%n", &step, &end) == 1 &&
             end == (int)strlen("frame_000000.png") && !file->d_name[end] &&
             step >= 0)
-            recording->is_old[step] = 1;
+            recording->old_frame[step] = 1;
     }
     if (folder)
         closedir(folder);
@@ -160,9 +161,9 @@ static Status open_table(const Options *options, Recording *recording, int t)
     const char *name = *(char *const *)((const char *)options + kinds[t].file);
     if (!name)
         return STATUS_OK;
-    recording->standard = recording->standard || output_is_standard(name);
-    recording->tables = true;
-    table->text = find_log_text;
+    recording->uses_stdout = recording->uses_stdout || output_is_standard(name);
+    recording->has_tables = true;
+    table->get_text = find_log_text;
     table_add_columns(table, kinds[t].columns);
     for (const OptionRow *row = option_rows; row->name; row++)
         if (t == RECORDING_ENERGIES && row->term) {
@@ -203,8 +204,8 @@ Status recording_write_frame(Recording *recording, const Canvas *canvas,
         return status;
     snprintf(name, sizeof name, "%s/frame_%06ld.png", recording->folder, step);
     recording->frames++;
-    if (recording->is_old && step < FRAMES_MOST)
-        recording->is_old[step] = 0;
+    if (recording->old_frame && step < FRAMES_MOST)
+        recording->old_frame[step] = 0;
     return png_file_write(name, recording->message, canvas);
 }
 
@@ -225,9 +226,9 @@ Status recording_write_states(Recording *recording, bool energies_only,
                 if (kinds[t].write_rows && recording->table[t].output.file &&
                     (!energies_only || t == RECORDING_ENERGIES))
                     kinds[t].write_rows(&recording->table[t], &at);
-            at.runs++;
-            at.nodes += at.run->system->nodes;
-            at.springs += at.run->system->springs;
+            at.first_run++;
+            at.first_node += at.run->system->nodes;
+            at.first_spring += at.run->system->springs;
         }
     for (int t = 0; t < RECORDING_TABLES && !status; t++)
         status = table_check(&recording->table[t]);
@@ -282,5 +283,5 @@ Status recording_close(Recording *recording, FileEnding keep)
 void recording_free(Recording *recording)
 {
     recording_close(recording, KEEP_NOTHING);
-    free(recording->is_old);
+    free(recording->old_frame);
 }

@@ -11,24 +11,24 @@ static bool could_lose_work(const Player *player)
 {
     static const double LONG = 60; /* s */
     const Past *past = &player->past;
-    return past->now > 0 || (past_newest(past) > 0 &&
-                             clock_now() - player->setup.started > LONG);
+    return past->current > 0 || (past_newest(past) > 0 &&
+                                 clock_now() - player->setup.start_time > LONG);
 }
 
 Status obey_screen(Player *player, const Command *command)
 {
     CommandKind kind = command->kind;
     if (kind == COMMAND_FASTER)
-        player->time.speed += player->time.speed < SPEED_MOST;
+        player->time.log_speed += player->time.log_speed < SPEED_MOST;
     else if (kind == COMMAND_SLOWER)
-        player->time.speed -= player->time.speed > SPEED_LEAST;
+        player->time.log_speed -= player->time.log_speed > SPEED_LEAST;
     else if (kind == COMMAND_COLOURS)
-        player->screen.strain = !player->screen.strain;
+        player->screen.shows_strain = !player->screen.shows_strain;
     else if (kind == COMMAND_BARE)
-        player->screen.bare = !player->screen.bare;
+        player->screen.is_bare = !player->screen.is_bare;
     else if (kind == COMMAND_BLANK)
         player->screen.is_black = !player->screen.is_black;
-    else if (kind == COMMAND_FULL && player->screen.window)
+    else if (kind == COMMAND_FULL && player->screen.has_window)
         window_set_full(!window_is_full_screen());
     else if (kind == COMMAND_PANE)
         player->active = (int)command->number;
@@ -57,10 +57,10 @@ Status obey_column(Player *player, const Command *command)
 /* Ends the program; the key must be pressed twice if there is work to lose. */
 Status obey_quit(Player *player, const Command *command)
 {
-    bool key = command->text[0] != '\0', asked = player->commands.leaving;
-    player->quit = !key || asked || !could_lose_work(player);
-    player->commands.leaving = COMMAND_QUIT;
-    if (!player->quit)
+    bool key = command->text[0] != '\0', asked = player->commands.leave_command;
+    player->is_quitting = !key || asked || !could_lose_work(player);
+    player->commands.leave_command = COMMAND_QUIT;
+    if (!player->is_quitting)
         player_note(player, "Q once more ends the program; Y saves first a "
                             "script that leads here");
     return STATUS_OK;
@@ -70,8 +70,8 @@ Status obey_quit(Player *player, const Command *command)
  * the program, if there is no work to lose. */
 Status obey_escape(Player *player, const Command *command)
 {
-    bool asked = player->commands.leaving == COMMAND_ESCAPE;
-    player->commands.leaving = COMMAND_NONE;
+    bool asked = player->commands.leave_command == COMMAND_ESCAPE;
+    player->commands.leave_command = COMMAND_NONE;
     if (player->screen.is_black)
         player->screen.is_black = false;
     else if (player->screen.sheet)
@@ -82,15 +82,15 @@ Status obey_escape(Player *player, const Command *command)
         player_deselect(player);
     else if (player->screen.column)
         player->screen.column = COLUMN_CARDS;
-    else if (player->screen.window && window_is_full_screen())
+    else if (player->screen.has_window && window_is_full_screen())
         window_set_full(false);
     else if (could_lose_work(player))
         player_note(player, "nothing is open; Q ends the program");
     else if (asked)
-        player->quit = true;
+        player->is_quitting = true;
     else
-        player->commands.leaving = COMMAND_ESCAPE;
-    if (player->commands.leaving)
+        player->commands.leave_command = COMMAND_ESCAPE;
+    if (player->commands.leave_command)
         player_note(player, "Esc once more, or Q, ends the program");
     return STATUS_OK;
 }

@@ -101,17 +101,18 @@ void player_sample_line_energy(Player *player)
 {
     const FrameContent *content = &player->screen.frame.content;
     bool has_cards = content->in_document || !content->in_page;
-    bool is_drawn = player->screen.draws && !player->screen.bare && has_cards &&
+    bool is_drawn = player->screen.draws_frames && !player->screen.is_bare &&
+                    has_cards &&
                     cards_need_line_energy(player_simulation(player),
                                            player->screen.toggled_cards);
     Past *past = &player->past;
     const PaneRun *run = player_active_run(player);
     past->line_pane = is_drawn ? player->active : -1;
-    bool lacks = is_drawn && run->known && !past_works(past) &&
+    bool lacks = is_drawn && run->has_trace && !past_works(past) &&
                  step_trace_lacks_samples(
                      &run->trace, player->view_of_pane[player->active].place);
     for (int p = 0; p < past_panes(past); p++)
-        lacks = lacks && !past->pane[p].failed;
+        lacks = lacks && !past->pane[p].has_failed;
     if (lacks)
         past_choose_step(past, past->step, true);
 }
@@ -119,7 +120,7 @@ void player_sample_line_energy(Player *player)
 int player_initial_speed(const Player *player, const Options *options)
 {
     double speed = options->speed;
-    if (speed == 0 && !options->page && player->setup.attended)
+    if (speed == 0 && !options->page && player->setup.is_attended)
         speed = options->scene->speed;
     if (speed > 0)
         return (int)lrint(fmin(fmax(log2(speed), SPEED_LEAST), SPEED_MOST));
@@ -135,7 +136,7 @@ bool player_shows_list(const Player *player)
 void player_deselect(Player *player)
 {
     player->hands.selected = NULL;
-    player->hands.typing = false;
+    player->hands.is_typing = false;
     player->hands.typed[0] = '\0';
 }
 
@@ -169,8 +170,8 @@ void player_note(Player *player, const char *format, ...)
     va_start(arguments, format);
     vsnprintf(player->note, sizeof player->note, format, arguments);
     va_end(arguments);
-    player->warning = player->explains = false;
-    player->screen.changed = true;
+    player->is_warning = player->must_explain = false;
+    player->screen.must_redraw = true;
 }
 
 Status player_show_refusal(Player *player, Status status)
@@ -193,7 +194,7 @@ Status player_tolerate_failure(Player *player, Status status)
     bool fatal = status == STATUS_OUT_OF_MEMORY ||
                  status == STATUS_INVALID_INPUT ||
                  status == STATUS_FILE_FAILED || status == STATUS_SCREEN_FAILED;
-    if (!status || fatal || !player->setup.attended ||
+    if (!status || fatal || !player->setup.is_attended ||
         player->setup.options[0].steps >= 0)
         return status;
     player_pause(player);
@@ -215,7 +216,7 @@ Command make_set_command(const OptionRow *row, double value)
     return (Command){.kind = COMMAND_SET,
                      .number = row - option_rows,
                      .x = value,
-                     .joins = true};
+                     .joined = true};
 }
 
 void player_enqueue_set(Player *player, const OptionRow *row, double value)

@@ -18,9 +18,9 @@ static const double STEP_TIME = 0.008;
 /* The first cell shows the tour's pages in turn, each other cell a scene. */
 typedef struct Sheet {
     int cells;
-    int next; /* index of the cell that gets the next step */
-    int page; /* index of the page that the first cell shows next */
-    int age[LAYOUT_CELLS]; /* frames in which the cell had its turn */
+    int next_cell; /* index of the cell that gets the next step */
+    int next_page; /* index of the page that the first cell shows next */
+    int turns[LAYOUT_CELLS]; /* frames in which the cell had its turn */
     Simulation simulation[LAYOUT_CELLS];
 } Sheet;
 
@@ -60,14 +60,14 @@ static void begin_cell(Sheet *sheet, int i)
     char message[256];
     Options options;
     Simulation *simulation = &sheet->simulation[i];
-    const LecturePage *page = &lecture_pages[sheet->page];
+    const LecturePage *page = &lecture_pages[sheet->next_page];
     Status status = i == 0
                         ? lecture_make_options(page, &options, MESSAGE(message))
                         : options_parse_line(scenes[i - 1].name, &options,
                                              MESSAGE(message));
     simulation_free(simulation);
     if (i == 0)
-        sheet->page = page[1].name ? sheet->page + 1 : 0;
+        sheet->next_page = page[1].name ? sheet->next_page + 1 : 0;
     if (!status && simulation_create(&options, NULL, NULL, simulation))
         simulation_free(simulation);
 }
@@ -79,7 +79,7 @@ void sheet_advance(Player *player)
     if (!sheet)
         return;
     for (int i = 0; i < sheet->cells && clock_now() - begin < STEP_TIME; i++) {
-        int cell = sheet->next, age = sheet->age[cell]++;
+        int cell = sheet->next_cell, age = sheet->turns[cell]++;
         Simulation *simulation = &sheet->simulation[cell];
         if (age % CELL_LIFE == 0)
             begin_cell(sheet, cell);
@@ -88,9 +88,9 @@ void sheet_advance(Player *player)
                  ((simulation->scene->needs & NEEDS_TIME) ||
                   age % CELL_PAUSE == 0))
             simulation_step(simulation);
-        sheet->next = (cell + 1) % sheet->cells;
+        sheet->next_cell = (cell + 1) % sheet->cells;
     }
-    player->screen.changed = true;
+    player->screen.must_redraw = true;
 }
 
 void sheet_fill(const Player *player, FrameContent *content)

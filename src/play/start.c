@@ -100,7 +100,7 @@ Status player_restart_runs(Player *player, const Options *options, int panes,
     if (opens)
         player->time.walk_unit = UNIT_STEP;
     if (!status && opens &&
-        player->setup.asks) { /* a script has the page's commands in it */
+        player->setup.asks_guess) { /* a script has the page's commands in it */
         player->commands.queue.pins = before;
         return player_enqueue_page(player);
     }
@@ -127,7 +127,7 @@ Status obey_restart(Player *player, const Command *command)
         options[p].start[0] = command->x;
         options[p].start[1] = command->y;
     }
-    if (moves || (options->page && player->setup.asks))
+    if (moves || (options->page && player->setup.asks_guess))
         player->time.mode = MODE_PAUSE;
     else if (player->time.mode >= MODE_END && !options->page &&
              !options->scene->starts_paused)
@@ -140,22 +140,22 @@ Status obey_restart(Player *player, const Command *command)
 Status player_enqueue_page(Player *player)
 {
     const LecturePage *page = player_active_options(player)->page;
-    player->commands.queue.of_page = true;
+    player->commands.queue.is_of_page = true;
     return player_enqueue_lines(player, page ? page->open : NULL);
 }
 
 void player_store_own_options(Player *player, const Options *options)
 {
     for (int p = 0; p < OPTIONS_MAX_DRAWN; p++)
-        player->tour.own[p] = *options;
-    player->tour.panes = 1;
+        player->tour.own_options[p] = *options;
+    player->tour.own_panes = 1;
 }
 
 bool player_hides_answer(const Player *player)
 {
     const LecturePage *page = player_active_options(player)->page;
     return page && page->ask && player->tour.revealed != page &&
-           player->setup.asks && !player->tour.obeys_page;
+           player->setup.asks_guess && !player->tour.obeys_page;
 }
 
 /* A guess may be wrong by two percent, since it is calculated on paper. */
@@ -190,7 +190,7 @@ Status player_reveal_answer(Player *player, const char *typed)
                  : right ? ": right, "
                          : ": no, ",
                  number.text);
-    player->commands.queue.of_page = true;
+    player->commands.queue.is_of_page = true;
     return player_enqueue_lines(player, page->tell);
 }
 
@@ -223,14 +223,14 @@ Status obey_page(Player *player, const Command *command)
         return status;
     player_store_own_options(player, &options);
     status = player_begin_runs(player, &options, 1, command);
-    player->time.speed = player_initial_speed(player, &options);
+    player->time.log_speed = player_initial_speed(player, &options);
     player->tour.last_page = page;
     player->tour.revealed = NULL;
     player->tour.verdict[0] = '\0';
     player->screen.column = COLUMN_CARDS;
     player->time.walk_unit = UNIT_STEP;
     sheet_close(player);
-    if (status || !player->setup.asks)
+    if (status || !player->setup.asks_guess)
         return status;
     player->time.mode = MODE_PAUSE;
     return player_enqueue_page(player);

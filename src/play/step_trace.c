@@ -10,14 +10,14 @@ enum { TRIALS_WALKED = 12 };
 
 bool records_reserve(Records *records, int count)
 {
-    if (count <= records->room)
+    if (count <= records->capacity)
         return true;
     int room = count < 16 ? 16 : 2 * count;
-    NewtonRecord *row = realloc(records->row, (size_t)room * sizeof *row);
+    NewtonRecord *row = realloc(records->record, (size_t)room * sizeof *row);
     if (!row)
         return false;
-    records->row = row;
-    records->room = room;
+    records->record = row;
+    records->capacity = room;
     return true;
 }
 
@@ -29,20 +29,20 @@ static void free_round(Round *round)
 
 void step_trace_clear(StepTrace *trace)
 {
-    for (int i = 0; i < trace->room; i++)
+    for (int i = 0; i < trace->capacity; i++)
         free_round(&trace->round[i]);
     free(trace->x_tilde);
-    free(trace->end);
-    trace->x_tilde = trace->end = NULL;
+    free(trace->end_x);
+    trace->x_tilde = trace->end_x = NULL;
     trace->records.count = trace->places = 0;
-    trace->bytes = 0;
+    trace->used_bytes = 0;
 }
 
 void step_trace_free(StepTrace *trace)
 {
     step_trace_clear(trace);
     free(trace->round);
-    free(trace->records.row);
+    free(trace->records.record);
     free(trace->place);
     *trace = (StepTrace){0};
 }
@@ -51,26 +51,26 @@ void step_trace_begin(StepTrace *trace, const Simulation *simulation, bool all,
                       bool last)
 {
     step_trace_clear(trace);
-    trace->samples_all = all;
-    trace->samples_last = last;
-    trace->start = (Trace){.h = simulation->options.timestep,
-                           .tolerance = simulation->options.tolerance,
-                           .projected = -1};
-    trace->size = 2 * simulation->system.nodes;
+    trace->samples_all_rounds = all;
+    trace->samples_last_round = last;
+    trace->start_trace = (Trace){.h = simulation->options.timestep,
+                                 .tolerance = simulation->options.tolerance,
+                                 .projected = -1};
+    trace->x_length = 2 * simulation->system.nodes;
 }
 
 /* Reserves memory for one more round.  Returns false if memory is missing. */
 static bool reserve_round(StepTrace *trace)
 {
     int count = trace->records.count + 1;
-    if (count > trace->room) {
+    if (count > trace->capacity) {
         Round *round = realloc(trace->round, 2 * (size_t)count * sizeof *round);
         if (!round)
             return false;
-        memset(round + trace->room, 0,
-               (size_t)(2 * count - trace->room) * sizeof *round);
+        memset(round + trace->capacity, 0,
+               (size_t)(2 * count - trace->capacity) * sizeof *round);
         trace->round = round;
-        trace->room = 2 * count;
+        trace->capacity = 2 * count;
     }
     return records_reserve(&trace->records, count);
 }
@@ -79,17 +79,17 @@ static bool reserve_round(StepTrace *trace)
 static void store_line_energy(StepTrace *trace, const Iterate *at)
 {
     Round *round = &trace->round[trace->records.count];
-    const NewtonRecord *record = &trace->records.row[trace->records.count];
+    const NewtonRecord *record = &trace->records.record[trace->records.count];
     const LineEnergy along = incremental_potential_prepare_line(at);
     bool ended = record->status != STATUS_RUNNING;
-    bool samples = trace->samples_all ||
-                   (ended && (trace->samples_last || record->alpha == 0));
+    bool samples = trace->samples_all_rounds ||
+                   (ended && (trace->samples_last_round || record->alpha == 0));
     round->first_trial = incremental_potential_max_step(at);
     round->polynomial = along.polynomial;
     round->has_remainder = along.has_remainder;
-    round->sampled = along.has_remainder && samples;
-    for (int i = 0; i < ROUND_VALUES && round->sampled; i++)
-        round->value[i] = line_energy_difference(
+    round->has_samples = along.has_remainder && samples;
+    for (int i = 0; i < ROUND_VALUES && round->has_samples; i++)
+        round->energy_samples[i] = line_energy_difference(
             &along, i * round->first_trial / ROUND_PARTS);
 }
 
@@ -100,7 +100,7 @@ bool step_trace_lacks_samples(const StepTrace *trace, int place)
     if (last < 0)
         return false;
     const Round *round = &trace->round[i < last ? i : last];
-    return round->has_remainder && round->x && !round->sampled;
+    return round->has_remainder && round->x && !round->has_samples;
 }
 
 /* Returns E(x + alpha p) - E(x): the polynomial, or samples joined by lines;
@@ -110,12 +110,12 @@ static double evaluate_round_energy(const void *function, double alpha)
     const Round *round = function;
     if (!round->has_remainder)
         return quartic_value(&round->polynomial, alpha);
-    if (!round->sampled && alpha == round->alpha)
-        return round->change;
+    if (!round->has_samples && alpha == round->alpha)
+        return round->energy_change;
     double place = alpha / round->first_trial * ROUND_PARTS;
-    if (!round->sampled || !(place >= 0 && place <= ROUND_VALUES - 1))
+    if (!round->has_samples || !(place >= 0 && place <= ROUND_VALUES - 1))
         return NAN;
-    const double *value = round->value + (int)place;
+    const double *value = round->energy_samples + (int)place;
     double part = place - (int)place;
     return part == 0 ? value[0] : value[0] + part * (value[1] - value[0]);
 }
@@ -123,7 +123,7 @@ static double evaluate_round_energy(const void *function, double alpha)
 /* Returns a copy of an array [size], or NULL. */
 static double *copy_array(const StepTrace *trace, const double *from)
 {
-    size_t bytes = (size_t)trace->size * sizeof *from;
+    size_t bytes = (size_t)trace->x_length * sizeof *from;
     double *copy = malloc(bytes);
     return copy ? memcpy(copy, from, bytes) : NULL;
 }
@@ -134,20 +134,20 @@ static double *copy_array(const StepTrace *trace, const double *from)
 static void store_iteration(StepTrace *trace, const Newton *newton)
 {
     Round *round = &trace->round[trace->records.count];
-    NewtonRecord *record = &trace->records.row[trace->records.count];
+    NewtonRecord *record = &trace->records.record[trace->records.count];
     Iterate at = newton->at;
-    size_t size = (size_t)trace->size;
+    size_t size = (size_t)trace->x_length;
     size_t bytes = (4 * size + ROUND_VALUES) * sizeof *round->x;
     free_round(round);
-    if (trace->bytes + bytes <= STEP_TRACE_BYTES)
+    if (trace->used_bytes + bytes <= STEP_TRACE_BYTES)
         round->x = malloc(bytes);
     if (!round->x)
         return;
-    trace->bytes += bytes;
+    trace->used_bytes += bytes;
     round->p = round->x + size;
     round->u = round->p + size;
     double *g = round->u + size;
-    round->value = g + size;
+    round->energy_samples = g + size;
     bool moved = record->alpha != 0;
     memcpy(round->x, moved ? newton->x_trial : at.x, size * sizeof *round->x);
     memcpy(round->u, moved ? newton->u_trial : at.u, size * sizeof *round->u);
@@ -165,7 +165,7 @@ static void store_iteration(StepTrace *trace, const Newton *newton)
     store_line_energy(trace, &at);
     record->slope = round->polynomial.q[0];
     round->alpha = record->alpha;
-    round->change = record->change;
+    round->energy_change = record->change;
 }
 
 void step_trace_add_round(StepTrace *trace, const Newton *newton,
@@ -173,15 +173,15 @@ void step_trace_add_round(StepTrace *trace, const Newton *newton,
 {
     if (!reserve_round(trace))
         return;
-    trace->records.row[trace->records.count] = *record;
+    trace->records.record[trace->records.count] = *record;
     store_iteration(trace, newton);
     trace->records.count++;
-    free(trace->end);
-    trace->end = copy_array(trace, newton->at.x);
+    free(trace->end_x);
+    trace->end_x = copy_array(trace, newton->at.x);
     if (trace->x_tilde) /* x_tilde of the step's first minimisation is kept */
         return;
     trace->x_tilde = copy_array(trace, newton->u_tilde);
-    for (int i = 0; i < trace->size && trace->x_tilde; i++)
+    for (int i = 0; i < trace->x_length && trace->x_tilde; i++)
         trace->x_tilde[i] += newton->at.E.x_n[i];
 }
 
@@ -202,7 +202,7 @@ void step_trace_end(StepTrace *trace, const Options *options)
     trace->place = place;
     append_place(trace, 0, LINE_START, 0);
     for (int i = 0; i < count; i++) {
-        const NewtonRecord *record = &trace->records.row[i];
+        const NewtonRecord *record = &trace->records.record[i];
         bool searches = options->line_search != LINE_SEARCH_NONE;
         bool fails = record->alpha == 0, passes = record->status == STATUS_OK;
         int trials = record->trials;
@@ -249,7 +249,7 @@ int step_trace_peak(const StepTrace *trace)
     double sum = 0, rise = 0;
     int round = -1;
     for (int i = 0; i < trace->records.count; i++) {
-        sum += trace->records.row[i].change;
+        sum += trace->records.record[i].change;
         if (sum > rise) {
             rise = sum;
             round = i;
@@ -264,7 +264,7 @@ static void fill_round_values(const StepTrace *trace, const TracePlace *at,
                               Trace *shown)
 {
     const Round *round = &trace->round[at->round];
-    const NewtonRecord *record = &trace->records.row[at->round];
+    const NewtonRecord *record = &trace->records.record[at->round];
     bool solved = at->line >= LINE_SOLVE;
     shown->x = round->x;
     shown->updates = at->round + solved;
@@ -287,7 +287,7 @@ static void fill_round_values(const StepTrace *trace, const TracePlace *at,
 const double *step_trace_fill(const StepTrace *trace, int place, Trace *shown)
 {
     int count = trace->records.count;
-    const NewtonRecord *row = trace->records.row, *last = row + count - 1;
+    const NewtonRecord *row = trace->records.record, *last = row + count - 1;
     bool over = place < 0 || place >= trace->places;
     bool given_up = count > 0 && last->status != STATUS_OK &&
                     last->status != STATUS_RUNNING;
@@ -297,7 +297,7 @@ const double *step_trace_fill(const StepTrace *trace, int place, Trace *shown)
     TracePlace source = at;
     if (end && count > 0) /* the end shows the values of the last round */
         source = (TracePlace){count - 1, LINE_END, last->trials};
-    *shown = trace->start;
+    *shown = trace->start_trace;
     shown->line = over ? LINE_NONE : at.line;
     shown->iteration = source.round;
     shown->updates = at.round;
@@ -312,5 +312,5 @@ const double *step_trace_fill(const StepTrace *trace, int place, Trace *shown)
         return NULL;
     if (at.line != LINE_UPDATE && at.line != LINE_TEST)
         return trace->round[at.round].x;
-    return at.round + 1 < count ? trace->round[at.round + 1].x : trace->end;
+    return at.round + 1 < count ? trace->round[at.round + 1].x : trace->end_x;
 }

@@ -18,10 +18,10 @@ static Status record_iterations(Player *player, long step)
     for (int p = 0; p < past_panes(&player->past) && p < recording->panes;
          p++) {
         const PaneRun *run = &player->past.pane[p];
-        if (run->records.lost)
+        if (run->records.is_incomplete)
             status = STATUS_OUT_OF_MEMORY;
         for (int i = 0; i < run->records.count && !status; i++) {
-            NewtonRecord row = run->records.row[i];
+            NewtonRecord row = run->records.record[i];
             if (recording->panes > 1)
                 row.step = step;
             status = recording_write_iteration(recording, &row, p + 1);
@@ -42,7 +42,7 @@ static Status record_step(Player *player)
     for (int p = 0; p < panes; p++) {
         const PaneRun *run = &past->pane[p];
         simulation[p] = &run->simulation;
-        due = due && (run->known || !past->stores_states || step == 0 ||
+        due = due && (run->has_trace || !past->stores_states || step == 0 ||
                       past_entry(past, p, step)->substeps == 0);
     }
     if (!due)
@@ -64,13 +64,13 @@ Status player_write_remaining(Player *player)
     long shown = past->step;
     bool failed = false, again = true;
     for (int p = 0; p < past_panes(past); p++)
-        failed = failed || past->pane[p].failed;
+        failed = failed || past->pane[p].has_failed;
     if (failed && shown == past->written)
         status = record_iterations(player, shown + 1);
-    if (!past->stores_states || !player->recording.tables)
+    if (!past->stores_states || !player->recording.has_tables)
         return status;
     while (past->booked < past_newest(past) && !status &&
-           !*player->setup.stop) {
+           !*player->setup.stop_signal) {
         long next = past->booked + 1;
         past_choose_step(past, next, again);
         status = past_finish_work(past);
@@ -94,7 +94,7 @@ static void leave_algorithm_lines(Player *player)
 
 void player_forget_step(Player *player)
 {
-    player->screen.changed = true;
+    player->screen.must_redraw = true;
     if (player->time.mode > MODE_END)
         player->time.mode = MODE_END;
     leave_algorithm_lines(player);
@@ -106,7 +106,7 @@ void player_forget_step(Player *player)
 
 static void drop_hand_and_queue(Player *player)
 {
-    player->hands.holds = false;
+    player->hands.holding = false;
     player->commands.queue.count = 0;
 }
 
@@ -117,7 +117,7 @@ static void enter_scene(Player *player)
     char title[128];
     player->screen.scene = options->scene;
     player->screen.page = options->page;
-    player->time.speed = player_initial_speed(player, options);
+    player->time.log_speed = player_initial_speed(player, options);
     player->screen.view.lens = LENS_FITS;
     player->screen.toggled_cards = 0;
     player->screen.enlarged_card = -1;
@@ -126,7 +126,7 @@ static void enter_scene(Player *player)
     player->hands.mouse.drag = COMMAND_NONE;
     snprintf(title, sizeof title, "elasto: %s (press ? for the keys)",
              options->scene->name);
-    if (player->screen.window)
+    if (player->screen.has_window)
         window_set_title(title);
 }
 
@@ -134,9 +134,9 @@ static void enter_scene(Player *player)
 static void update_after_edit(Player *player)
 {
     const Past *past = &player->past;
-    player->screen.changed = true;
+    player->screen.must_redraw = true;
     if (player_is_stopped(player))
-        player->screen.drawn = -1;
+        player->screen.drawn_step = -1;
     if (player->active >= past_panes(past))
         player->active = past_panes(past) - 1;
     const Options *now = player_active_options(player);
@@ -156,8 +156,8 @@ Status player_begin_runs(Player *player, const Options *options, int count,
                      : status;
     player_forget_step(player);
     player->time.mode = player_is_stopped(player) ? MODE_PAUSE : MODE_RUN;
-    player->screen.drawn = -1;
-    player->time.warned = player->time.gained = false;
+    player->screen.drawn_step = -1;
+    player->time.has_warned = player->time.told_gain = false;
     drop_hand_and_queue(player);
     update_after_edit(player);
     return record_step(player);
@@ -202,13 +202,13 @@ static void report_rest(Player *player)
 static void report_energy_gain(Player *player)
 {
     const Past *past = &player->past;
-    if (player->setup.options[0].steps >= 0 || !player->setup.attended)
+    if (player->setup.options[0].steps >= 0 || !player->setup.is_attended)
         return;
-    for (int p = 0; p < past_panes(past) && !player->time.gained; p++) {
+    for (int p = 0; p < past_panes(past) && !player->time.told_gain; p++) {
         const Simulation *simulation = &past->pane[p].simulation;
-        for (int r = 0; r < simulation->runs && !player->time.gained; r++) {
-            player->time.gained = simulation->ledger[r].gain.steps > 0;
-            if (player->time.gained)
+        for (int r = 0; r < simulation->runs && !player->time.told_gain; r++) {
+            player->time.told_gain = simulation->ledger[r].gain.steps > 0;
+            if (player->time.told_gain)
                 player_note(player,
                             "step %ld: the total energy has risen by %.3g J "
                             "without work; a long step of backward Euler can "
@@ -226,7 +226,7 @@ static void stop_run_if_over(Player *player)
     bool ended = true, rests = true, bad = false;
     int going = 0;
     const Options *options = player_active_options(player);
-    if (player->setup.options[0].steps >= 0 || !player->setup.attended ||
+    if (player->setup.options[0].steps >= 0 || !player->setup.is_attended ||
         (options->next == NEXT_SPRING && /* the Hessian is being assembled */
          past->step < player_simulation(player)->system.springs))
         return;
@@ -236,7 +236,7 @@ static void stop_run_if_over(Player *player)
         if (past_find_made_step(past, p, past->step) < past->step)
             continue;
         going++;
-        ended = ended && (simulation->done || run->failed);
+        ended = ended && (simulation->done || run->has_failed);
         rests = rests && (simulation->scene->needs & NEEDS_TIME) &&
                 simulation->runs == 1 && !control_hand_holds(run->control) &&
                 simulation_is_at_rest(simulation);
@@ -245,11 +245,11 @@ static void stop_run_if_over(Player *player)
     bad = bad && past_panes(past) == 1;
     if (rests && going > 0)
         player->time.mode = MODE_REST;
-    else if (ended || (bad && !player->time.warned))
+    else if (ended || (bad && !player->time.has_warned))
         player->time.mode = MODE_END;
     if (ended) /* the sentence above the picture says how the run ended */
         player->note[0] = '\0';
-    player->time.warned = player->time.warned || bad;
+    player->time.has_warned = player->time.has_warned || bad;
     if (player->time.mode == MODE_REST)
         report_rest(player);
     if (past->step == options->pause && options->pause > 0 &&
@@ -278,11 +278,11 @@ static void enter_line_walk(Player *player, AfterWork after)
         const double *x = step_trace_fill(trace, place, &shown);
         if (after != AFTER_SHOW_PEAK)
             continue;
-        for (int i = 0; x && i < trace->size; i++)
+        for (int i = 0; x && i < trace->x_length; i++)
             far = fmax(far, fabs(x[i]));
         player_note(player, "update %d of %d: nodes are %.4g m away; N goes on",
                     trace->place[place].round + 1, trace->records.count, far);
-        player->warning = true;
+        player->is_warning = true;
     }
 }
 
@@ -315,10 +315,10 @@ static void describe_outcome(const Player *player, const OptionRow *row,
     char value[VALUE_SIZE], change[64] = "stays";
     player_format_value(row, player_active_options(player),
                         player_simulation(player), value, sizeof value);
-    if (outcome->change != 0)
+    if (outcome->energy_change != 0)
         snprintf(change, sizeof change, "%s by %.3g%s",
-                 outcome->change > 0 ? "rises" : "falls", fabs(outcome->change),
-                 curve ? "" : " J s\u00b2");
+                 outcome->energy_change > 0 ? "rises" : "falls",
+                 fabs(outcome->energy_change), curve ? "" : " J s\u00b2");
     snprintf(text, size, "%s %s: no update", row->label, value);
     if (outcome->updates > 0)
         snprintf(text, size, "%s %s: %s %s in %d update%s", row->label, value,
@@ -333,15 +333,16 @@ static void compare_outcomes(Player *player)
 {
     const Past *past = &player->past;
     const StepTrace *trace = &player_active_run(player)->trace;
-    const TracePlace *at = &player->time.place;
+    const TracePlace *at = &player->time.wanted_place;
     char has[256];
     if (at->round >= 0 && trace->places > 2) {
         player->time.mode = MODE_PAUSE;
         player->view_of_pane[player->active].place =
             step_trace_find_place(trace, at->round, at->line);
     }
-    describe_outcome(player, &option_rows[past->branch[past->now].edit.number],
-                     has, sizeof has);
+    describe_outcome(player,
+                     &option_rows[past->branch[past->current].edit.number], has,
+                     sizeof has);
     player_note(player, "%s; %s",
                 player->view_of_pane[player->active].ghost_label, has);
 }
@@ -355,11 +356,11 @@ Status player_repeat_step(Player *player, const Command *change, int from,
     const PaneRun *run = player_active_run(player);
     const Simulation *simulation = &run->simulation;
     size_t bytes = 2 * (size_t)simulation->system.nodes * sizeof(double);
-    bool failed = run->failed;
+    bool failed = run->has_failed;
     long step = past->step + failed;
-    player->time.place = (TracePlace){.round = -1};
+    player->time.wanted_place = (TracePlace){.round = -1};
     if (view->place >= 0 && player->time.walk_unit != UNIT_STEP)
-        player->time.place = run->trace.place[view->place];
+        player->time.wanted_place = run->trace.place[view->place];
     player_forget_step(player);
     describe_outcome(player, row, view->ghost_label, sizeof view->ghost_label);
     if (row->effect == EFFECT_AGAIN && !failed && !simulation->scene->step)
@@ -369,28 +370,28 @@ Status player_repeat_step(Player *player, const Command *change, int from,
     Status status = player_edit(player, change, from, to, !failed);
     if (status)
         return status;
-    player->screen.drawn = -1;
-    past_choose_step(past, step, player->time.place.round >= 0);
-    player->time.after = AFTER_COMPARE;
+    player->screen.drawn_step = -1;
+    past_choose_step(past, step, player->time.wanted_place.round >= 0);
+    player->time.after_work = AFTER_COMPARE;
     return STATUS_OK;
 }
 
 /* ---- work ---------------------------------------------------------------- */
 
-/* Records the step to which the work has led, then does what time.after asks.
+/* Records the step to which the work has led, then does what after_work asks.
  *   before  in, step that was shown before
  *   made    in, the step is a new one */
 static Status finish_work(Player *player, Status status, long before, bool made)
 {
     const Past *past = &player->past;
-    AfterWork after = player->time.after;
+    AfterWork after = player->time.after_work;
     bool runs = made && after == AFTER_NOTHING && !player_is_stopped(player);
-    player->time.after = AFTER_NOTHING;
-    player->screen.changed = true;
+    player->time.after_work = AFTER_NOTHING;
+    player->screen.must_redraw = true;
     if (status_is_failure(status) && past->step == before) {
         long seen = past_find_drawable_step(past, 0, before);
         bool lost = runs && status == STATUS_NOT_FINITE;
-        player->screen.drawn = -1;
+        player->screen.drawn_step = -1;
         status = player_tolerate_failure(player, status);
         if (status || !lost || seen == before)
             return status;
@@ -398,7 +399,7 @@ static Status finish_work(Player *player, Status status, long before, bool made)
                     "step %ld ends beyond all numbers; shown is step %ld, the "
                     "last below ten times the size",
                     before + 1, seen);
-        player->warning = true;
+        player->is_warning = true;
         return player_seek(player, seen, AFTER_NOTHING);
     }
     status = record_step(player);
@@ -420,7 +421,7 @@ Status player_work(Player *player)
     if (player->time.work_start == 0)
         player->time.work_start = begin;
     player_sample_line_energy(player);
-    while (past_works(past) && !player->quit) {
+    while (past_works(past) && !player->is_quitting) {
         long before = past->step;
         bool made = past_makes(past);
         Status status = past_iterate(past);
@@ -430,12 +431,13 @@ Status player_work(Player *player)
                 return status;
             player_sample_line_energy(player);
         }
-        player->quit = player->quit || *player->setup.stop;
+        player->is_quitting = player->is_quitting || *player->setup.stop_signal;
         bool begins = past_makes(past) && !made && player_is_slow(player);
-        if (player->screen.window && (begins || clock_now() - begin > SLICE))
+        if (player->screen.has_window &&
+            (begins || clock_now() - begin > SLICE))
             break;
     }
-    player->screen.changed = true;
+    player->screen.must_redraw = true;
     if (!past_works(past))
         player->time.work_start = 0;
     return STATUS_OK;
@@ -448,7 +450,7 @@ static Status release_old_hand(Player *player)
     const Command release = {.kind = COMMAND_RELEASE};
     int gesture = player->commands.gesture, panes = past_panes(&player->past);
     if (!control_hand_holds(past_control(&player->past, 0)) ||
-        player->hands.holds)
+        player->hands.holding)
         return STATUS_OK;
     player->commands.gesture = ++player->commands.gestures;
     Status status = player_edit(player, &release, 0, panes, false);
@@ -470,7 +472,7 @@ Status player_seek(Player *player, long step, AfterWork after)
     player_forget_step(player);
     past_choose_step(past, step,
                      after == AFTER_SHOW_FIRST || after == AFTER_SHOW_LAST);
-    player->time.after = after;
+    player->time.after_work = after;
     return STATUS_OK;
 }
 
@@ -521,7 +523,7 @@ Status obey_back(Player *player, const Command *command)
     if (player->time.walk_unit == UNIT_STEP || !panes_have_updates(player))
         return player_seek(player, step - 1, AFTER_NOTHING);
     if (player->view_of_pane[player->active].place < 0 && step > 0) {
-        if (!player_active_run(player)->known)
+        if (!player_active_run(player)->has_trace)
             return player_seek(player, step, AFTER_SHOW_LAST);
         enter_line_walk(player, AFTER_SHOW_LAST);
     }
@@ -579,7 +581,7 @@ static void describe_edit(const Player *player, const Command *edit, char *line,
         snprintf(line, size, "node %ld %s", edit->number,
                  edit->x != 0 ? "pinned" : "freed");
     else
-        snprintf(line, size, "%s%s%s", command_rows[kind].word,
+        snprintf(line, size, "%s%s%s", command_rows[kind].name,
                  edit->text[0] ? " " : "", edit->text);
 }
 

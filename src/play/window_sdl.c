@@ -172,7 +172,7 @@ static void read_key(const SDL_KeyboardEvent *event, Input *input)
     if (!is_command)
         return;
     input->kind = INPUT_KEY;
-    input->repeats = event->repeat != 0;
+    input->is_repeat = event->repeat != 0;
     snprintf(input->key, sizeof input->key, "%s%s%s%s",
              mod & KMOD_CTRL ? "Ctrl+" : "", mod & KMOD_SHIFT ? "Shift+" : "",
              tab_held ? "Tab+" : "", SDL_GetKeyName(key));
@@ -241,9 +241,9 @@ static Input read_event(const SDL_Event *event)
         break;
     case SDL_MOUSEWHEEL:
         input.kind = INPUT_WHEEL;
-        input.amount = event->wheel.preciseY;
+        input.wheel_notches = event->wheel.preciseY;
         if (event->wheel.direction == SDL_MOUSEWHEEL_FLIPPED)
-            input.amount = -input.amount;
+            input.wheel_notches = -input.wheel_notches;
         break;
     default:
         break;

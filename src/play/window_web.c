@@ -103,7 +103,7 @@ static void put_input(const Input *input)
 
 EMSCRIPTEN_KEEPALIVE void web_key(const char *key, int repeats)
 {
-    Input input = {.kind = INPUT_KEY, .repeats = repeats != 0};
+    Input input = {.kind = INPUT_KEY, .is_repeat = repeats != 0};
     snprintf(input.key, sizeof input.key, "%s", key);
     put_input(&input);
 }

@@ -18,10 +18,10 @@ Control *control_from_simulation(const Simulation *simulation)
     Control *control = malloc(sizeof *control + (size_t)system->nodes);
     if (!control)
         return NULL;
-    *control = (Control){.users = 1,
+    *control = (Control){.user_count = 1,
                          .options = simulation->options,
-                         .hand = -1,
-                         .push = -1,
+                         .held_node = -1,
+                         .held_obstacle = -1,
                          .nodes = system->nodes};
     memcpy(control->pinned, system->pinned, (size_t)system->nodes);
     return control;
@@ -34,13 +34,13 @@ Control *control_copy(const Control *from)
     if (!control)
         return NULL;
     memcpy(control, from, size);
-    control->users = 1;
+    control->user_count = 1;
     return control;
 }
 
 bool control_hand_holds(const Control *control)
 {
-    return control->hand >= 0 || control->push >= 0;
+    return control->held_node >= 0 || control->held_obstacle >= 0;
 }
 
 /* Returns the height, m, that RunVariant.lift adds to an obstacle of a run.
@@ -78,14 +78,14 @@ void control_store_obstacle(Control *control, int number,
 const Control *control_retain(const Control *control)
 {
     if (control)
-        ((Control *)control)->users++;
+        ((Control *)control)->user_count++;
     return control;
 }
 
 void control_release(const Control *control)
 {
     Control *own = (Control *)control;
-    if (own && --own->users == 0)
+    if (own && --own->user_count == 0)
         free(own);
 }
 
@@ -172,7 +172,7 @@ static Status apply_hand(Simulation *simulation, const Control *control)
     System *system = &simulation->system;
     const SquareMesh *mesh = &simulation->mesh;
     EvalPoint at = eval_point_at(system, NULL, NULL, NULL);
-    int node = control->hand;
+    int node = control->held_node;
     if (node < 0) {
         system_remove_term(system, &hand_energy);
         return STATUS_OK;
@@ -197,14 +197,15 @@ static void apply_push(Simulation *simulation, const Control *control)
         Contact *contact = contact_of(simulation->run[r].system);
         if (!contact)
             continue;
-        contact->push = (Push){
-            .on = 0 <= control->push && control->push < contact->obstacles,
-            .obstacle = control->push,
-            .target = {control->target[0], control->target[1]},
-            .shape = simulation->mesh};
+        int held = control->held_obstacle;
+        contact->push =
+            (Push){.on = 0 <= held && held < contact->obstacles,
+                   .obstacle = held,
+                   .target = {control->target[0], control->target[1]},
+                   .shape = simulation->mesh};
         if (contact->push.on)
             contact->push.target[1] +=
-                get_lift(simulation, r, &contact->obstacle[control->push]);
+                get_lift(simulation, r, &contact->obstacle[held]);
     }
 }
 

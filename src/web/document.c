@@ -274,8 +274,8 @@ static void put_numbers(Writer *to, const Player *player)
         char value[COMMAND_TEXT_SIZE], unit[16];
         const char *idle = player_idle_reason(player, row[i]);
         bool shown = false;
-        for (int k = 0; k < player->screen.frame.numbers; k++)
-            shown = shown || player->screen.frame.number[k] == row[i];
+        for (int k = 0; k < player->screen.frame.options; k++)
+            shown = shown || player->screen.frame.option[k] == row[i];
         option_write_short(row[i], &now, value, sizeof value);
         option_write_unit(row[i], unit, sizeof unit);
         print(to, "number\t%s\t%s\t%s\t%s\t", row[i]->name,
@@ -366,8 +366,8 @@ static void put_event(Writer *to, const Player *player)
         print(to, ": %d update%s, %s %s by %s", outcome->updates,
               outcome->updates > 1 ? "s" : "",
               player_simulation(player)->scene->step ? "f" : "E",
-              outcome->change > 0 ? "rose" : "fell",
-              format_number(fabs(outcome->change)).text);
+              outcome->energy_change > 0 ? "rose" : "fell",
+              format_number(fabs(outcome->energy_change)).text);
     }
     print(to, "\n");
 }

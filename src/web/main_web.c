@@ -54,7 +54,7 @@ EMSCRIPTEN_KEEPALIVE int web_begin(const char *words)
     if (plays)
         player_free(&session->player);
     session = next;
-    session->player.past.limit = PAST_ROOM;
+    session->player.past.max_bytes = PAST_ROOM;
     plays = true;
     return code;
 }
@@ -81,7 +81,7 @@ EMSCRIPTEN_KEEPALIVE const char *web_address(void)
                                        base, &count)))
         return words;
     for (int i = 0; same && (i = player_next_scene_argument(player, i + 1));)
-        append(words, sizeof words, "%s\n", player->setup.words[i]);
+        append(words, sizeof words, "%s\n", player->setup.arguments[i]);
     if (!same)
         append(words, sizeof words, "%s%s", now->page ? "--lecture\n" : "",
                now->page ? now->page->name : now->scene->name);
@@ -147,7 +147,7 @@ static void obey_or_refuse(Player *player, Status status)
 {
     status = status ? status : player_obey_queue(player, false);
     player_show_refusal(player, status);
-    player->screen.changed = true;
+    player->screen.must_redraw = true;
 }
 
 /* Obeys commands of a script: "set timestep 0.004; flip 1". */
@@ -193,14 +193,14 @@ EMSCRIPTEN_KEEPALIVE void web_print_page(int page, int width, int height)
         prints = !prints;
         session = other;
     }
-    session->player.screen.changed = true;
+    session->player.screen.must_redraw = true;
     if (page < 0)
         return;
     Status status = lecture_make_options(row, &options, MESSAGE(message));
     options.headless = options.quiet = true;
     options.steps = row->picture;
     status = status ? status : player_create(&options, 1, NULL, &never, player);
-    player->screen.draws = true;
+    player->screen.draws_frames = true;
     status = status ? status : player_enqueue_page(player);
     status = status ? status : player_obey_queue(player, false);
     status = status ? status : player_enqueue_lines(player, row->tell);
@@ -209,9 +209,9 @@ EMSCRIPTEN_KEEPALIVE void web_print_page(int page, int width, int height)
         status = player_obey(player, &next);
     if (!status && !row->lines)
         player_run(player);
-    player->screen.window = true; /* fills the texts as for a window */
-    player->screen.size[0] = width;
-    player->screen.size[1] = height;
+    player->screen.has_window = true; /* fills the texts as for a window */
+    player->screen.paper_size[0] = width;
+    player->screen.paper_size[1] = height;
     Paper *paper = player_prepare_paper(player);
     if (!paper)
         return;
@@ -222,7 +222,7 @@ EMSCRIPTEN_KEEPALIVE void web_print_page(int page, int width, int height)
 /* Hides the answer of the printed page, as before a guess. */
 EMSCRIPTEN_KEEPALIVE void web_print_hide_answer(void)
 {
-    session->player.setup.asks = true;
+    session->player.setup.asks_guess = true;
     session->player.tour.revealed = NULL;
     player_fill_frame(&session->player);
 }
@@ -241,7 +241,7 @@ EMSCRIPTEN_KEEPALIVE int web_frame(void)
         return -1;
     do
         status = player_frame(player);
-    while (!status && !player->screen.window && !player_ended(player) &&
+    while (!status && !player->screen.has_window && !player_ended(player) &&
            clock_now() < begin + SLICE);
     if (!status && !player_ended(player))
         return player_is_idle(player) ? INT_MAX : player_find_wait_time(player);

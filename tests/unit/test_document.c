@@ -68,7 +68,7 @@ TEST(a_page_keeps_its_answer_until_the_guess)
         char line[64];
         snprintf(line, sizeof line, "--lecture %s", page->name);
         begin(line);
-        player.setup.asks = true;
+        player.setup.asks_guess = true;
         write_document();
         check_lines();
         assert_true(count_lines("topic") == 1 && count_lines("text") > 0);
@@ -112,7 +112,7 @@ TEST(an_event_tells_the_change_of_E_and_legends_name_the_curves)
 TEST(a_table_is_text_after_the_guess)
 {
     begin("--lecture step");
-    player.setup.asks = true;
+    player.setup.asks_guess = true;
     write_document();
     assert_int_equal(count_lines("cells"), 0);
     assert_non_null(strstr(text, "prints\tcovered\t"));

@@ -100,9 +100,9 @@ TEST(states_come_back)
         begin_past(lines[i % LINES]);
         bool thinned = i >= LINES;
         if (thinned)
-            past.limit = 5 * past.bytes;
+            past.max_bytes = 5 * past.used_bytes;
         run(0, STEPS, hash);
-        CHECK(past.bytes <= past.limit);
+        CHECK(past.used_bytes <= past.max_bytes);
         CHECK((past.branch[0].stride >= STEPS / 8) == thinned);
         simulation_from_line(lines[i % LINES], NULL, NULL, &plain);
         for (int step = 0; step <= STEPS; step++) {
@@ -111,7 +111,7 @@ TEST(states_come_back)
         }
         simulation_free(&plain);
         check_all_steps(STEPS, hash);
-        CHECK(past_newest(&past) == STEPS && past.bytes <= past.limit);
+        CHECK(past_newest(&past) == STEPS && past.used_bytes <= past.max_bytes);
         past_free(&past);
     }
 }
@@ -131,7 +131,7 @@ TEST(a_pane_that_has_ended_comes_back)
     for (int few = 0; few < 2; few++) {
         past_create(true, true, &past);
         CHECK_OK(past_begin_runs(&past, options, 2, 0, &restart));
-        past.limit = few ? 5 * past.bytes : PAST_BYTES;
+        past.max_bytes = few ? 5 * past.used_bytes : PAST_BYTES;
         for (long step = 0; step <= STEPS; step++) {
             past_choose_step(&past, step, false);
             CHECK((past_finish_work(&past) == STATUS_NOT_FINITE) ==
@@ -140,7 +140,7 @@ TEST(a_pane_that_has_ended_comes_back)
             hash[step] = hash_now();
         }
         CHECK(past_find_made_step(&past, 0, STEPS) == 11 &&
-              past.bytes <= past.limit &&
+              past.used_bytes <= past.max_bytes &&
               past_find_made_step(&past, 1, STEPS) == STEPS);
         for (int i = 0; i < 50; i++) {
             long step = random_below(&random, STEPS + 1);
@@ -154,12 +154,12 @@ TEST(a_pane_that_has_ended_comes_back)
 TEST(states_of_many_edits_have_a_limit)
 {
     begin_past("square --segments 3");
-    past.limit = 6 * past.bytes;
+    past.max_bytes = 6 * past.used_bytes;
     for (int i = 1; i <= 30; i++) {
         edit(COMMAND_PIN, 1, i % 2, 0);
         show(i);
     }
-    CHECK(past.branches == 31 && past.bytes <= past.limit);
+    CHECK(past.branches == 31 && past.used_bytes <= past.max_bytes);
     past_free(&past);
 }
 
@@ -185,7 +185,7 @@ TEST(commands_are_written_as_they_are_read)
         Command command = {(CommandKind)kind, 7, 0.1, -3, "word",
                            kind % 2 == 0},
                 read;
-        if (!command_rows[kind].word)
+        if (!command_rows[kind].name)
             continue;
         command_format(&command, line, sizeof line);
         CHECK_OK(command_parse(line, &read, MESSAGE(message)));
@@ -242,7 +242,7 @@ static void jerk(Random *random, int step)
              random_uniform(random, -1, 1), random_uniform(random, -1, 1));
     else if (step % 25 == 20)
         edit(COMMAND_RELEASE, 0, 0, 0);
-    else if (past_control(&past, 0)->hand >= 0)
+    else if (past_control(&past, 0)->held_node >= 0)
         edit(COMMAND_DRAG, 0, random_uniform(random, -5, 5),
              random_uniform(random, -5, 5));
 }
@@ -272,7 +272,7 @@ static bool jerked_step(bool descends)
     CHECK(past.step == before + 1);
     const Records *records = &past.pane[0].records;
     for (int i = 0; i < records->count; i++)
-        CHECK(records->row[i].change <= 0);
+        CHECK(records->record[i].change <= 0);
     for (int k = 0; k < size; k++)
         CHECK(isfinite(run->x[k]) && isfinite(run->v[k]));
     Energies now = simulation_energies(simulation, 0);

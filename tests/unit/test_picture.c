@@ -334,7 +334,7 @@ static void frame_of(const char *line, int step, Canvas frame[2])
     char whole[160];
     snprintf(whole, sizeof whole, "%s --steps %d", line, step);
     begin(whole);
-    player.screen.draws = true; /* E along p is kept for the picture */
+    player.screen.draws_frames = true; /* E along p is kept for the picture */
     player.time.mode = MODE_RUN;
     while (player.past.step < step) {
         Status status = player_make_step(&player);

@@ -34,7 +34,7 @@ TEST(the_curve_goes_through_the_step)
                     CHECK(i == 3 && round == 0 && !trace.difference);
                     continue;
                 }
-                const NewtonRecord *record = &kept->records.row[round];
+                const NewtonRecord *record = &kept->records.record[round];
                 double change =
                     trace.difference(trace.difference_data, record->alpha);
                 rough += kept->round[round].has_remainder;
@@ -74,11 +74,11 @@ TEST(steps_are_due_at_the_speed_that_was_asked_for)
 {
     for (int speed = -5; speed <= 3; speed++) {
         begin("square --segments 1 --stretch 1 --velocity 3,4");
-        player.screen.draws = player.screen.window = true;
-        player.screen.size[0] = player.screen.size[1] = 100;
+        player.screen.draws_frames = player.screen.has_window = true;
+        player.screen.paper_size[0] = player.screen.paper_size[1] = 100;
         wound = 100;
-        while (player.time.speed != speed)
-            CHECK_OK(obey(player.time.speed < speed ? "faster" : "slower"));
+        while (player.time.log_speed != speed)
+            CHECK_OK(obey(player.time.log_speed < speed ? "faster" : "slower"));
         CHECK_OK(player_frame(&player)); /* the start is a frame, too */
         const double every = ldexp(1, speed < 0 ? -speed : 0) / 60;
         CHECK_NEAR(player_find_wait_time(&player), fmin(1e3 * every, 200), 1);

@@ -67,7 +67,7 @@ static uint64_t seen(const char *what)
         return shape_shown();
     memcpy(note, player.note, sizeof note);
     player.note[0] = '\0';
-    if (player.screen.changed)
+    if (player.screen.must_redraw)
         CHECK_STATUS(player_draw(&player), STATUS_OK);
     memcpy(player.note, note, sizeof note);
     const Canvas *canvas = &player_prepare_paper(&player)->canvas;
@@ -198,8 +198,8 @@ static void begin_session(const char *line)
     begin_script("0 pause\n", line);
     open_player = true;
     mouse[0] = mouse[1] = -1;
-    player.screen.draws = true;
-    player.screen.size[0] = player.screen.size[1] = SIDE;
+    player.screen.draws_frames = true;
+    player.screen.paper_size[0] = player.screen.paper_size[1] = SIDE;
     seen(""); /* a window shows the scene before anything is put in */
     heap_before = heap_in_use();
 }
@@ -365,8 +365,8 @@ static bool use_mouse(const char *verb, const char *place)
         {"right", {.kind = INPUT_PRESS, .button = BUTTON_RIGHT}},
         {"middle", {.kind = INPUT_PRESS, .button = BUTTON_MIDDLE}},
         {"move", {.kind = INPUT_MOVE}},
-        {"wheel", {.kind = INPUT_WHEEL, .amount = 1}},
-        {"wheel-out", {.kind = INPUT_WHEEL, .amount = -1}},
+        {"wheel", {.kind = INPUT_WHEEL, .wheel_notches = 1}},
+        {"wheel-out", {.kind = INPUT_WHEEL, .wheel_notches = -1}},
         {"leave", {.kind = INPUT_LEAVE}}};
     for (size_t i = 0; i < sizeof deeds / sizeof *deeds; i++)
         if (strcmp(deeds[i].verb, verb) == 0) {
@@ -381,7 +381,7 @@ static bool use_mouse(const char *verb, const char *place)
 /* The window gets another size. */
 static void resize_window(const char *size)
 {
-    int *now = player.screen.size;
+    int *now = player.screen.paper_size;
     CHECK(sscanf(size, "%d %d", &now[0], &now[1]) == 2);
     put((Input){.kind = INPUT_REDRAW});
     seen("");
@@ -392,8 +392,8 @@ static void run_until(long step)
     Command pause = {.kind = COMMAND_PAUSE};
     if (player_is_stopped(&player))
         show_result(obey("play"));
-    player.setup.script.count =
-        player.setup.script.next; /* later lines of the script are dropped */
+    player.setup.script.lines =
+        player.setup.script.next_line; /* later lines are dropped */
     CHECK_STATUS(script_add(&player.setup.script, step, &pause, 0), STATUS_OK);
     player_run(&player);
 }
@@ -403,7 +403,7 @@ static void begin_step(void)
 {
     Past *past = &player.past;
     show_result(player_seek(&player, past->step + 1, AFTER_NOTHING));
-    while (!past->pane[0].iterating)
+    while (!past->pane[0].is_iterating)
         CHECK_STATUS(past_iterate(past), STATUS_RUNNING);
 }
 
@@ -436,7 +436,7 @@ static void replay(const char *line)
     begin_script(script, paused);
     open_player = true;
     player_run(&player); /* some scenes have steps that do not converge */
-    CHECK(player_hash(&player) == hash && !player.commands.refused);
+    CHECK(player_hash(&player) == hash && !player.commands.line_refused);
 }
 
 static void shell(const char *line)
@@ -557,14 +557,14 @@ static void collect_facts(void)
     facts[0] = '\0';
     fact("at %ld", content->time_line.step);
     fact("newest %ld", past_newest(&player.past));
-    fact("ended %d", player.quit);
+    fact("ended %d", player.is_quitting);
     fact("files %d", count_files(false));
     fact("page %d", page ? (int)(page - lecture_pages) + 1 : 0);
     fact("page %s", page ? page->name : "none");
     fact("stands %d", content->time_line.paused);
     fact("panes %d", content->panes);
     fact("ghost %d", content->pane[content->active].ghost != NULL);
-    fact("speed %d", player.time.speed);
+    fact("speed %d", player.time.log_speed);
     fact("scene %s", player_simulation(&player)->scene->name);
     fact("over %s %d", kinds[content->view->hover.kind],
          content->view->hover.index);
@@ -614,7 +614,7 @@ static int find_records(const Simulation *simulation, const NewtonRecord **row)
 {
     const Records *made = &player.past.pane[content->active].records;
     bool descends = simulation->scene->step == step_descent;
-    *row = descends ? simulation->descent.record : made->row;
+    *row = descends ? simulation->descent.record : made->record;
     return descends ? simulation->descent.count : made->count;
 }
 
@@ -752,14 +752,14 @@ static double find_wall(const Simulation *simulation)
 static double find_hand_distance(const Simulation *simulation)
 {
     const Control *control = past_control(&player.past, 0);
-    const double *x = simulation->run[0].x + 2 * control->hand;
+    const double *x = simulation->run[0].x + 2 * control->held_node;
     return hypot(x[0] - control->target[0], x[1] - control->target[1]);
 }
 
 static double find_hand_step(const Simulation *simulation)
 {
     const TimeIntegrator *run = &simulation->run[0];
-    const double *v = run->v + 2 * past_control(&player.past, 0)->hand;
+    const double *v = run->v + 2 * past_control(&player.past, 0)->held_node;
     return run->h * hypot(v[0], v[1]);
 }
 
@@ -974,7 +974,7 @@ static void session_line(const char *line)
     else if (strcmp(verb, "whole") == 0)
         show_result(player_continue(&player));
     else if (strcmp(verb, "asks") == 0)
-        player.setup.asks = player.screen.changed = true;
+        player.setup.asks_guess = player.screen.must_redraw = true;
     else if (strstr("reads lacks list", verb))
         read_words(verb, rest);
     else if (strstr("mark same other", verb))
@@ -1177,7 +1177,7 @@ static void random_keys_stay_in_their_field(void **unused)
             session_line("key N N");
         }
         uint64_t before = seen("");
-        int place = random_below(&random, player.screen.frame.numbers);
+        int place = random_below(&random, player.screen.frame.options);
         for (int i = 0; i <= place; i++)
             press_key("Tab");
         uint64_t rest = all_but(place);
@@ -1242,7 +1242,7 @@ static void undo_and_redo(uint64_t started)
     session_line("release 350 300");
     const uint64_t end = player_hash(&player);
     const long step = player.past.step;
-    for (; player.past.now > 0; back++) {
+    for (; player.past.current > 0; back++) {
         CHECK(back + 1 < CHANGES);
         visit_steps(hash[back], false);
         show_result(obey("undo"));
@@ -1280,11 +1280,11 @@ static void random_hands_are_written_down(void **unused)
         char line[80];
         snprintf(line, sizeof line, "begin %s --paused", scene[round % 4]);
         session_line(line);
-        player.past.limit = states[round % 3] * player.past.bytes;
+        player.past.max_bytes = states[round % 3] * player.past.used_bytes;
         const uint64_t started = player_hash(&player);
         for (int i = 0; i < LENGTH; i++) {
             session_line(present = acts[random_below(&random, count)]);
-            player.quit = false; /* by Escape */
+            player.is_quitting = false; /* by Escape */
         }
         undo_and_redo(started);
         replay(scene[round % 4]);

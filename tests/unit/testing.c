@@ -230,7 +230,7 @@ Status simulation_pin(Simulation *simulation, int node, bool pinned)
 Status simulation_hold(Simulation *simulation, int node, double x, double y)
 {
     Control *control = control_from_simulation(simulation);
-    control->hand = node;
+    control->held_node = node;
     control->target[0] = x;
     control->target[1] = y;
     return use(simulation, control);
