@@ -33,6 +33,11 @@ Status cholesky_factor(Cholesky *cholesky);
  * solution within 1e-8 of b). */
 Status cholesky_solve(Cholesky *cholesky, const double *b, double *x);
 
+/* Whether the last factor is that of A itself, and no pivot near 0 was
+ * replaced.
+ */
+bool cholesky_is_exact(const Cholesky *cholesky);
+
 /* Returns the number of negative pivots of the last factor, of kind INDEFINITE,
  * which is the number of negative eigenvalues of A. */
 int cholesky_negative_pivots(const Cholesky *cholesky);

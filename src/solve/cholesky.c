@@ -113,6 +113,7 @@ Status cholesky_factor(Cholesky *cholesky)
     /* Pivots nearer to 0 than dbound become dbound, with their sign. */
     if (cholesky->kind == CHOLESKY_INDEFINITE)
         common->dbound = 1e-10 * largest_magnitude(A.x, A.nzmax);
+    common->ndbounds_hit = 0;
     cholmod_factorize(&A, cholesky->L, common);
     /* cholmod_factorize returns TRUE for indefinite matrices too. */
     if (common->status == CHOLMOD_NOT_POSDEF ||
@@ -191,6 +192,11 @@ Status cholesky_solve(Cholesky *cholesky, const double *b, double *x)
             break;
     }
     return residual <= 1e-8 * size ? STATUS_OK : STATUS_SINGULAR;
+}
+
+bool cholesky_is_exact(const Cholesky *cholesky)
+{
+    return cholesky->common.ndbounds_hit == 0;
 }
 
 int cholesky_negative_pivots(const Cholesky *cholesky)

@@ -410,9 +410,12 @@ static Status solve_with_new_factor(Newton *newton)
     if (status != STATUS_OK)
         return status;
     correct_momentum(newton);
-    /* Where springs outweigh the masses too much, a factor is not exact. */
-    return find_residual(newton, !newton->rounding.factor_is_inexact &&
-                                     newton->direction.shift == 0);
+    /* Where springs outweigh the masses too much, a factor is not exact, nor is
+     * one whose pivots were replaced. */
+    return find_residual(newton,
+                         !newton->rounding.factor_is_inexact &&
+                             newton->direction.shift == 0 &&
+                             cholesky_is_exact(newton->direction.cholesky));
 }
 
 Status find_direction(Newton *newton)

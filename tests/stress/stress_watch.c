@@ -33,7 +33,7 @@ enum { LARGEST_SOLVED = 400 };
 enum { SHAKEN_NOISE = 4 };
 
 /* Part of a direction that a factor may be wrong by where the program takes it
- * as exact (rounding.c, BLURRED_MASSES). */
+ * as exact (rounding.c, INEXACT_MASSES). */
 #define DIGITS_OF_DIRECTION 1e-5
 
 /* The first broken promise is remembered. */
