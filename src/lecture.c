@@ -517,7 +517,7 @@ static bool show(Screen *screen, Solid *solid, double h, int step)
 /* ==== Simulator (simulator.py) ============================================ */
 typedef struct Parameter {
     const char *name;
-    double value, least, most;
+    double value, min, max;
 } Parameter;
 #define DEFAULTS                                                               \
     "side_len=1 rho=1000 k=1e5 initial_stretch=1.4 n_seg=4 h=0.004 tol=0.01 "  \
@@ -534,11 +534,11 @@ static void read_argument(const char *text, Parameter *const *p)
         p++;
     if (!*p)
         FAIL(2, "'%s' is none of " DEFAULTS "\n", text);
-    bool whole = (*p)->most < 1e30; /* other limits are 1e30 */
-    if (!(value >= (*p)->least && value <= (*p)->most) || text[end] ||
+    bool whole = (*p)->max < 1e30; /* other limits are 1e30 */
+    if (!(value >= (*p)->min && value <= (*p)->max) || text[end] ||
         (whole && value != floor(value)))
         FAIL(2, "'%s': %s is a %snumber from %g to %g\n", text, name,
-             whole ? "whole " : "", (*p)->least, (*p)->most);
+             whole ? "whole " : "", (*p)->min, (*p)->max);
     (*p)->value = value;
 }
 

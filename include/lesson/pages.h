@@ -46,7 +46,7 @@ typedef struct LecturePage {
     const char *tell;        /* commands at the answer, separated by ';' */
     int lines;               /* presses of N before the page is printed; 0: it
                                 is printed at the step `picture` */
-    unsigned layers;         /* bits of Layer: additions to the picture */
+    unsigned layers; /* bits of PictureLayer: additions to the picture */
     NextAction next;         /* effect of the key N after the answer */
     int pause;               /* step at which a run pauses; 0: none */
 } LecturePage;

@@ -18,10 +18,10 @@
 enum { SYSTEM_MAX_TERMS = 12 };
 
 /* Energy that a system lost for good, for one column of the ledger. */
-typedef struct Loss {
+typedef struct EnergyLoss {
     const char *name; /* TermKind.loss */
     double energy;    /* J */
-} Loss;
+} EnergyLoss;
 
 struct System {
     int nodes;   /* n */
@@ -40,8 +40,8 @@ struct System {
     unsigned pattern; /* rises when the pattern of the Hessian changes */
     int terms;
     Term term[SYSTEM_MAX_TERMS]; /* terms in the order of TermKind.place */
-    Loss lost[SYSTEM_MAX_TERMS]; /* energy lost by column, up to a NULL name; a
-                                    loss stays when its term is removed */
+    EnergyLoss lost[SYSTEM_MAX_TERMS]; /* energy lost by column, to a NULL name;
+                                    a loss stays when its term is removed */
 };
 
 /* Allocates the arrays, filled with 0, and sets order[i] = i.  The list has the

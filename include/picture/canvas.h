@@ -27,9 +27,9 @@ int pixel_from_coordinate(double place);
 Box box_inset(Box box, int margin);
 bool box_contains(Box box, double x, double y);
 
-typedef enum Edge { EDGE_TOP, EDGE_BOTTOM, EDGE_LEFT, EDGE_RIGHT } Edge;
+typedef enum BoxEdge { EDGE_TOP, EDGE_BOTTOM, EDGE_LEFT, EDGE_RIGHT } BoxEdge;
 /* Cuts a strip, `pixels` wide, off one edge of `rest`. Returns the strip. */
-Box box_cut_off(Box *rest, Edge edge, int pixels);
+Box box_cut_off(Box *rest, BoxEdge edge, int pixels);
 
 /* Returns the part that two boxes share.  The corner of `a` must be >= 0. */
 Box box_intersection(Box a, Box b);

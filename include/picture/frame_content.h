@@ -19,7 +19,7 @@ enum {
 
 /* The present line of Algorithm 3. The work of this line and of all lines
  * before it is done: at LINE_SOLVE p is known, at LINE_SEARCH alpha. */
-typedef enum Line {
+typedef enum StepLine {
     LINE_NONE,    /* between two steps; no line is lit */
     LINE_START,   /* 1  x^i <- x^n */
     LINE_DO,      /* 2  do */
@@ -30,28 +30,28 @@ typedef enum Line {
     LINE_TEST,    /* 7  while |p|/h > epsilon */
     LINE_END,     /* 8  x^n+1 <- x^i, v^n+1 <- (x^n+1 - x^n)/h */
     LINE_COUNT
-} Line;
+} StepLine;
 
 /* The minimisation of a step, or a descent, up to the present line of the
  * algorithm.  The present update is known from LINE_PROJECT on. */
 typedef struct Trace {
-    Line line;
-    double h, tolerance;         /* s, m/s, settings of the step */
-    int updates;                 /* number of records */
-    const NewtonRecord *record;  /* [updates] */
-    int iteration;               /* number of the present update, from 0 */
-    const double *x;             /* [2n] m, present iterate x^i */
-    const double *p;             /* [2n] m, NULL before LINE_SOLVE */
-    double residual;             /* |p|/h, m/s */
-    bool given_up;               /* the step has ended without convergence */
-    double slope;                /* grad E . p, J s^2 */
-    int projected;               /* number of projected blocks; < 0: unknown */
-    const double *x_tilde;       /* [2n] m, drawn as a ghost; or NULL */
-    EnergyDifference difference; /* change of E along p, J s^2, or NULL */
-    const void *difference_data; /* first argument of `difference` */
+    StepLine at_line;
+    double h, tolerance;        /* s, m/s, settings of the step */
+    int records;                /* number of records */
+    const NewtonRecord *record; /* [records] */
+    int iteration;              /* number of the present update, from 0 */
+    const double *x;            /* [2n] m, present iterate x^i */
+    const double *p;            /* [2n] m, NULL before LINE_SOLVE */
+    double residual;            /* |p|/h, m/s */
+    bool given_up;              /* the step has ended without convergence */
+    double slope;               /* grad E . p, J s^2 */
+    int projected;              /* number of projected blocks; < 0: unknown */
+    const double *x_tilde;      /* [2n] m, drawn as a ghost; or NULL */
+    EnergyDifference energy_difference; /* change of E along p; or NULL */
+    const void *difference_data; /* first argument of energy_difference */
     double first_alpha;          /* first trial of the line search; 0 means 1 */
     int trials;                  /* number of trials alpha so far */
-    bool accepted;               /* the last trial was accepted */
+    bool is_accepted;            /* the last trial was accepted */
 } Trace;
 
 enum { VALUES_MOST = 160, VALUES_RUNS = 3 };
@@ -59,8 +59,8 @@ enum { VALUES_MOST = 160, VALUES_RUNS = 3 };
 /* A value that texts use by its name (live_values.h). */
 typedef struct LiveValue {
     const char *name;
-    int run;           /* run 1, 2 or 3 that has the value; 0: all runs */
-    const char *words; /* NULL: the value is a number or a point */
+    int run;          /* run 1, 2 or 3 that has the value; 0: all runs */
+    const char *text; /* NULL: the value is a number or a point */
     double value[2];
     bool is_point; /* value is a point, written as "(1, 0.5)" */
 } LiveValue;
@@ -98,15 +98,15 @@ void history_add_point(History *history, double time, int rows,
 typedef struct DescentTrace {
     Trace trace;
     const Simulation *simulation;
-    double from[2], p[2]; /* m, start and direction of the update */
-    double value;         /* E at `from`, J s^2 */
+    double start[2], p[2]; /* m, start and direction of the update */
+    double start_energy;   /* E at `start`, J s^2 */
 } DescentTrace;
 
 /* A simulation that the stage shows. */
 typedef struct Pane {
     const Simulation *simulation;
     const double *x;         /* [2n] m, drawn positions; NULL: those of run 0 */
-    const double *ghost;     /* [2n] m, outcome with other settings, or NULL */
+    const double *ghost_x;   /* [2n] m, outcome with other settings; or NULL */
     const char *ghost_label; /* settings of the ghost, "projection none: ..." */
     const History *history;  /* energies or radii over time */
     const Trace *trace;      /* trace of the time step, or NULL */
@@ -141,8 +141,8 @@ typedef struct Pick {
 /* Bounds of a pane's view while the mouse drags a thing: the view stands still,
  * so that the thing stays under the mouse. */
 typedef struct HeldBounds {
-    bool on;   /* during a drag */
-    bool away; /* the mouse has left the stage, so the view is free for now */
+    bool is_held; /* during a drag */
+    bool is_away; /* the mouse has left the stage: the view is free for now */
     int pane;
     double bounds[4]; /* left, bottom, right, top, m */
 } HeldBounds;
@@ -150,31 +150,31 @@ typedef struct HeldBounds {
 /* How the user looks at a frame. */
 typedef struct View {
     Lens lens;
-    Pick hover; /* part of the picture under the mouse */
-    Hit mouse;  /* part of the window under the mouse */
-    HeldBounds held;
-    int chosen; /* index of the selected cell of the overview */
+    Pick hovered;        /* part of the picture under the mouse */
+    WindowHit mouse_hit; /* part of the window under the mouse */
+    HeldBounds held_bounds;
+    int cell; /* index of the selected cell of the overview */
 } View;
 
 /* ---- around the stage --------------------------------------------------- */
 
-/* Words of the strip above the stage. */
-typedef struct Strip {
+/* Words of the title bar, which is above the stage. */
+typedef struct TitleBar {
     const char *topic;            /* "Algorithm 3: projected Newton" */
     char sentence[SENTENCE_SIZE]; /* sentence about the present state */
     char method[SENTENCE_SIZE];   /* name of the method, "backward Euler" */
     char state[VALUE_SIZE];       /* "paused", "at rest"; "" while running */
     char message[SENTENCE_SIZE];  /* shown instead of the sentence; or "" */
     bool is_warning;              /* the message is a warning */
-} Strip;
+} TitleBar;
 
 /* A number or a choice in the row of settings. */
 typedef struct Setting {
     const char *name;       /* name of the option: "h", "stretch" */
     char value[VALUE_SIZE]; /* as shown: "0.02 s", "backward Euler" */
-    int letters;            /* least number of letters that have room */
-    bool changed;           /* differs from the scene's default */
-    bool off;               /* the method of the setting is switched off */
+    int min_letters;        /* least number of letters that have room */
+    bool is_changed;        /* differs from the scene's default */
+    bool is_off;            /* the method of the setting is switched off */
 } Setting;
 
 typedef struct SettingsRow {
@@ -194,44 +194,44 @@ typedef struct TimeLine {
     long step;   /* the step on the stage, 0 ... steps */
     bool paused; /* the run is paused */
     /* Returns the bar of a step 1 ... steps.  NULL: no bars are drawn. */
-    StepBar (*bar)(const void *bar_data, long step);
-    const void *bar_data;     /* first argument of bar */
-    char text[SENTENCE_SIZE]; /* text at the handle: "step 12   t = 0.24 s" */
+    StepBar (*get_bar)(const void *bar_data, long step);
+    const void *bar_data;      /* first argument of get_bar */
+    char label[SENTENCE_SIZE]; /* text at the handle: "step 12   t = 0.24 s" */
 } TimeLine;
 
 /* A key and what it does now. */
 typedef struct Chip {
     const char *key, *label; /* name of the key, effect: "Space", "play" */
-    bool lit;                /* is the key to press next */
+    bool highlighted;        /* is the key to press next */
 } Chip;
 
 typedef struct ChipRow {
     int count;
-    Chip item[LAYOUT_CHIPS];
+    Chip chip[LAYOUT_CHIPS];
 } ChipRow;
 
 /* Contents of the column: the cards, or instead a page's code or a list. */
-typedef enum Column {
+typedef enum ColumnContent {
     COLUMN_CARDS,
     COLUMN_CODE,
     COLUMN_PAGES,
     COLUMN_LETTERS,
     COLUMN_KEYS,   /* list of keys, whose rows the application fills */
     COLUMN_OPTIONS /* list of options, whose rows the application fills */
-} Column;
+} ColumnContent;
 
 /* State of the cards.  Bit c of a set is the picture's card c. */
 typedef struct CardSets {
-    unsigned closed;  /* cards of which only the title is drawn */
-    unsigned hidden;  /* cards that the picture or the page leaves out */
-    unsigned covered; /* cards whose content is not drawn before a guess */
-    int enlarged;     /* index of the card that fills the column; -1: none */
+    unsigned closed_cards;  /* cards of which only the title is drawn */
+    unsigned hidden_cards;  /* cards that the picture or the page leaves out */
+    unsigned covered_cards; /* cards without content until a guess */
+    int enlarged;           /* card that fills the column; -1: none */
 } CardSets;
 
 /* A row of a list: a key or a number, and what it does. */
 typedef struct ListRow {
     char key[VALUE_SIZE], text[SENTENCE_SIZE];
-    bool grey;       /* is grey: a key without effect now, or an extra page */
+    bool is_grey;    /* key without effect now, or extra page */
     bool is_heading; /* is a heading, without a key */
 } ListRow;
 
@@ -243,7 +243,7 @@ typedef struct List {
 /* A scene in the overview of all scenes. */
 typedef struct SheetCell {
     const char *name;
-    const char *group;            /* heading above the cell, or NULL */
+    const char *heading;          /* heading above the cell, or NULL */
     const Simulation *simulation; /* NULL: the scene is not ready yet */
 } SheetCell;
 
@@ -259,38 +259,38 @@ typedef struct LectureContent {
     bool hides_answer;          /* the page waits for the user's guess */
     const char *verdict;        /* verdict on the guess at this page, or NULL */
     int guesses, right_guesses; /* numbers of guesses and of right guesses */
-    char own[SENTENCE_SIZE];    /* heading of answers that hold for the page's
-                                   own options; "": no option is changed */
-    char look[LOOK_SIZE];       /* text: the answer of the page */
+    char own_title[SENTENCE_SIZE]; /* heading of answers that hold for the
+                                page's own options; "": no option is changed */
+    char look_text[LOOK_SIZE];     /* text: the answer of the page */
 } LectureContent;
 
 /* ---- all of it ----------------------------------------------------------- */
 
 /* The node or obstacle that the mouse or a script holds in the active pane. */
 typedef struct HeldByHand {
-    bool on;          /* the hand holds a node or an obstacle */
+    bool is_held;     /* the hand holds a node or an obstacle */
     int node;         /* node that the hand pulls; -1: none */
     int obstacle;     /* obstacle that the hand pushes; -1: none */
     double target[2]; /* m, place to which the hand pulls or pushes */
 } HeldByHand;
 
 typedef struct FrameContent {
-    int panes;  /* number of panes, 1 ... LAYOUT_PANES */
-    int active; /* index of the pane whose numbers the cards show */
+    int panes;       /* number of panes, 1 ... LAYOUT_PANES */
+    int active_pane; /* index of the pane whose numbers the cards show */
     Pane pane[LAYOUT_PANES];
     const View *view;
-    HeldByHand hand;   /* hand of the mouse or of a script */
+    HeldByHand held;   /* hand of the mouse or of a script */
     bool shows_strain; /* springs are coloured by strain */
-    bool bare;         /* shows pictures without words */
+    bool is_bare;      /* shows pictures without words */
     bool in_page;      /* shows the stage alone, as on the web page */
     bool in_document;  /* the web page has switches, texts and cards */
     struct Text *text; /* fonts; NULL: widths of texts are estimated */
     double min_em;     /* pixels, least size of an em; 0: the usual minimum */
-    Strip strip;
+    TitleBar title_bar;
     SettingsRow settings;
     TimeLine time_line;
     ChipRow chips;
-    Column column;
+    ColumnContent column;
     CardSets cards;
     List list; /* shown if `column` is not COLUMN_CARDS or COLUMN_CODE */
     SheetContent sheet;
@@ -303,7 +303,7 @@ void frame_create(const Simulation *simulation, FrameContent *content);
 /* Returns the pane whose numbers the cards show. */
 static inline const Pane *active_pane(const FrameContent *content)
 {
-    return &content->pane[content->active];
+    return &content->pane[content->active_pane];
 }
 
 /* Returns the positions that a pane shows, [2n] m. */
@@ -325,7 +325,7 @@ Layout layout_create(const FrameContent *content, int width, int height);
 Camera camera_of_pane(const FrameContent *content, const Layout *layout,
                       int pane);
 
-/* Returns the present bounds of a pane's view, to hold them in View.held. */
+/* Returns the present bounds of a pane's view, for View.held_bounds. */
 HeldBounds frame_hold_bounds(const FrameContent *content, const Layout *layout,
                              int pane);
 
@@ -349,7 +349,7 @@ long frame_find_step(const FrameContent *content, const Layout *layout,
  * frame_fill_texts.
  *   column  in, contents that the user chose; COLUMN_CODE exists only on a page
  *   left    in, page that was last open, which the list marks; or NULL */
-void frame_add_lecture(Column column, const struct LecturePage *left,
+void frame_add_lecture(ColumnContent column, const struct LecturePage *left,
                        FrameContent *content);
 
 /* Fills the values of all panes. */

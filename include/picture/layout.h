@@ -5,7 +5,7 @@
  * (frame_content.h) makes it.
  *
  *     +------------------------------------------------------+
- *     | strip: topic, sentence                  method, state |
+ *     | title bar: topic, sentence              method, state |
  *     +----------------------------------+-------------------+
  *     | stage: one to six panes          | column: cards, or |
  *     |                                  | code, or a list   |
@@ -36,7 +36,7 @@ enum {
 typedef struct Layout {
     int width, height; /* pixels of the window */
     double em;         /* pixels of an em, the size of plain text */
-    Box strip, stage, column, settings_row, time_line, chip_row;
+    Box title_bar, stage, column, settings_row, time_line, chip_row;
     int panes, cards, settings, chips;
     bool has_list;          /* the column shows code or a list, not cards */
     Box pane[LAYOUT_PANES]; /* the panes of the stage */
@@ -53,25 +53,25 @@ typedef struct Layout {
 typedef enum Zone {
     ZONE_NONE,
     ZONE_STRIP,
-    ZONE_STAGE,      /* Hit.index: number of the pane */
-    ZONE_CARD,       /* Hit.index: number of the card */
-    ZONE_CARD_CLOSE, /* the cross of a card; Hit.index: number of the card */
+    ZONE_STAGE,      /* index: number of the pane */
+    ZONE_CARD,       /* index: number of the card */
+    ZONE_CARD_CLOSE, /* the cross of a card; index: number of the card */
     ZONE_LIST,       /* the column with code or a list */
     ZONE_LIST_CLOSE, /* the cross that closes code or list */
-    ZONE_SETTING,    /* Hit.index: number of the setting */
+    ZONE_SETTING,    /* index: number of the setting */
     ZONE_TIME,
-    ZONE_CHIP, /* Hit.index: number of the chip */
-    ZONE_CELL  /* Hit.index: number of the cell of the overview */
+    ZONE_CHIP, /* index: number of the chip */
+    ZONE_CELL  /* index: number of the cell of the overview */
 } Zone;
 
-typedef struct Hit {
+typedef struct WindowHit {
     Zone zone;
     int index;
-    double at[2]; /* pixels, position of the mouse */
-} Hit;
+    double pixel[2]; /* pixels, position of the mouse */
+} WindowHit;
 
 /* Finds the topmost part of the window at this pixel. */
-Hit layout_hit(const Layout *layout, double x, double y);
+WindowHit layout_hit(const Layout *layout, double x, double y);
 
 /* Returns the box of the cross that closes a card; -1: the code or list. */
 Box layout_close_box(const Layout *layout, int card);

@@ -14,7 +14,7 @@ typedef struct Paper {
     double em;         /* pixels */
     double unit;       /* pixels, 1/14 em */
     double min_letter; /* ems, least size of letters except scripts */
-    Box words[PAPER_WORDS]; /* boxes of labels and of words on panels */
+    Box word_boxes[PAPER_WORDS]; /* boxes of labels and of words on panels */
     int word_count;         /* their number, or more if the newest are kept */
 } Paper;
 

@@ -36,18 +36,18 @@ typedef struct Card {
     bool beside_picture;    /* as main card, stands beside the picture */
     bool only_in_lecture;   /* is hidden outside of the lecture */
     const char *words;      /* text; lines with unknown values are left out */
-    const struct ListingRow *rows; /* lines of an algorithm (cards.h) */
-    const char *heads; /* text: the heads of the table, with | between */
+    const struct ListingRow *listing; /* lines of an algorithm (cards.h) */
+    const char *column_heads; /* text: the heads of the table, with | between */
     /* Fills row 1, 2, ... of the table.  Returns false after the last row, for
      * row 0 if the table is empty.  NULL: the card has no table. */
-    bool (*table)(const FrameContent *content, int row, CardTableRow *cells);
+    bool (*fill_row)(const FrameContent *content, int row, CardTableRow *cells);
     const char *legend; /* text: the legend of the graph, or NULL */
     /* Fills a row of a legend with values: a name and a value.  Returns false
      * after the last row.  NULL: the graph has no such legend. */
     bool (*legend_row)(const FrameContent *content, int row,
                        CardTableRow *cells);
     /* Draws the content: curves, words, table and legend; on the web page
-     * only curves.  NULL: `words` or `rows` are written. */
+     * only curves.  NULL: `words` or `listing` is written. */
     void (*draw)(const Plot *card);
     bool has_no_curves; /* the web page has all of the content as text */
 } Card;
@@ -71,7 +71,7 @@ typedef struct Picture {
      * the world.  NULL: only handles and places are found. */
     void (*pick)(const Plot *stage, double x, double y, Pick *pick);
     /* Draws the note about the part under the mouse; may be NULL. */
-    void (*hover)(Plot *stage);
+    void (*draw_hover)(Plot *stage);
     /* Samples energies for the history; may be NULL. */
     int (*sample)(const Simulation *simulation, Energy *row);
 } Picture;
@@ -87,7 +87,7 @@ static inline const Picture *active_picture(const FrameContent *content)
 /* Finds the index of the picture's card with this name; -1: no such card. */
 int picture_find_card(const Picture *picture, const char *name);
 
-/* Draws a whole frame: stage, cards, strip, settings, time line, chips. */
+/* Draws a whole frame: stage, cards, title bar, settings, time line, chips. */
 void frame_draw(Paper *paper, const FrameContent *content);
 
 /* Draws the content of one card, without frame and title, on a whole paper.

@@ -45,29 +45,29 @@ typedef struct State {
 } State;
 
 /* A point of the plots over time. */
-typedef struct Sample {
+typedef struct EnergySample {
     double time; /* s */
     int rows;
     Energy row[HISTORY_SERIES]; /* [rows] energies of the plots */
-} Sample;
+} EnergySample;
 
 /* The summary of a step, which outlives its iterations. */
-typedef struct Outcome {
+typedef struct StepOutcome {
     int updates;   /* number of Newton's updates in all substeps */
     Status status; /* worst status of the substeps */
     double energy_change; /* change of E in the step, J s^2 */
     double extent; /* m, largest coordinate of run 0 */
-} Outcome;
+} StepOutcome;
 
 /* A step that a pane has made. */
 typedef struct Entry {
     const Control *control; /* control with which the next step is made; NULL:
                                this entry's step is still being made */
     State *state;   /* state after the step; NULL: not stored */
-    Sample *sample; /* energies of the state under `control`, or NULL */
+    EnergySample *sample; /* energies of the state under `control`, or NULL */
     int substeps; /* steps of the simulation in this step; 0: the scene is over,
                      or the pane has ended with the status of the outcome */
-    Outcome outcome;
+    StepOutcome outcome;
 } Entry;
 
 /* Entries of all panes from one step on. */
@@ -95,7 +95,7 @@ typedef struct PaneRun {
     bool is_iterating; /* a step of the simulation has begun */
     int substeps;    /* steps of the simulation since `step` */
     long steps_before; /* steps of the simulation before this substep */
-    Outcome outcome; /* outcome of the step in progress, else of the last one */
+    StepOutcome outcome; /* outcome of this step, else of the last step */
     bool has_failed; /* the step after `step` could not be made */
     StepTrace trace; /* iterates of the last step that was made */
     bool has_trace;  /* trace, records: of `step` or the failed step */
@@ -103,13 +103,13 @@ typedef struct PaneRun {
 } PaneRun;
 
 /* Stages of the work that leads to the step that is to be shown. */
-typedef enum Work {
+typedef enum WorkStage {
     WORK_DONE,    /* the step is shown */
     WORK_LOADS,   /* the runs of panes load stored states */
     WORK_REPEATS, /* known steps are made once more */
     WORK_MAKES,   /* a new step is made; no pane has finished its part */
     WORK_MADE     /* a pane has finished its part of the new step */
-} Work;
+} WorkStage;
 
 typedef struct Past {
     Branch *branch;     /* [branches] branches from the bottom of the stack */
@@ -124,7 +124,7 @@ typedef struct Past {
                           edit after a step changes them, too */
     size_t used_bytes, max_bytes; /* memory of states, samples; its limit */
     int line_pane;       /* pane in which E along p is drawn; -1: none */
-    Work work_stage;     /* stage of the work that leads to `aim_step` */
+    WorkStage work_stage; /* stage of the work that leads to `aim_step` */
     long aim_step;       /* step that is to be shown */
     long load_step;      /* step to which WORK_LOADS brings the panes */
     bool samples_energy; /* samples E along p in each iteration of the aim */

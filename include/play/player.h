@@ -36,12 +36,12 @@ enum {
 };
 
 /* Whether steps are made by themselves, and why not. */
-typedef enum Mode {
+typedef enum PlayMode {
     MODE_RUN,
     MODE_PAUSE, /* the user has paused the run */
     MODE_END,   /* the scene is over, or a step did not converge */
     MODE_REST   /* the bodies are at rest, the forces in balance */
-} Mode;
+} PlayMode;
 
 /* Action after the work that leads to a step. */
 typedef enum AfterWork {
@@ -60,8 +60,8 @@ typedef struct PaneView {
 } PaneView;
 
 /* How steps follow each other. */
-typedef struct Time {
-    Mode mode;
+typedef struct Playback {
+    PlayMode mode;
     TimeUnit walk_unit; /* unit of "next" and "back" */
     AfterWork after_work;
     TracePlace wanted_place; /* place to show after an edit; round -1: none */
@@ -70,23 +70,23 @@ typedef struct Time {
     double work_start; /* s on the wall clock; 0: there is no work */
     bool has_warned;   /* the run has stopped at a step that did not converge */
     bool told_gain;    /* a rise of the total energy was reported */
-} Time;
+} Playback;
 
 enum { QUEUE_MOST = 16 };
 
 /* Commands that wait until the present one is obeyed and no step is being made:
  * the parts of a command, and drags while a step is made. */
-typedef struct Queue {
+typedef struct CommandQueue {
     Command command[QUEUE_MOST];
     int count;
     bool is_of_page;     /* the commands belong to a page */
     const Control *pins; /* pins to be set at the end of the queue, or NULL */
     char note[SENTENCE_SIZE]; /* message at the end of the queue, or "" */
-} Queue;
+} CommandQueue;
 
 /* Commands that wait, and gestures: groups that are undone as one. */
 typedef struct Commands {
-    Queue queue;
+    CommandQueue queue;
     int gesture;         /* id of the present gesture, which is undone as one */
     int gestures;        /* number of gestures so far, the id of the newest */
     int held_gesture;    /* gesture that drags join: last grab, push */
@@ -131,7 +131,7 @@ typedef struct Screen {
     long drawn_step;   /* step of the last frame; -1: out of date */
     const struct Scene *scene; /* scene that camera and cards are set for */
     const LecturePage *page;   /* page that camera and cards are set for */
-    Column column;
+    ColumnContent column;
     struct Sheet *sheet; /* open sheet of scenes, or NULL */
     bool shows_strain;   /* springs' colours show strain where the scene's do
                               not, and the other way round */
@@ -175,7 +175,7 @@ typedef struct Player {
     PaneView view_of_pane[OPTIONS_MAX_PANES];
     int active; /* index of the active pane, whose numbers are shown */
     Recording recording;
-    Time time;
+    Playback time;
     Commands commands;
     Tour tour;
     Screen screen;

@@ -42,7 +42,7 @@ typedef enum TimeUnit { UNIT_STEP, UNIT_UPDATE, UNIT_LINE, UNITS } TimeUnit;
 /* A place is where the walk through a step can stop. */
 typedef struct TracePlace {
     int round;  /* index of the Newton iteration in StepTrace */
-    Line line;  /* line of Algorithm 3 */
+    StepLine at_line; /* line of Algorithm 3 */
     int trials; /* trials of the line search so far */
 } TracePlace;
 
@@ -88,7 +88,7 @@ int step_trace_walk(const StepTrace *trace, TimeUnit unit, int place, int way);
 
 /* Returns the index of the last place in a round whose line is at most `line`;
  * if the round has no such place, the index of the last place of the step. */
-int step_trace_find_place(const StepTrace *trace, int round, Line line);
+int step_trace_find_place(const StepTrace *trace, int round, StepLine line);
 
 /* Returns the index of the place where E was highest, if E exploded: E rose by
  * more than ten times its change in the whole step.  -1: E did not explode. */

@@ -16,7 +16,7 @@ const char *pins_read(const char *text, const SquareMesh *shape,
                       unsigned char *pinned);
 
 /* Returns the table of PINS_WORDS. */
-Names pins_words(void);
+NameTable pins_words(void);
 
 /* Creates the mesh, the system with all its terms, and the run at its start.
  * The centre of a scene's ball is the last node.

@@ -16,7 +16,7 @@ struct Scene;
 struct LecturePage;
 
 /* Layers of a picture that can be added to its scene, as bits. */
-typedef enum Layer {
+typedef enum PictureLayer {
     LAYER_NUMBERS = 1 << 0,  /* number of each node */
     LAYER_FORCES = 1 << 1,   /* force on each node, as an arrow */
     LAYER_MODES = 1 << 2,    /* fastest oscillation; a spring's eigenvectors */
@@ -26,7 +26,7 @@ typedef enum Layer {
     LAYER_CURVES = 1 << 6,   /* curves on which a component of grad E is 0 */
     LAYER_FIRST_STEP = 1 << 7, /* draws only the first step, and larger */
     LAYER_VELOCITY = 1 << 8,   /* velocity of the centre of mass */
-} Layer;
+} PictureLayer;
 
 /* Effect of the key N. */
 typedef enum NextAction {
@@ -90,7 +90,7 @@ typedef struct Options {
     };
     const struct Scene *scene;
     const struct LecturePage *page; /* page of the tour, or NULL */
-    unsigned layers;                /* bits of Layer */
+    unsigned layers;                /* bits of PictureLayer */
     NextAction next;                /* effect of the key N */
     int pause;                      /* step at which playing pauses; 0: none */
     const char *law;                /* law that the card "law" draws, or NULL */
@@ -122,31 +122,31 @@ typedef enum OptionKind {
 } OptionKind;
 
 /* The names of a table whose rows begin with a name; NULL ends the table. */
-typedef struct Names {
+typedef struct NameTable {
     const void *table;
     size_t size; /* bytes of a row of the table */
-} Names;
+} NameTable;
 
-#define NAMES_OF(table) ((Names){table, sizeof *(table)})
+#define NAMES_OF(table) ((NameTable){table, sizeof *(table)})
 
 /* Returns name i; NULL after the last name. */
-const char *names_get(Names names, int i);
+const char *names_get(NameTable names, int i);
 
 /* Returns the index of a name; -1: the table has no such name. */
-int names_find(Names names, const char *name);
+int names_find(NameTable names, const char *name);
 
 /* Returns the index of a text that is a name or the number of a name from 1;
  * -1: the text is neither. */
-int names_find_or_parse(Names names, const char *text);
+int names_find_or_parse(NameTable names, const char *text);
 
-int names_count(Names names);
+int names_count(NameTable names);
 
 /* When a changed option takes effect. */
-typedef enum Effect {
+typedef enum ChangeEffect {
     EFFECT_START, /* takes effect in a new run */
     EFFECT_LIVE,  /* takes effect in the next step */
     EFFECT_AGAIN  /* takes effect in the present step, made again */
-} Effect;
+} ChangeEffect;
 
 /* How the window shows an option and changes it by mouse, wheel and keys. */
 typedef struct OptionDisplay {
@@ -176,12 +176,12 @@ typedef struct OptionRow {
     double default_value;  /* default, as on the slides */
     double low, high;      /* range, both ends included */
     const char *unit;      /* unit of the numbers, or "" if they have none */
-    Names names;           /* OPTION_NAME: the values */
+    NameTable names;       /* OPTION_NAME: the values */
     unsigned needs; /* enum SceneNeeds: the scene must have one of these */
     /* Returns why the option has no effect beside the others; NULL: it has one.
      * The function is NULL for options that always have one. */
     const char *(*idle_reason)(const Options *options);
-    Effect effect;
+    ChangeEffect effect;
     const TermKind *term; /* energy term that the option adds, or NULL */
     const char *label;    /* name in the window, in the markup of text.h; NULL:
                              the option can have no list of values */

@@ -14,16 +14,16 @@ enum { SIMULATION_MAX_RUNS = 3, SIMULATION_MODE_NODES = 64 };
 
 /* Steps of backward Euler in which the total energy grew by more than the work:
  * the minimiser may lie behind a barrier of energy, such as another body. */
-typedef struct Gain {
+typedef struct EnergyGain {
     long steps;
     double energy; /* J, growth beyond the work, summed over `steps` */
-} Gain;
+} EnergyGain;
 
 /* Energies that a run has added up since its start. */
 typedef struct Ledger {
     double start; /* J, total energy at the start */
     double work;  /* J, work that the mouse and changed options have done */
-    Gain gain;
+    EnergyGain gain;
 } Ledger;
 
 /* Difference of a run from the options, in scenes that compare runs. */
@@ -134,8 +134,8 @@ NewtonCounters simulation_sum_counters(const Simulation *simulation);
 
 /* Returns when a changed option takes effect: as its row says, but in a new run
  * for scenes without time, and for a method where runs have different ones. */
-Effect simulation_find_option_effect(const Simulation *simulation,
-                                     const OptionRow *row);
+ChangeEffect simulation_find_option_effect(const Simulation *simulation,
+                                           const OptionRow *row);
 
 /* Checks that obstacles of changed options overlap no body at its present
  * place.  Returns OK, or INVALID_INPUT with a message. */

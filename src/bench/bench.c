@@ -200,7 +200,7 @@ static Status measure_work(bool quick)
  * therefore runs from nine starts, whose stretches differ by 1e-9. */
 enum { STARTS = 9, STEPS = 10, SOLVERS = 3 };
 
-typedef enum Program { LECTURE, NEWTON, MULTIGRID } Program;
+typedef enum BenchSolver { LECTURE, NEWTON, MULTIGRID } BenchSolver;
 
 static const struct {
     const char *name;
@@ -242,8 +242,8 @@ static Status lecture_step(const System *system, double h, double tol,
 }
 
 /* Runs a program from one start and stores its results. */
-static Status measure_start(Program program, int segments, int start, int steps,
-                            ProgramResults *runs)
+static Status measure_start(BenchSolver program, int segments, int start,
+                            int steps, ProgramResults *runs)
 {
     Simulation simulation;
     Options options = make_slides_options(segments);
@@ -286,8 +286,8 @@ static Status measure_solvers(bool quick, int segments, double ms[SOLVERS])
          count++)
         for (int m = 0; m < SOLVERS && !status; m++)
             if (segments <= programs[m].max_segments)
-                status =
-                    measure_start((Program)m, segments, count, steps, &runs[m]);
+                status = measure_start((BenchSolver)m, segments, count, steps,
+                                       &runs[m]);
     for (int m = 0; m < SOLVERS && !status; m++) {
         ProgramResults *all = &runs[m];
         if (segments > programs[m].max_segments)

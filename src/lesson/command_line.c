@@ -13,26 +13,26 @@
 #include "scenes/scenes.h"
 
 /* A word of a line: an option with its value, or the name of a scene. */
-typedef struct Word {
-    const OptionRow *row; /* option; NULL: the word is a scene */
-    const char *text;     /* value, or name of the scene */
-    const char *list;     /* "1,2,3", if `text` is one of several values */
-    char list_item[64];   /* copy of the text, if the text is part of `list` */
-} Word;
+typedef struct ArgWord {
+    const OptionRow *row;  /* option; NULL: the word is a scene */
+    const char *text;      /* value, or name of the scene */
+    const char *list_text; /* "1,2,3", if `text` is one of several values */
+    char list_item[64];    /* copy of the text, if the text is part of `list` */
+} ArgWord;
 
 enum { MAX_WORDS = 256 };
 
 /* A command line that is being read. */
-typedef struct Line {
+typedef struct ArgLine {
     Options *options; /* out */
     Message message;  /* out, the first mistake */
     int words;
-    Word word[MAX_WORDS];
+    ArgWord word[MAX_WORDS];
     char copy[512]; /* texts of the words, if they stand in one text */
-} Line;
+} ArgLine;
 
 /* Returns the last word about an option; NULL: the option is not given. */
-static Word *find_word(Line *line, const char *option)
+static ArgWord *find_word(ArgLine *line, const char *option)
 {
     for (int i = line->words - 1; i >= 0; i--)
         if (line->word[i].row && !strcmp(line->word[i].row->name, option))
@@ -44,7 +44,7 @@ static Word *find_word(Line *line, const char *option)
 
 /* Refuses a value with a message such as "is not X,Y, each from -1 to 1, in m".
  *   count  numbers that were expected */
-static Status refuse_value(const Line *line, const Word *word, int count)
+static Status refuse_value(const ArgLine *line, const ArgWord *word, int count)
 {
     const OptionRow *row = word->row;
     const char *text = word->text;
@@ -64,10 +64,10 @@ static Status refuse_value(const Line *line, const Word *word, int count)
         return refuse(line->message, "--%s: '%.60s' is none of: %s%s",
                       row->name, text, list_names(row->names).text,
                       suggest_name(text, "", row->names).text);
-    if (word->list || option_count_values(text, ',') > count)
+    if (word->list_text || option_count_values(text, ',') > count)
         append(hint.text, sizeof hint.text,
                "; in '%.60s' a comma ends a number, which has a point",
-               word->list ? word->list : text);
+               word->list_text ? word->list_text : text);
     return refuse(
         line->message, "--%s: '%.60s' is not %s%s from %g to %g%s%s%s",
         row->name, text, count > 1 ? row->placeholder : "",
@@ -78,7 +78,7 @@ static Status refuse_value(const Line *line, const Word *word, int count)
 }
 
 /* Stores a name or numbers.  With one coordinate the start may be x alone. */
-static Status apply_numbers(const Line *line, const Word *word)
+static Status apply_numbers(const ArgLine *line, const ArgWord *word)
 {
     const OptionRow *row = word->row;
     Options *options = line->options;
@@ -102,7 +102,7 @@ static Status apply_numbers(const Line *line, const Word *word)
 }
 
 /* Stores the name of a file, or of nodes.  A table must be CSV. */
-static Status apply_text(const Line *line, const Word *word)
+static Status apply_text(const ArgLine *line, const ArgWord *word)
 {
     static const char *const formats[] = {".npz", ".json", ".vtk",  ".gz",
                                           ".zip", ".xlsx", ".hdf5", ".h5"};
@@ -122,7 +122,7 @@ static Status apply_text(const Line *line, const Word *word)
 }
 
 /* Stores the value of an option.  --lecture alone is the first page. */
-static Status apply_word(const Line *line, const Word *word)
+static Status apply_word(const ArgLine *line, const ArgWord *word)
 {
     Options *options = line->options;
     switch (word->row->kind) {
@@ -172,13 +172,13 @@ static Status check_changed_option(const Options *options, const OptionRow *row,
 Status options_set(Options *options, const OptionRow *row, const char *text,
                    double value, Message message)
 {
-    const Line line = {.options = options, .message = message};
+    const ArgLine line = {.options = options, .message = message};
     char number[32] = "";
     if (check_scene(options, row, message))
         return STATUS_INVALID_INPUT;
     if (!text[0] && !isnan(value))
         option_write(row, value, number, sizeof number);
-    const Word word = {row, text[0] ? text : number, NULL, ""};
+    const ArgWord word = {row, text[0] ? text : number, NULL, ""};
     if (!text[0] && row->count <= 1 && option_allows(row, value))
         options->number[row->slot] = value;
     else if (apply_word(&line, &word))
@@ -190,7 +190,7 @@ Status options_set(Options *options, const OptionRow *row, const char *text,
 
 /* Returns a hint if a text may end the word before it, as in "4 ms"; else "".
  *   before  in, or NULL */
-static Phrase hint_at_split_value(const Word *before, const char *text)
+static Phrase hint_at_split_value(const ArgWord *before, const char *text)
 {
     Phrase hint = {""};
     const OptionRow *row = before ? before->row : NULL;
@@ -205,7 +205,7 @@ static Phrase hint_at_split_value(const Word *before, const char *text)
 /* Refuses the part of a word before its '='.
  *   hint   in
  *   where  end of the message if there is no hint: where to look */
-static Status refuse_unknown(const Line *line, const char *what,
+static Status refuse_unknown(const ArgLine *line, const char *what,
                              const char *word, Phrase hint, const char *where)
 {
     int length = (int)fmin(strcspn(word, "="), 60);
@@ -215,7 +215,7 @@ static Status refuse_unknown(const Line *line, const char *what,
 
 /* Returns the row of "--name", "--name=value", or of a letter, "-h" or "-H";
  * NULL: the word is refused. */
-static const OptionRow *read_option(const Line *line, const char *word)
+static const OptionRow *read_option(const ArgLine *line, const char *word)
 {
     char name[64];
     int dashes = (int)strspn(word, "-"), length = (int)strcspn(word, "=");
@@ -225,7 +225,7 @@ static const OptionRow *read_option(const Line *line, const char *word)
         if (dashes == 1 && !name[1] && row->letter == tolower(name[0]))
             found = row;
     const char *instead = dashes == 2 ? find_replacement(name, "") : NULL;
-    const Word *before = line->words > 0 ? &line->word[line->words - 1] : NULL;
+    const ArgWord *before = line->words ? &line->word[line->words - 1] : NULL;
     if (instead)
         refuse(line->message, "--%s is gone: %s", name, instead);
     else if (!found)
@@ -240,12 +240,12 @@ static const OptionRow *read_option(const Line *line, const char *word)
 }
 
 /* Splits arguments into words; a value is behind '=' or the next argument. */
-static Status read_words(int argc, char **argv, Line *line)
+static Status read_words(int argc, char **argv, ArgLine *line)
 {
     for (int i = 1; i < argc;) {
         const char *text = argv[i++], *equals = strchr(text, '=');
         const char *next = i < argc ? argv[i] : "--";
-        Word word = {NULL, text, NULL, ""};
+        ArgWord word = {NULL, text, NULL, ""};
         if (line->words == MAX_WORDS)
             return refuse(line->message, "'%.60s': more than %d words", text,
                           MAX_WORDS);
@@ -272,7 +272,7 @@ static Status read_words(int argc, char **argv, Line *line)
 }
 
 /* Reads the words of a text without quotes, separated by blanks. */
-static Status split_words(const char *text, Line *line)
+static Status split_words(const char *text, ArgLine *line)
 {
     enum { MOST = 48 };
     char *argv[MOST] = {""}, *rest;
@@ -286,7 +286,7 @@ static Status split_words(const char *text, Line *line)
 
 /* Refuses a word that is no scene.  The word may be an option without its
  * dashes, or with the dashes of an editor, or a part of a value. */
-static Status refuse_scene(const Line *line, const Word *word)
+static Status refuse_scene(const ArgLine *line, const ArgWord *word)
 {
     const char *text = word->text;
     char name[64];
@@ -304,13 +304,13 @@ static Status refuse_scene(const Line *line, const Word *word)
 
 /* Finds the scene or the page of a line.  Refuses a second scene, a scene
  * beside a page, and a second file for one option. */
-static Status check_words(Line *line)
+static Status check_words(ArgLine *line)
 {
     Options *options = line->options;
     for (int i = 0; i < line->words; i++) {
-        const Word *word = &line->word[i];
+        const ArgWord *word = &line->word[i];
         const OptionRow *row = word->row;
-        const Word *last = row ? find_word(line, row->name) : NULL;
+        const ArgWord *last = row ? find_word(line, row->name) : NULL;
         if (row && row->kind == OPTION_TEXT && last != word)
             return refuse(line->message,
                           "--%s: '%.60s' and '%.60s': only one can be given",
@@ -336,10 +336,10 @@ static Status check_words(Line *line)
 }
 
 /* Fills the options with the defaults, changed by the scene or by the page. */
-static Status fill_defaults(Line *line)
+static Status fill_defaults(ArgLine *line)
 {
     Options *options = line->options;
-    Line own = {.options = options, .message = line->message};
+    ArgLine own = {.options = options, .message = line->message};
     if (options->page)
         return lecture_make_options(options->page, options, line->message);
     for (const OptionRow *row = option_rows; row->name; row++)
@@ -358,14 +358,14 @@ static Status fill_defaults(Line *line)
 }
 
 /* Picks this pane's value from each list; the last list changes fastest. */
-static Status pick_values(Line *line, int pane)
+static Status pick_values(ArgLine *line, int pane)
 {
     bool is_drawn = !find_word(line, "headless") || find_word(line, "frames") ||
                     find_word(line, "film");
     int most = is_drawn ? OPTIONS_MAX_DRAWN : OPTIONS_MAX_PANES;
     for (int i = names_count(NAMES_OF(option_rows)) - 1; i >= 0; i--) {
         const OptionRow *row = &option_rows[i];
-        Word *word = row->label ? find_word(line, row->name) : NULL;
+        ArgWord *word = row->label ? find_word(line, row->name) : NULL;
         const char *text = word ? word->text : "";
         int count = option_count_values(text, ',');
         if (count == 1)
@@ -378,7 +378,7 @@ static Status pick_values(Line *line, int pane)
                           is_drawn ? "; with --headless, where nothing is "
                                      "drawn, 64 are possible"
                                    : "");
-        word->list = text;
+        word->list_text = text;
         for (int k = pane % count; k > 0; k--)
             text = strchr(text, ',') + 1;
         snprintf(word->list_item, sizeof word->list_item, "%.*s",
@@ -411,7 +411,7 @@ static Status check_pins(const Options *options, Message message)
 
 /* Refuses options that have no effect beside the others.  Several bodies touch
  * each other unless the line says otherwise. */
-static Status refuse_ineffective_options(Line *line)
+static Status refuse_ineffective_options(ArgLine *line)
 {
     Options *options = line->options;
     if (options->bodies > 1 && !find_word(line, "self-contact"))
@@ -429,7 +429,7 @@ static Status refuse_ineffective_options(Line *line)
 /* Checks that the body can start.  Triangles do not turn over anyway, so with
  * triangles the term cells is left out.  With cells, triangles or self-contact
  * the default projection is on-demand. */
-static Status check_body(Line *line)
+static Status check_body(ArgLine *line)
 {
     Options *options = line->options;
     bool is_solid = options->material != 0;
@@ -453,13 +453,13 @@ static Status check_body(Line *line)
 }
 
 /* Stores the words of a line in the options of a pane. */
-static Status apply_line(Line *line, int pane)
+static Status apply_line(ArgLine *line, int pane)
 {
     *line->options = (Options){.panes = 1};
     if (check_words(line) || fill_defaults(line) || pick_values(line, pane))
         return STATUS_INVALID_INPUT;
     for (int i = 0; i < line->words; i++) {
-        const Word *word = &line->word[i];
+        const ArgWord *word = &line->word[i];
         if (word->row && line->options->page && word->row->needs)
             return refuse(line->message,
                           "--%s: a page of --lecture has its own value; change "
@@ -477,14 +477,14 @@ static Status apply_line(Line *line, int pane)
 Status options_parse(int argc, char **argv, int pane, Options *options,
                      Message message)
 {
-    Line line = {.options = options, .message = message};
+    ArgLine line = {.options = options, .message = message};
     Status status = read_words(argc, argv, &line);
     return status ? status : apply_line(&line, pane);
 }
 
 Status options_parse_line(const char *line, Options *options, Message message)
 {
-    Line words = {.options = options, .message = message};
+    ArgLine words = {.options = options, .message = message};
     Status status = split_words(line, &words);
     return status ? status : apply_line(&words, 0);
 }

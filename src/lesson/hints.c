@@ -8,7 +8,7 @@
 
 #include "run/message.h"
 
-Phrase list_names(Names names)
+Phrase list_names(NameTable names)
 {
     Phrase list = {""};
     const char *name;
@@ -98,7 +98,7 @@ static const struct Synonyms {
 
 /* A text of 3 to 4 letters may have one mistake behind its first letter, of 5
  * to 7 letters two mistakes anywhere. */
-Phrase suggest_name(const char *text, const char *dashes, Names names)
+Phrase suggest_name(const char *text, const char *dashes, NameTable names)
 {
     Phrase hint = {""};
     const char *name, *meant = NULL;
@@ -133,7 +133,7 @@ Phrase suggest_name(const char *text, const char *dashes, Names names)
 
 /* Options, and values of options, that an earlier version had; "": the whole
  * option.  A row stays for one release, so that users learn what to use. */
-static const struct Removed {
+static const struct RemovedOption {
     const char *option, *value;
     const char *replacement; /* end of a message: what to use now */
 } removed[] = {

@@ -9,13 +9,13 @@ typedef struct Phrase {
 } Phrase;
 
 /* Returns the names of a list: "clamp, none". */
-Phrase list_names(Names names);
+Phrase list_names(NameTable names);
 
 /* Returns a hint such as "; did you mean --timestep?": the name that other
  * programs or books have for the text, else the nearest name.  "": no name is
  * near.
  *   dashes  "--" or "", written before the name */
-Phrase suggest_name(const char *text, const char *dashes, Names names);
+Phrase suggest_name(const char *text, const char *dashes, NameTable names);
 
 /* Returns what to use instead of an option, or of one of its values, that an
  * earlier version had; NULL: no version had it.

@@ -1,6 +1,6 @@
 # pages.awk - turns pages.txt, whose head describes it, into the tables of pages.h.
 
-# Returns bits of Layer in C.  text: names of layers, separated by blanks.
+# Returns bits of PictureLayer in C.  text: names of layers, separated by blanks.
 function layers_of(text,    i, n, name, bits)
 {
     n = split(text, name, " ")

@@ -97,7 +97,7 @@ void system_remove_term(System *system, const TermKind *kind)
  * yet takes the first free row. */
 void system_book_loss(System *system, const TermKind *kind, double energy)
 {
-    Loss *loss = system->lost;
+    EnergyLoss *loss = system->lost;
     while (loss->name && strcmp(loss->name, kind->loss) != 0)
         loss++;
     loss->name = kind->loss;

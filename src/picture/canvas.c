@@ -115,7 +115,7 @@ Box box_inset(Box box, int margin)
                  height > 0 ? height : 0};
 }
 
-Box box_cut_off(Box *rest, Edge edge, int pixels)
+Box box_cut_off(Box *rest, BoxEdge edge, int pixels)
 {
     Box strip = *rest;
     bool across = edge == EDGE_LEFT || edge == EDGE_RIGHT;

@@ -29,7 +29,7 @@ typedef struct Curve {
     const Simulation *simulation;
     const History *history;
     int series;
-    bool total; /* is a total energy */
+    bool is_total; /* is a total energy */
     Colour colour;
     const char *name;
 } Curve;
@@ -37,8 +37,8 @@ typedef struct Curve {
 typedef struct Curves {
     int count;
     Curve curve[HISTORY_SERIES];
-    int left_out;  /* number of curves for which the card has no room */
-    double latest; /* s, time of the pane that has come farthest */
+    int omitted;  /* number of curves for which the card has no room */
+    double t_max; /* s, time of the pane that has come farthest */
 } Curves;
 
 /* Whether the history has one energy for each run, followed by the runs'
@@ -54,7 +54,7 @@ static bool series_are_runs(const Simulation *simulation)
  * all that were ever visible beside the largest one. */
 static Curves find_curves(const FrameContent *content)
 {
-    Curves all = {.latest = simulation_time(active_pane(content)->simulation)};
+    Curves all = {.t_max = simulation_time(active_pane(content)->simulation)};
     Curve *curve = all.curve;
     const Pane *active = active_pane(content);
     const History *history = active->history;
@@ -89,7 +89,7 @@ static Curves find_curves(const FrameContent *content)
                      : colour_of_name(s == 0 ? "total" : history->name[s]),
                 history->name[s]};
     for (int c = 0; c < all.count; c++)
-        all.latest = fmax(all.latest, simulation_time(curve[c].simulation));
+        all.t_max = fmax(all.t_max, simulation_time(curve[c].simulation));
     return all;
 }
 
@@ -156,14 +156,14 @@ static Axis make_energies_axis(const Simulation *simulation, const Curves *all,
     for (const Curve *curve = all->curve; curve < all->curve + all->count;
          curve++) {
         const History *history = curve->history;
-        int point = find_history_point(history, all->latest);
+        int point = find_history_point(history, all->t_max);
         for (int i = 0; i < history->count; i++) {
             double value = history->value[curve->series][i];
             lowest = fmin(lowest, value);
             highest = fmax(highest, value);
             low = i <= point ? fmin(low, value) : low;
             high = i <= point ? fmax(high, value) : high;
-            if (i <= point && curve->total && value > 0)
+            if (i <= point && curve->is_total && value > 0)
                 least = fmin(least, value);
             *last = fmax(*last, history->time[i]);
             first = first > 0 ? fmin(first, history->value[0][0])
@@ -195,11 +195,11 @@ static void draw_curves(const Plot *plot, const Curves *all)
         const Curve *curve = &all->curve[c];
         plot_curve(plot, curve->history->count, curve->history->time,
                    curve->history->value[curve->series],
-                   curve->total ? 1.8 : 1.4, curve->colour);
+                   curve->is_total ? 1.8 : 1.4, curve->colour);
     }
 }
 
-static Number format_present_value(const Curve *one)
+static NumberText format_present_value(const Curve *one)
 {
     double value = find_energy_at(one->simulation, one->history, one->series,
                                   simulation_time(one->simulation));
@@ -241,12 +241,12 @@ static int write_legend(const Plot *card, const Curves *all, bool named,
                       card->box.width -
                           paper_width(paper, FACE_REGULAR, size, sum),
                       name, sizeof name);
-        snprintf(line.words, sizeof line.words, "%.150s%s", name, sum);
+        snprintf(line.text, sizeof line.text, "%.150s%s", name, sum);
         used = card_write_flow(card, at, size, LEGEND_GAP * size, &line, draw);
     }
-    if (all->left_out > 0) {
+    if (all->omitted > 0) {
         TextLine line = {.colour = COLOUR_GREY};
-        snprintf(line.words, sizeof line.words, "+ %d smaller", all->left_out);
+        snprintf(line.text, sizeof line.text, "+ %d smaller", all->omitted);
         used = card_write_flow(card, at, size, LEGEND_GAP * size, &line, draw);
     }
     return used;
@@ -268,7 +268,7 @@ static void leave_out_smallest(Curves *all)
         }
     }
     all->count--;
-    all->left_out++;
+    all->omitted++;
     memmove(all->curve + smallest, all->curve + smallest + 1,
             (size_t)(all->count - smallest) * sizeof *all->curve);
 }
@@ -292,9 +292,9 @@ void energies_draw(const Plot *card)
     Axis energy = make_energies_axis(card->simulation, &all, &last);
     Axis time = {0, plot_round_up(last), false, false, "t in s"};
     Plot plot = plot_create(&rest, time, energy);
-    if (all.latest < plot.x.high)
-        plot_line(&plot, (double[2]){all.latest, plot.y.low},
-                  (double[2]){all.latest, plot.y.high}, 1, COLOUR_BORDER);
+    if (all.t_max < plot.x.high)
+        plot_line(&plot, (double[2]){all.t_max, plot.y.low},
+                  (double[2]){all.t_max, plot.y.high}, 1, COLOUR_BORDER);
     draw_curves(&plot, &all);
 }
 

@@ -59,7 +59,7 @@ static void draw_pattern(const Plot *card, Box square, bool natural,
                          int springs)
 {
     const System *system = &card->simulation->system;
-    const Pick *hover = &card->content->view->hover;
+    const Pick *hover = &card->content->view->hovered;
     unsigned char *block = compute_pattern(system, natural, springs);
     Canvas *canvas = &card->paper->canvas;
     int n = system->nodes, least = paper_pixels(card->paper, 0.35);

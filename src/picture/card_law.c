@@ -183,7 +183,7 @@ bool law_find_gap(const Simulation *simulation, LawGap *gap)
     gap->d = self ? sqrt(now.element.s) * gap->d_hat : now.element.s;
     for (int c = 0; c < 2; c++) {
         gap->node[c] = now.eval.x[2 * now.element.node[0] + c];
-        gap->foot[c] = gap->node[c] - gap->d * now.element.n[c];
+        gap->nearest[c] = gap->node[c] - gap->d * now.element.n[c];
     }
     return true;
 }

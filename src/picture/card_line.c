@@ -22,7 +22,7 @@ typedef struct LineCurves {
 
 static double line_energy_at(const Trace *trace, double alpha)
 {
-    double value = trace->difference(trace->difference_data, alpha);
+    double value = trace->energy_difference(trace->difference_data, alpha);
     return isfinite(value) ? value : NAN;
 }
 
@@ -103,14 +103,14 @@ void line_energy_draw(const Plot *card)
     const Trace *trace = pane->shown_trace;
     LineCurves curves;
     DescentTrace other = pane->descent;
-    if (!trace || !trace->difference || !isfinite(trace->slope) ||
+    if (!trace || !trace->energy_difference || !isfinite(trace->slope) ||
         trace->slope == 0) {
         card_write_hint(card, text_undrawn);
         return;
     }
     bool both = text_has_line(&pane->values, "{directions}");
     if (both)
-        descent_direction(card->simulation, PROJECTION_CLAMP, other.from,
+        descent_direction(card->simulation, PROJECTION_CLAMP, other.start,
                           other.p);
     other.trace.difference_data = &other;
     fill_curves(trace, both ? &other.trace : NULL, &curves);
@@ -135,6 +135,6 @@ void line_energy_draw(const Plot *card)
         double at = trace_step_length(trace, t + 1);
         bool last = t == trace->trials - 1;
         draw_trial(&plot, at, line_energy_at(trace, at),
-                   last && trace->accepted);
+                   last && trace->is_accepted);
     }
 }

@@ -14,11 +14,11 @@ ShownRow listing_show_row(const Pane *pane, const ListingRow *row)
 {
     const LiveValues *values = &pane->values;
     const Trace *trace = pane->shown_trace;
-    bool reached =
-        trace && (trace->line == LINE_NONE || trace->line >= row->line);
+    bool reached = trace && (trace->at_line == LINE_NONE ||
+                             trace->at_line >= row->at_line);
     bool struck = text_has_line(values, row->struck_if);
-    return (ShownRow){.lit = trace && trace->line == row->line,
-                      .struck = struck,
+    return (ShownRow){.highlighted = trace && trace->at_line == row->at_line,
+                      .is_struck = struck,
                       .text = text_first_line(values, row->text),
                       .value = text_first_line(
                           values, reached || struck ? row->value : NULL)};
@@ -33,23 +33,23 @@ static void draw_listing_row(const Plot *card, Box box, const ListingRow *row,
     char digits[12];
     double size = box.height < 0.95 * PAGE_PITCH * paper->em ? 1 : 1.2;
     int indent = paper_pixels(paper, 2 + 1.2 * row->indented);
-    int wide = paper_width(paper, FACE_REGULAR, 0.88 * size, now.value.words);
+    int wide = paper_width(paper, FACE_REGULAR, 0.88 * size, now.value.text);
     Box count = {box.x, box.y, paper_pixels(paper, 1.2), box.height};
     Box room = {box.x + indent, box.y,
                 box.width - indent - wide - paper_pixels(paper, 1.4),
                 box.height};
     bool both = paper_width(paper, FACE_REGULAR, paper->min_letter,
-                            now.text.words) <= room.width;
+                            now.text.text) <= room.width;
     room.width += both ? 0 : wide;
-    if (now.lit)
+    if (now.highlighted)
         canvas_fill(&paper->canvas, box, COLOUR_LIT);
     snprintf(digits, sizeof digits, "%d", number);
     paper_write_in_box(paper, FACE_REGULAR, 0.82, COLOUR_GREY, count,
                        ALIGN_RIGHT, digits);
     int text = paper_write_in_box(paper, FACE_REGULAR, size,
-                                  now.struck ? COLOUR_GREY : COLOUR_TEXT, room,
-                                  ALIGN_LEFT, now.text.words);
-    if (now.struck)
+                                  now.is_struck ? COLOUR_GREY : COLOUR_TEXT,
+                                  room, ALIGN_LEFT, now.text.text);
+    if (now.is_struck)
         canvas_fill(&paper->canvas,
                     (Box){room.x, box.y + box.height / 2, text,
                           (int)fmax(1, 1.3 * paper->unit)},
@@ -57,8 +57,8 @@ static void draw_listing_row(const Plot *card, Box box, const ListingRow *row,
     box.width -= paper_pixels(paper, 0.6);
     if (both)
         paper_write_in_box(paper, FACE_REGULAR, 0.88 * size,
-                           now.lit ? COLOUR_TEXT : COLOUR_FAINT, box,
-                           ALIGN_RIGHT, now.value.words);
+                           now.highlighted ? COLOUR_TEXT : COLOUR_FAINT, box,
+                           ALIGN_RIGHT, now.value.text);
 }
 
 /* Draws the rows that are shown now, from the box `line` downwards, and counts
@@ -106,7 +106,7 @@ bool residuals_fill_row(const FrameContent *content, int row,
                         CardTableRow *cells)
 {
     const Trace *trace = active_pane(content)->shown_trace;
-    int count = trace ? trace->updates : 0;
+    int count = trace ? trace->records : 0;
     if (count == 0 || row == 0)
         return count > 0;
     const NewtonRecord *now =
@@ -143,7 +143,7 @@ void residual_log_draw(const Plot *card)
         above.box.height -= paper_pixels(card->paper, 0.7);
         residual_draw(&below);
     }
-    if (trace && trace->updates > 0)
+    if (trace && trace->records > 0)
         card_draw_table(&above, &card_prints, order);
     else
         card_write_hint(&above, text_undrawn);

@@ -9,7 +9,7 @@ typedef struct PageText {
     const char *heading; /* word in bold letters at the left, or NULL */
     const char *text;    /* a text of live_values.h, or NULL */
     Colour colour;       /* colour of the heading */
-    double size;         /* size of the letters, times LETTERS */
+    double letter_size;  /* size of the letters, times LETTERS */
 } PageText;
 
 /* Sizes of a page's letters, ems: the usual one, that of a page with much room,
@@ -31,7 +31,7 @@ static int lay_out_text(Paper *paper, Box inside, int y, double size,
                         double room, const PageText *words,
                         const FrameContent *content, bool draw)
 {
-    double letters = size * words->size, em = letters * paper->em;
+    double letters = size * words->letter_size, em = letters * paper->em;
     Box box = {inside.x, y, inside.width, 0};
     TextLine line = text_begin(&active_pane(content)->values, words->text);
     if (words->heading) {
@@ -45,7 +45,7 @@ static int lay_out_text(Paper *paper, Box inside, int y, double size,
         if (!draw || lines > 0)
             box.y +=
                 paper_write_paragraph(paper, FACE_REGULAR, letters, COLOUR_TEXT,
-                                      box, draw ? lines : 0, line.words);
+                                      box, draw ? lines : 0, line.text);
     }
     if (draw && words->heading && box.y > y)
         paper_write(paper, FACE_BOLD, size, words->colour, inside.x, y,
@@ -73,7 +73,7 @@ static int lay_out_page(Paper *paper, Box inside, double size,
         {judged ? "Ask" : NULL, judged ? page->ask : NULL, COLOUR_X, 1},
         {judged ? "You" : NULL, judged ? content->lecture.verdict : NULL,
          COLOUR_HAND, VERDICT_SIZE},
-        {asks ? "Ask" : "Look", asks ? page->ask : content->lecture.look,
+        {asks ? "Ask" : "Look", asks ? page->ask : content->lecture.look_text,
          COLOUR_X, 1},
         {asks ? "How" : "Try", asks ? how : page->touch, COLOUR_HAND, 1}};
     int y = inside.y;
@@ -91,7 +91,7 @@ static int measure_page(Paper *paper, Box inside, double size,
 {
     FrameContent answered = *content;
     answered.lecture.hides_answer = false;
-    values_add_flag(&answered.pane[content->active].values, "told", true);
+    values_add_flag(&answered.pane[content->active_pane].values, "told", true);
     int question = lay_out_page(paper, inside, size, content, false),
         answer = lay_out_page(paper, inside, size, &answered, false);
     return question > answer ? question : answer;

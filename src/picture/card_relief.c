@@ -25,14 +25,14 @@ static const double LIGHT[3] = {0.30, -0.45, 0.84}; /* unit vector to light */
 typedef struct Relief {
     const Simulation *simulation;
     Plot plot;           /* plot of the projected surface, m */
-    double rim;          /* J s^2, height of the rim */
+    double rim_E;        /* J s^2, height of the rim */
     double contour_step; /* J s^2, distance between two contour lines */
 } Relief;
 
 /* A corner of the surface's triangles. */
 typedef struct Corner {
     double x, y, E; /* position in m, energy in J s^2 */
-    bool convex;
+    bool is_convex;
 } Corner;
 
 static double find_rim(const Simulation *simulation)
@@ -59,7 +59,7 @@ static Corner corner_at(const Relief *relief, double x, double y)
 static Point project_corner(const Relief *relief, const Corner *corner)
 {
     double near = TURN[0] * corner->x - TURN[1] * corner->y;
-    double height = HEIGHT * corner->E / relief->rim;
+    double height = HEIGHT * corner->E / relief->rim_E;
     return (Point){{TURN[1] * corner->x + TURN[0] * corner->y,
                     RISE[0] * height - RISE[1] * near}};
 }
@@ -69,7 +69,7 @@ static Corner find_edge_crossing(const Corner *a, const Corner *b, double E)
 {
     double t = (E - a->E) / (b->E - a->E);
     return (Corner){a->x + t * (b->x - a->x), a->y + t * (b->y - a->y), E,
-                    a->convex};
+                    a->is_convex};
 }
 
 /* Finds the contour of a value in a triangle; returns false without one. */
@@ -88,7 +88,7 @@ static bool find_contour(const Corner corner[3], double E, Corner end[2])
 static Colour colour_of_face(const Relief *relief, const Corner corner[3])
 {
     const Corner *o = &corner[0], *a = &corner[1], *b = &corner[2];
-    double scale = HEIGHT / relief->rim;
+    double scale = HEIGHT / relief->rim_E;
     double ax = a->x - o->x, ay = a->y - o->y, az = scale * (a->E - o->E);
     double bx = b->x - o->x, by = b->y - o->y, bz = scale * (b->E - o->E);
     const double n[3] = {ay * bz - az * by, az * bx - ax * bz,
@@ -96,7 +96,7 @@ static Colour colour_of_face(const Relief *relief, const Corner corner[3])
     double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
     double light =
         (n[0] * LIGHT[0] + n[1] * LIGHT[1] + n[2] * LIGHT[2]) / length;
-    double bent = (3 - o->convex - a->convex - b->convex) / 3.0;
+    double bent = (3 - o->is_convex - a->is_convex - b->is_convex) / 3.0;
     Colour bright = colour_mix(0xfff4f8fcu, 0xffffe9b0u, bent);
     Colour dark = colour_mix(0xff44576cu, 0xff80602au, bent);
     return colour_mix(dark, bright, fmin(fmax(1.1 * light, 0), 1));
@@ -112,28 +112,28 @@ static void draw_face(const Relief *relief, const Corner corner[3])
     int count = 0;
     for (int k = 0; k < 3; k++) {
         const Corner *a = &corner[k], *b = &corner[(k + 1) % 3];
-        if (a->E <= relief->rim)
+        if (a->E <= relief->rim_E)
             inside[count++] = *a;
-        if ((a->E <= relief->rim) != (b->E <= relief->rim))
-            inside[count++] = find_edge_crossing(a, b, relief->rim);
+        if ((a->E <= relief->rim_E) != (b->E <= relief->rim_E))
+            inside[count++] = find_edge_crossing(a, b, relief->rim_E);
     }
     for (int k = 0; k < count; k++)
         at[k] = project_corner(relief, &inside[k]);
-    const Point a = vector_between(at[0].at, at[1].at),
-                b = vector_between(at[0].at, at[2].at);
-    bool above = count > 2 && a.at[0] * b.at[1] > a.at[1] * b.at[0];
-    const double *const face[] = {at[0].at, at[1].at, at[2].at,
-                                  at[count > 3 ? 3 : 2].at};
+    const Point a = vector_between(at[0].xy, at[1].xy),
+                b = vector_between(at[0].xy, at[2].xy);
+    bool above = count > 2 && a.xy[0] * b.xy[1] > a.xy[1] * b.xy[0];
+    const double *const face[] = {at[0].xy, at[1].xy, at[2].xy,
+                                  at[count > 3 ? 3 : 2].xy};
     if (above)
         plot_quad(plot, face, colour_of_face(relief, corner));
-    for (int k = 1; k < MAX_CONTOURS && k * relief->contour_step < relief->rim;
-         k++)
+    for (int k = 1;
+         k < MAX_CONTOURS && k * relief->contour_step < relief->rim_E; k++)
         if (above && find_contour(corner, k * relief->contour_step, end))
-            plot_line(plot, project_corner(relief, &end[0]).at,
-                      project_corner(relief, &end[1]).at, 0.8, LEVEL_COLOUR);
-    if (find_contour(corner, relief->rim, end))
-        plot_line(plot, project_corner(relief, &end[0]).at,
-                  project_corner(relief, &end[1]).at, 1.6, COLOUR_FAINT);
+            plot_line(plot, project_corner(relief, &end[0]).xy,
+                      project_corner(relief, &end[1]).xy, 0.8, LEVEL_COLOUR);
+    if (find_contour(corner, relief->rim_E, end))
+        plot_line(plot, project_corner(relief, &end[0]).xy,
+                  project_corner(relief, &end[1]).xy, 1.6, COLOUR_FAINT);
 }
 
 /* Draws cell by cell from the far end to the near end (painter's algorithm). */
@@ -161,11 +161,11 @@ static void draw_surface_line(const Relief *relief, const double *a,
     Corner before = {.E = NAN};
     for (int i = 0; i <= LINE_PIECES; i++) {
         const Point x =
-            point_along(a, (double)i / LINE_PIECES, vector_between(a, b).at);
-        Corner now = corner_at(relief, x.at[0], x.at[1]);
-        if (before.E <= relief->rim && now.E <= relief->rim)
-            plot_line(&relief->plot, project_corner(relief, &before).at,
-                      project_corner(relief, &now).at, width, colour);
+            point_along(a, (double)i / LINE_PIECES, vector_between(a, b).xy);
+        Corner now = corner_at(relief, x.xy[0], x.xy[1]);
+        if (before.E <= relief->rim_E && now.E <= relief->rim_E)
+            plot_line(&relief->plot, project_corner(relief, &before).xy,
+                      project_corner(relief, &now).xy, width, colour);
         before = now;
     }
 }
@@ -175,11 +175,11 @@ static void draw_surface_point(const Relief *relief, const double *x,
 {
     Corner corner = corner_at(relief, x[0], x[1]);
     const Point at = project_corner(relief, &corner);
-    if (!(corner.E <= relief->rim))
+    if (!(corner.E <= relief->rim_E))
         return;
-    plot_disc(&relief->plot, at.at, radius, colour);
+    plot_disc(&relief->plot, at.xy, radius, colour);
     if (word)
-        plot_label(&relief->plot, 1, at.at, colour, "%s", word);
+        plot_label(&relief->plot, 1, at.xy, colour, "%s", word);
 }
 
 /* Draws the updates so far, and the next p as a thin line; uphill is red. */
@@ -194,7 +194,7 @@ static void draw_newton_path(const Relief *relief)
         draw_surface_point(relief, record->from, 4.5, COLOUR_X, NULL);
     }
     if (!relief->plot.content->lecture.hides_answer)
-        draw_surface_line(relief, x, point_along(x, 1, descent->direction).at,
+        draw_surface_line(relief, x, point_along(x, 1, descent->direction).xy,
                           1.4, descent->slope > 0 ? COLOUR_WARNING : COLOUR_P);
     draw_surface_point(relief, x, 6, COLOUR_TEXT, NULL);
 }
@@ -220,15 +220,15 @@ static void draw_relief_axes(const Relief *relief)
     const double size = 2.6 * plot->em / plot->camera.scale[0]; /* m */
     const Corner tip[] = {{.x = size},
                           {.y = size},
-                          {.E = size * relief->rim / (HEIGHT * RISE[0])}};
+                          {.E = size * relief->rim_E / (HEIGHT * RISE[0])}};
     double corner[2];
     camera_to_world(&plot->camera, box->x + plot->em,
                     box->y + box->height - 2.8 * plot->em, corner);
     for (int k = 0; k < 3; k++) {
         const Point d = project_corner(relief, &tip[k]),
-                    end = point_along(corner, 1, d.at);
-        plot_arrow(plot, corner, d.at, 1, 1.2, COLOUR_FAINT);
-        plot_label(plot, 1, end.at, COLOUR_FAINT, "%s", names[k]);
+                    end = point_along(corner, 1, d.xy);
+        plot_arrow(plot, corner, d.xy, 1, 1.2, COLOUR_FAINT);
+        plot_label(plot, 1, end.xy, COLOUR_FAINT, "%s", names[k]);
     }
     paper_write(plot->paper, FACE_REGULAR, 0.9, COLOUR_FAINT,
                 box->x + box->width, box->y + box->height - 1.4 * plot->em,
@@ -240,7 +240,7 @@ void relief_draw(const Plot *card)
 {
     static const double bounds[4] = {-1.62, -0.75, 1.88, 2.2}; /* m */
     Relief relief = {card->simulation, *card, find_rim(card->simulation), 0};
-    relief.contour_step = plot_round_up(relief.rim / MAX_CONTOURS);
+    relief.contour_step = plot_round_up(relief.rim_E / MAX_CONTOURS);
     relief.plot.camera = camera_create(card->box, bounds, false, &LENS_FITS);
     draw_surface(&relief);
     draw_relief_axes(&relief);

@@ -10,8 +10,8 @@
 /* Counts the updates whose alpha p is already part of the shown positions. */
 static int count_added_updates(const Trace *trace)
 {
-    bool before = trace->line != LINE_NONE && trace->line < LINE_UPDATE;
-    return before ? trace->iteration : trace->updates;
+    bool before = trace->at_line != LINE_NONE && trace->at_line < LINE_UPDATE;
+    return before ? trace->iteration : trace->records;
 }
 
 /* Draws E and its parts along the line from x_tilde to x. */
@@ -123,13 +123,13 @@ void step_energy_draw(const Plot *card)
 void residual_draw(const Plot *card)
 {
     const Trace *trace = card->pane->shown_trace;
-    if (!trace || (trace->updates == 0 && !(trace->residual > 0))) {
+    if (!trace || (trace->records == 0 && !(trace->residual > 0))) {
         card_write_hint(card, text_undrawn);
         return;
     }
     const double now = trace->residual;
-    int updates = trace->updates;
-    bool known = trace->line >= LINE_SOLVE || trace->line == LINE_NONE;
+    int updates = trace->records;
+    bool known = trace->at_line >= LINE_SOLVE || trace->at_line == LINE_NONE;
     bool pending = known && now > 0 && isfinite(now) &&
                    (updates == 0 || trace->record[updates - 1].residual != now);
     double low = 0.3 * trace->tolerance, high = 30 * trace->tolerance;
@@ -174,10 +174,10 @@ bool updates_fill_row(const FrameContent *content, int row, CardTableRow *cells)
     if (!trace || row == 0)
         return trace;
     int made = count_added_updates(trace);
-    bool now = trace->line >= LINE_PROJECT && trace->line < LINE_UPDATE &&
+    bool now = trace->at_line >= LINE_PROJECT && trace->at_line < LINE_UPDATE &&
                trace->projected >= 0;
     const NewtonRecord *update = &trace->record[row - 1];
-    Line line = row <= made ? LINE_END : trace->line;
+    StepLine line = row <= made ? LINE_END : trace->at_line;
     if (row > made + now)
         return false;
     snprintf(cells->cell[0], CARD_CELL, "%d", row);
@@ -190,7 +190,7 @@ bool updates_fill_row(const FrameContent *content, int row, CardTableRow *cells)
         snprintf(cells->cell[5], CARD_CELL, "%s",
                  format_number(update->slope).text);
     }
-    if (line > LINE_SEARCH || (line == LINE_SEARCH && trace->accepted))
+    if (line > LINE_SEARCH || (line == LINE_SEARCH && trace->is_accepted))
         snprintf(cells->cell[3], CARD_CELL, "%s",
                  format_number(update->alpha).text);
     if (line >= LINE_UPDATE)
@@ -205,7 +205,7 @@ double updates_needed_height(const FrameContent *content, double wide,
 {
     (void)wide, (void)em;
     const Trace *trace = active_pane(content)->trace;
-    return CARD_ROW * (1 + fmax(6, trace ? trace->updates : 0)) + 2.8;
+    return CARD_ROW * (1 + fmax(6, trace ? trace->records : 0)) + 2.8;
 }
 
 void updates_draw(const Plot *card)

@@ -10,11 +10,11 @@ function put_word(    i, part)
     else if (word == "name")
         called = text
     else if (word == "rows")
-        row = row ".rows = rows_" text ", "
+        row = row ".listing = rows_" text ", "
     else if (word == "line" && kind == "rows") {
         end_line()
         split(text, part, " ")
-        row = ".line = LINE_" part[1] ", .shown_if = " \
+        row = ".at_line = LINE_" part[1] ", .shown_if = " \
               quoted(substr(text, length(part[1]) + 2)) ", "
     } else if (word == "cards")
         for (i = split(text, part, " "); i > 0; i--)
@@ -65,11 +65,11 @@ function end_row()
 }
 
 BEGIN {
-    texts["title"] texts["legend"] texts["words"] texts["heads"]
+    texts["title"] texts["legend"] texts["words"] texts["column_heads"]
     texts["text"] texts["value"] texts["struck_if"]
     values["min_height"] values["needed_height"] values["weight"] values["default_bounds"]
-    values["draw"] values["table"] values["bounds"] values["add_values"] values["pick"]
-    values["hover"] values["sample"] values["legend_row"]
+    values["draw"] values["fill_row"] values["bounds"] values["add_values"] values["pick"]
+    values["draw_hover"] values["sample"] values["legend_row"]
     switches["has_no_curves"] switches["half_width"] switches["halves_on_page"]
     switches["starts_closed"] switches["below_picture"]
     switches["beside_picture"]

@@ -23,7 +23,7 @@ void card_write_hint(const Plot *card, const char *text)
 {
     TextLine line = text_first_line(&card->pane->values, text);
     paper_write_in_box(card->paper, FACE_REGULAR, 0.92, COLOUR_GREY, card->box,
-                       ALIGN_CENTRE, line.words);
+                       ALIGN_CENTRE, line.text);
 }
 
 /* Draws frame, title and cross of a card.  Returns the box inside. */
@@ -104,7 +104,7 @@ static void draw_list(Paper *paper, Box inside, const List *list)
         paper_write(paper, FACE_BOLD, size, COLOUR_TEXT, x, y, ALIGN_LEFT, "%s",
                     row->key);
         paper_write_in_box(paper, row->is_heading ? FACE_BOLD : FACE_REGULAR,
-                           size, row->grey ? COLOUR_GREY : COLOUR_TEXT, room,
+                           size, row->is_grey ? COLOUR_GREY : COLOUR_TEXT, room,
                            ALIGN_LEFT, text);
     }
 }
@@ -172,17 +172,17 @@ bool card_fill_row(const FrameContent *content, const Card *card, int row,
                    CardTableRow *cells)
 {
     const LiveValues *values = &active_pane(content)->values;
-    const TextLine heads = text_first_line(values, card->heads);
+    const TextLine heads = text_first_line(values, card->column_heads);
     size_t length;
     *cells = (CardTableRow){.colour = COLOUR_TEXT};
-    for (const char *at = heads.words; *at; cells->columns++) {
+    for (const char *at = heads.text; *at; cells->columns++) {
         length = strcspn(at, "|");
         if (row == 0)
             snprintf(cells->cell[cells->columns], CARD_CELL, "%.*s",
                      (int)length, at);
         at += length + (at[length] == '|');
     }
-    return card->table(content, row, cells);
+    return card->fill_row(content, row, cells);
 }
 
 void card_draw_table(const Plot *card, const Card *table, const int *order)
@@ -233,14 +233,14 @@ void card_draw(Paper *paper, Box inside, const FrameContent *content, int card)
     const Pane *pane = active_pane(content);
     const Card *row = active_picture(content)->cards[card];
     const Plot plot = plot_of_box(paper, content, pane, inside, paper->em);
-    if (content->cards.covered >> card & 1)
+    if (content->cards.covered_cards >> card & 1)
         card_write_hint(&plot, "after your guess");
     else if (row->draw)
         row->draw(&plot);
     else if (row->words)
         card_write_text(&plot, &pane->values, row->words);
     else
-        card_write_rows(&plot, row->rows);
+        card_write_rows(&plot, row->listing);
 }
 
 static void draw_code_or_list(Paper *paper, const Layout *layout,
@@ -276,7 +276,7 @@ void cards_draw(Paper *paper, const Layout *layout, const FrameContent *content)
         TextLine title = text_first_line(&active_pane(content)->values,
                                          picture->cards[i]->title);
         bool closed = box.height <= paper_pixels(paper, TITLE_BAR) + 1;
-        Box inside = draw_card_frame(paper, box, title.words, closed);
+        Box inside = draw_card_frame(paper, box, title.text, closed);
         if (closed || inside.width < 1 || inside.height < 1)
             continue;
         Box before = canvas_set_clip(&paper->canvas, box_inset(box, 1));

@@ -15,7 +15,7 @@ typedef struct ListingRow {
                               text are known; NULL: end of the listing */
     const char *struck_if; /* the row is struck out if the values in a line of
                                this text are known */
-    Line line;             /* the slides' line of Algorithm 3 */
+    StepLine at_line;      /* the slides' line of Algorithm 3 */
     bool indented;
     const char *text;
     const char *value; /* text at the right, once this line has been executed */
@@ -23,7 +23,7 @@ typedef struct ListingRow {
 
 /* A row of a listing as the present frame shows it. */
 typedef struct ShownRow {
-    bool lit, struck;
+    bool highlighted, is_struck;
     TextLine text;
     TextLine value; /* empty until the run has reached the row */
 } ShownRow;
@@ -80,10 +80,10 @@ void law_add_values(const Simulation *simulation, LiveValues *values);
 
 /* A contact between a node and a wall or an edge. */
 typedef struct LawGap {
-    double foot[2]; /* m, nearest point of the wall or edge */
-    double node[2]; /* m */
-    double d;       /* m, the gap */
-    double d_hat;   /* m, distance at which the force begins */
+    double nearest[2]; /* m, nearest point of the wall or edge */
+    double node[2];    /* m */
+    double d;          /* m, the gap */
+    double d_hat;      /* m, distance at which the force begins */
 } LawGap;
 
 /* Finds the contact with the largest force.  Returns false if all
@@ -141,7 +141,7 @@ void cards_draw(Paper *paper, const Layout *layout,
  * under the mouse, or else of the term that the present line computes. */
 void highlight_draw(Paper *paper, const FrameContent *content);
 
-/* Draws strip, settings, time line and chips. */
+/* Draws title bar, settings, time line and chips. */
 void window_rows_draw(Paper *paper, const Layout *layout,
                       const FrameContent *content);
 

@@ -60,8 +60,8 @@ void envelope_draw(Plot *stage)
 {
     const EnvelopeMap *map = &stage->simulation->exhibit.envelope;
     Plot plot =
-        plot_create_on_stage(stage, (Axis){.log = true, .label = "h in s"},
-                             (Axis){.log = true, .label = "k in J/m\u00b2"});
+        plot_create_on_stage(stage, (Axis){.is_log = true, .label = "h in s"},
+                             (Axis){.is_log = true, .label = "k in J/m\u00b2"});
     for (int row = 0; row < ENVELOPE_ROWS; row++)
         for (int column = 0; column < ENVELOPE_COLUMNS; column++)
             canvas_fill(&stage->paper->canvas,

@@ -23,7 +23,7 @@ bool frame_has_card(const FrameContent *content, const char *name)
 {
     const Picture *picture = active_picture(content);
     int card = picture_find_card(picture, name);
-    return card >= 0 && !(content->cards.hidden >> card & 1);
+    return card >= 0 && !(content->cards.hidden_cards >> card & 1);
 }
 
 int picture_find_card(const Picture *picture, const char *name)
@@ -45,8 +45,8 @@ static CardSets find_first_sets(const Simulation *simulation)
         const Card *card = picture->cards[c];
         bool has = page ? strstr(page->cards, card->name) != NULL
                         : !card->only_in_lecture;
-        sets.hidden |= (unsigned)!has << c;
-        sets.closed |= (unsigned)(card->starts_closed && !page) << c;
+        sets.hidden_cards |= (unsigned)!has << c;
+        sets.closed_cards |= (unsigned)(card->starts_closed && !page) << c;
     }
     return sets;
 }
@@ -65,7 +65,7 @@ bool cards_need_line_energy(const Simulation *simulation, unsigned toggled)
 {
     const Picture *picture = picture_of_scene(simulation->scene);
     const CardSets sets = find_first_sets(simulation);
-    unsigned shut = sets.hidden | (sets.closed ^ toggled);
+    unsigned shut = sets.hidden_cards | (sets.closed_cards ^ toggled);
     for (int c = 0; c < picture->count; c++)
         if (picture->cards[c]->needs_line_energy && !(shut >> c & 1))
             return true;
@@ -109,10 +109,11 @@ static void find_own_bounds(const FrameContent *content, const Layout *layout,
 static void find_pane_bounds(const FrameContent *content, const Layout *layout,
                              int pane, double bounds[4])
 {
-    const HeldBounds *held = &content->view->held;
+    const HeldBounds *held = &content->view->held_bounds;
     int last = content->lecture.page ? content->panes - 1 : pane;
     double own[4];
-    if (held->on && !held->away && (held->pane == pane || held->pane == last)) {
+    if (held->is_held && !held->is_away &&
+        (held->pane == pane || held->pane == last)) {
         memcpy(bounds, held->bounds, sizeof held->bounds);
         return;
     }
@@ -140,7 +141,7 @@ Plot stage_create(Paper *paper, const FrameContent *content,
     Plot stage = plot_of_box(paper, content, &content->pane[pane],
                              layout->pane[pane], layout->em);
     double bounds[4];
-    stage.has_text = !content->bare;
+    stage.has_text = !content->is_bare;
     bool stretched = picture_of_scene(stage.simulation->scene)->stretched;
     Box room = find_picture_room(content, layout, pane);
     Switch switches[SCENE_MAX_SWITCHES];
@@ -165,7 +166,7 @@ Camera camera_of_pane(const FrameContent *content, const Layout *layout,
 HeldBounds frame_hold_bounds(const FrameContent *content, const Layout *layout,
                              int pane)
 {
-    HeldBounds held = {.on = true, .pane = pane};
+    HeldBounds held = {.is_held = true, .pane = pane};
     find_pane_bounds(content, layout, pane, held.bounds);
     return held;
 }
@@ -176,8 +177,8 @@ void stage_draw_handles(const Plot *stage)
 {
     double at[SCENE_MAX_HANDLES][2];
     int count = exhibit_list_handles(stage->simulation, at);
-    const Pick *hover = &stage->content->view->hover;
-    for (int i = 0; i < count && !stage->content->bare; i++) {
+    const Pick *hover = &stage->content->view->hovered;
+    for (int i = 0; i < count && !stage->content->is_bare; i++) {
         bool over = hover->kind == PICK_HANDLE && hover->index == i &&
                     hover->pane == plot_pane_index(stage);
         plot_ring(stage, at[i], over ? 13 : 10, over ? 3 : 1.8, COLOUR_HAND);
@@ -228,7 +229,7 @@ static void draw_guess(const Plot *stage)
     const Box *box = &stage->box;
     Canvas *canvas = &stage->paper->canvas;
     double unit = stage->paper->unit, arm = 7 * unit, at[2], came[2], point[2];
-    if (!guess->made || stage->content->bare)
+    if (!guess->made || stage->content->is_bare)
         return;
     plot_to_pixel(stage, guess->at, at);
     plot_to_pixel(stage, guess->end, came);
@@ -248,7 +249,7 @@ static void draw_guess(const Plot *stage)
 Pick frame_pick(const FrameContent *content, const Layout *layout, double x,
                 double y)
 {
-    Hit hit = layout_hit(layout, x, y);
+    WindowHit hit = layout_hit(layout, x, y);
     Pick pick = {.kind = PICK_NONE, .nearest_node = -1};
     if (hit.zone != ZONE_STAGE || hit.index >= content->panes)
         return pick;
@@ -377,14 +378,14 @@ static void draw_pane(Paper *paper, const Layout *layout,
 {
     Plot stage = stage_create(paper, content, layout, pane);
     const Picture *picture = picture_of_scene(stage.simulation->scene);
-    const Pick *hover = &content->view->hover;
+    const Pick *hover = &content->view->hovered;
     Box before = canvas_set_clip(&paper->canvas, stage.box);
     if (content->lecture.page && stage.box.height < MIN_TEXT * paper->em)
         stage.has_text = false;
     picture->draw(&stage);
     TextLine line = text_begin(&stage.pane->values, picture->legend);
     while (stage.has_text && text_next_line(&line))
-        plot_legend(&stage, line.colour, "%s", line.words);
+        plot_legend(&stage, line.colour, "%s", line.text);
     if (stage.has_text && picture->shows_scale)
         plot_scale(&stage);
     if (!picture->own_handles)
@@ -393,9 +394,9 @@ static void draw_pane(Paper *paper, const Layout *layout,
     draw_guess(&stage);
     if (layout->panes > 1 && stage.pane->label)
         draw_pane_label(&stage, stage.pane->label);
-    if (picture->hover && stage.has_text && hover->pane == pane &&
-        hover->kind != PICK_NONE && !content->hand.on)
-        picture->hover(&stage);
+    if (picture->draw_hover && stage.has_text && hover->pane == pane &&
+        hover->kind != PICK_NONE && !content->held.is_held)
+        picture->draw_hover(&stage);
     canvas_set_clip(&paper->canvas, before);
 }
 
@@ -407,9 +408,9 @@ static void draw_sheet_cell(Paper *paper, Box box, const SheetCell *cell,
     Layout layout = {.em = paper->em, .panes = 1};
     Box name = box;
     Box inside = box_cut_off(&name, EDGE_TOP, box.width);
-    if (cell->group)
+    if (cell->heading)
         paper_write(paper, FACE_BOLD, 1.05, COLOUR_TEXT, box.x,
-                    box.y - 1.7 * paper->em, ALIGN_LEFT, "%s", cell->group);
+                    box.y - 1.7 * paper->em, ALIGN_LEFT, "%s", cell->heading);
     canvas_framed_box(&paper->canvas, inside, COLOUR_WHITE,
                       chosen ? COLOUR_VALUE : COLOUR_BORDER);
     if (chosen)
@@ -419,7 +420,7 @@ static void draw_sheet_cell(Paper *paper, Box box, const SheetCell *cell,
     if (cell->simulation) {
         FrameContent content;
         frame_create(cell->simulation, &content);
-        content.bare = true;
+        content.is_bare = true;
         content.shows_strain = cell->simulation->scene->strain_colour_max > 0;
         draw_pane(paper, &layout, &content, 0);
     }
@@ -453,7 +454,7 @@ void frame_draw(Paper *paper, const FrameContent *content)
     prepare_paper(paper, layout.em, content);
     for (int i = 0; i < layout.cells; i++)
         draw_sheet_cell(paper, layout.cell[i], &content->sheet.cell[i],
-                        i == content->view->chosen);
+                        i == content->view->cell);
     if (several) /* the colour of the lines between the panes */
         canvas_fill(&paper->canvas, layout.stage, COLOUR_RULE);
     for (int pane = 0; pane < layout.panes; pane++) {
@@ -461,7 +462,7 @@ void frame_draw(Paper *paper, const FrameContent *content)
             canvas_fill(&paper->canvas, layout.pane[pane], COLOUR_WHITE);
         draw_pane(paper, &layout, content, pane);
     }
-    if (content->bare && !sheet)
+    if (content->is_bare && !sheet)
         return;
     if (!sheet && !content->in_page) {
         if (content->column != COLUMN_CARDS)

@@ -97,20 +97,20 @@ void highlight_draw(Paper *paper, const FrameContent *content)
                                                [LINE_SOLVE] = COLOUR_P,
                                                [LINE_SEARCH] = COLOUR_ALPHA};
     const Trace *trace = active_pane(content)->trace;
-    const Hit *mouse = &content->view->mouse;
+    const WindowHit *mouse = &content->view->mouse_hit;
     bool stage = mouse->zone == ZONE_STAGE;
     Colour colour = 0;
     if (!content->lecture.page)
         return;
     if (mouse->zone == ZONE_CARD || stage)
-        colour = find_term_near(&paper->canvas, mouse->at,
+        colour = find_term_near(&paper->canvas, mouse->pixel,
                                 (int)(MOUSE_REACH * paper->em));
-    bool plain = content->view->hover.kind == PICK_SWITCH &&
+    bool plain = content->view->hovered.kind == PICK_SWITCH &&
                  !exhibit_has_kind_switches(active_pane(content)->simulation);
     if (plain || (colour == COLOUR_X && stage))
         colour = 0; /* no term: a switch, or the springs of the square */
     if (!colour && trace && frame_has_card(content, "listing"))
-        colour = of_line[trace->line];
+        colour = of_line[trace->at_line];
     if (colour)
         highlight_colour(&paper->canvas, colour,
                          (int)(HIGHLIGHT_RADIUS * paper->unit + 0.5));

@@ -67,7 +67,7 @@ static void draw_contours(const Plot *plot, int i, int j, double value,
 }
 
 /* Whether the answer of the page is shown and this layer is on. */
-static bool shows_layer(const Plot *plot, Layer layer)
+static bool shows_layer(const Plot *plot, PictureLayer layer)
 {
     return plot->revealed && plot->simulation->options.layers & layer;
 }
@@ -111,8 +111,8 @@ static void write_levels(const Plot *plot)
     const Box inside = box_inset(plot->box, (int)plot->em);
     for (double gone = 0; gone < 3; gone += pace) {
         const Point x = point_along(simulation->exhibit.target, gone, ray);
-        double value = evaluate_energy(simulation, x.at).value / e;
-        plot_to_pixel(plot, x.at, place);
+        double value = evaluate_energy(simulation, x.xy).value / e;
+        plot_to_pixel(plot, x.xy, place);
         for (int k = 0; k < MAP_LEVELS; k++)
             if (before < map_levels[k] && value >= map_levels[k] &&
                 gone > last + space &&
@@ -196,9 +196,9 @@ static void draw_directions(const Plot *plot, bool both)
     double length = vector_length(p) * plot->camera.scale[0], tip[2];
     double far = 1 + 1.6 * plot->em / fmax(length, 1e-9);
     const Point place[2] = {point_along(from, 1, p), point_along(from, far, p)};
-    plot_to_pixel(plot, place->at, tip);
+    plot_to_pixel(plot, place->xy, tip);
     if (other && box_contains(plot->box, tip[0], tip[1]))
-        plot_label(plot, 2, place->at, colour, "with %s: %s J s\u00b2",
+        plot_label(plot, 2, place->xy, colour, "with %s: %s J s\u00b2",
                    raw ? "\u0124" : "H", format_digits(slope, 2).text);
 }
 
@@ -214,7 +214,7 @@ static void draw_negative_gradient(const Plot *plot, const LocalModel *E)
     const double *x = plot->simulation->descent.point;
     double far = 6 * plot->em / plot->camera.scale[0] / vector_length(E->g);
     plot_arrow(plot, x, E->g, -far, 2.2, COLOUR_TEXT);
-    plot_label(plot, 1, point_along(x, -far, E->g).at, COLOUR_TEXT,
+    plot_label(plot, 1, point_along(x, -far, E->g).xy, COLOUR_TEXT,
                "\u2212\u2207E");
 }
 
@@ -348,7 +348,7 @@ static void draw_model_ellipses(const Plot *plot, const LocalModel *E)
     for (int k = 0; k < 3; k += 1 + curves) {
         double radius = levels[k] * sqrt(height), up = radius / sqrt(rest);
         const double a[2] = {radius / sqrt(low), 0}, b[2] = {-lift * up, up};
-        plot_ellipse(plot, point_along(x, 1, p).at, a, b, curves ? 1 : 1.6,
+        plot_ellipse(plot, point_along(x, 1, p).xy, a, b, curves ? 1 : 1.6,
                      false, COLOUR_P);
     }
 }
@@ -362,11 +362,11 @@ static void draw_linearised_zeros(const Plot *plot, const LocalModel *E)
         double square = slope[0] * slope[0] + slope[1] * slope[1];
         double far = length_beyond_view(plot) / sqrt(square);
         const Point foot = point_along(x, -E->g[k] / square, slope);
-        plot_dashes(plot, point_along(foot.at, -far, across).at,
-                    point_along(foot.at, far, across).at, 2.4, NULL,
+        plot_dashes(plot, point_along(foot.xy, -far, across).xy,
+                    point_along(foot.xy, far, across).xy, 2.4, NULL,
                     curve_colour[k]);
     }
-    plot_ring(plot, point_along(x, 1, plot->simulation->descent.direction).at,
+    plot_ring(plot, point_along(x, 1, plot->simulation->descent.direction).xy,
               8, 2.4, COLOUR_P);
 }
 
@@ -378,12 +378,12 @@ static void draw_downhill(const Plot *plot, const LocalModel *E)
     double far = length_beyond_view(plot) / vector_length(E->g);
     const Point a = point_along(x, far, across),
                 b = point_along(x, -far, across),
-                c = point_along(b.at, -far, E->g),
-                d = point_along(a.at, -far, E->g);
-    const double *const corner[4] = {a.at, b.at, c.at, d.at};
+                c = point_along(b.xy, -far, E->g),
+                d = point_along(a.xy, -far, E->g);
+    const double *const corner[4] = {a.xy, b.xy, c.xy, d.xy};
     Box before = canvas_set_clip(&plot->paper->canvas, plot->box);
     plot_quad(plot, corner, COLOUR_DOWNHILL);
-    plot_line(plot, a.at, b.at, 1.2, COLOUR_COMPRESS);
+    plot_line(plot, a.xy, b.xy, 1.2, COLOUR_COMPRESS);
     canvas_set_clip(&plot->paper->canvas, before);
 }
 
@@ -404,7 +404,7 @@ void landscape_draw(Plot *stage)
         const double *from = record->from, *to = record->to;
         Colour colour = record->slope > 0 ? COLOUR_WARNING : COLOUR_P;
         if (record->alpha > 0)
-            plot_arrow(&plot, from, vector_between(from, to).at,
+            plot_arrow(&plot, from, vector_between(from, to).xy,
                        1 / record->alpha, 1.2, colour);
         plot_line(&plot, from, to, 3.2, colour);
         plot_disc(&plot, from, 5, COLOUR_X);

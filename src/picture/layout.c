@@ -114,7 +114,7 @@ static void place_settings(const SettingsRow *row, Layout *layout, bool low,
     for (int i = 0; i < row->count; i++) {
         const Setting *setting = &row->item[i];
         int value = count_letters(setting->value);
-        value = value > setting->letters ? value : setting->letters;
+        value = value > setting->min_letters ? value : setting->min_letters;
         value += count_letters(setting->name) + 1;
         width[i] = ems_to_pixels(layout, value * LETTER + 0.6);
     }
@@ -150,8 +150,8 @@ static void place_chips(const ChipRow *chips, bool lecture, Layout *layout)
     int width[LAYOUT_CHIPS];
     Box room = box_inset(layout->chip_row, ems_to_pixels(layout, 0.35));
     for (int i = 0; i <= last; i++) {
-        double letters = BOLD * count_letters(chips->item[i].key) +
-                         count_letters(chips->item[i].label) +
+        double letters = BOLD * count_letters(chips->chip[i].key) +
+                         count_letters(chips->chip[i].label) +
                          (lecture ? 2 : 1);
         width[i] =
             ems_to_pixels(layout, letters * LETTER * 0.92 + CHIP_PADDING);
@@ -164,7 +164,7 @@ static void place_chips(const ChipRow *chips, bool lecture, Layout *layout)
     layout->chips_left_out = last - fit;
 }
 
-/* Cuts strip, settings, time line and chips off the window.  Returns the rest.
+/* Cuts title bar, settings, time line, chips off the window.  Returns the rest.
  */
 static Box place_zones(const FrameContent *content, Layout *layout)
 {
@@ -172,10 +172,10 @@ static Box place_zones(const FrameContent *content, Layout *layout)
     double high = layout->height / layout->em;
     bool roomy = high >= 40, lecture = content->lecture.page;
     bool big = active_pane(content)->simulation->options.big;
-    if (content->bare || high < 16)
+    if (content->is_bare || high < 16)
         return rest;
-    layout->strip = box_cut_off(&rest, EDGE_TOP,
-                                ems_to_pixels(layout, roomy ? STRIP : 2.2));
+    layout->title_bar = box_cut_off(&rest, EDGE_TOP,
+                                    ems_to_pixels(layout, roomy ? STRIP : 2.2));
     if (high >= 20)
         layout->chip_row = box_cut_off(
             &rest, EDGE_BOTTOM, ems_to_pixels(layout, roomy ? CHIPS : 2.5));
@@ -218,10 +218,10 @@ static double needed_height(const FrameContent *content, const Layout *layout,
 /* A row of the column, with one card or two. */
 typedef struct CardRow {
     int first_card, card_count;
-    bool closed;       /* only the title is seen */
-    double min_height; /* ems */
-    double growth;     /* ems, by which the row grows before other rows */
-    double weight;     /* weight with which the row shares free height */
+    bool is_closed;      /* only the title is seen */
+    double min_height;   /* ems */
+    double extra_height; /* ems, by which the row grows before other rows */
+    double weight;       /* weight with which the row shares free height */
 } CardRow;
 
 /* Returns the index of the page's main card; -1: no main card, or a closed one.
@@ -230,7 +230,7 @@ static int find_main_card(const FrameContent *content)
 {
     const char *name = active_pane(content)->simulation->options.main_card;
     int card = name ? picture_find_card(active_picture(content), name) : -1;
-    unsigned shut = content->cards.hidden | content->cards.closed;
+    unsigned shut = content->cards.hidden_cards | content->cards.closed_cards;
     return card >= 0 && !(shut >> card & 1) ? card : -1;
 }
 
@@ -247,12 +247,13 @@ static int find_card_rows(const FrameContent *content, const Layout *layout,
     bool large = sets->enlarged >= 0 && sets->enlarged < cards;
     for (int i = 0; i < cards; i++) {
         const Card *card = picture->cards[i];
-        bool bar = sets->closed >> i & 1 || (large && i != sets->enlarged);
+        bool bar =
+            sets->closed_cards >> i & 1 || (large && i != sets->enlarged);
         bool half =
             card->half_width || (card->halves_on_page && content->lecture.page);
         bool on_stage = i == main_card &&
                         (card->below_picture || (card->beside_picture && !bar));
-        if (sets->hidden >> i & 1 || on_stage)
+        if (sets->hidden_cards >> i & 1 || on_stage)
             continue;
         double least =
             bar ? TITLE_BAR : needed_height(content, layout, i, wide);
@@ -265,10 +266,10 @@ static int find_card_rows(const FrameContent *content, const Layout *layout,
         before = half && !bar ? i : -2;
         rows[count++] = (CardRow){i, 1, bar, least, 0, bar ? 0 : card->weight};
     }
-    if (content->lecture.page && count > 0 && !rows->closed &&
+    if (content->lecture.page && count > 0 && !rows->is_closed &&
         rows->first_card == 0) {
         double least = page_least_height(content, wide, layout->em);
-        rows->growth = rows->min_height - least;
+        rows->extra_height = rows->min_height - least;
         rows->min_height = least;
     }
     return count;
@@ -300,12 +301,12 @@ static bool place_cards(const FrameContent *content, Layout *layout)
     double room = (rest.height + gap) / layout->em, bars = 0, least = 0;
     double weights = 1e-9, ems = gap / layout->em;
     for (int i = 0; i < count; i++) {
-        open += !rows[i].closed;
-        bars += ems + (rows[i].closed ? TITLE_BAR : 0);
-        least += rows[i].closed ? 0 : rows[i].min_height;
+        open += !rows[i].is_closed;
+        bars += ems + (rows[i].is_closed ? TITLE_BAR : 0);
+        least += rows[i].is_closed ? 0 : rows[i].min_height;
     }
     for (int i = count - 1; i > 0 && open > 1 && !pairs; i--)
-        if (!rows[i].closed && bars + least > room) {
+        if (!rows[i].is_closed && bars + least > room) {
             least -= rows[i].min_height;
             bars += TITLE_BAR;
             rows[i] = (CardRow){rows[i].first_card, 1, true, TITLE_BAR, 0, 0};
@@ -314,9 +315,9 @@ static bool place_cards(const FrameContent *content, Layout *layout)
     for (int i = 0; i < count; i++)
         weights += rows[i].weight;
     room -= bars;
-    double growth = fmin(fmax(room - least, 0), rows->growth);
-    bool fits = growth == rows->growth || (big && least <= room);
-    double texts = rows->growth > 0 ? rows->min_height + growth : 0;
+    double growth = fmin(fmax(room - least, 0), rows->extra_height);
+    bool fits = growth == rows->extra_height || (big && least <= room);
+    double texts = rows->extra_height > 0 ? rows->min_height + growth : 0;
     rows->min_height += growth;
     least += growth;
     double shrink = least > room ? (room - texts) / (least - texts) : 1;
@@ -326,7 +327,7 @@ static bool place_cards(const FrameContent *content, Layout *layout)
                       row->weight * fmax(room - least, 0) / weights;
         int height = ems_to_pixels(layout, high);
         Box box = box_cut_off(&rest, EDGE_TOP,
-                              row->closed || height < bar ? bar : height);
+                              row->is_closed || height < bar ? bar : height);
         box_cut_off(&rest, EDGE_TOP, gap);
         for (int k = 0; k < row->card_count; k++)
             layout->card[row->first_card + k] =
@@ -370,7 +371,7 @@ static int place_cells(const FrameContent *content, Layout *layout, int columns,
         column = 0;
     int left = (layout->stage.width - columns * (side + gap) + gap) / 2, y = 0;
     for (int i = 0; i < content->sheet.cells; i++) {
-        bool heads = content->sheet.cell[i].group;
+        bool heads = content->sheet.cell[i].heading;
         if (i > 0 && (heads || column == columns)) {
             y += side + name;
             column = 0;
@@ -458,7 +459,7 @@ static void place_card_without_room(const FrameContent *content, Layout *layout)
     const Simulation *simulation = active_pane(content)->simulation;
     const Options *options = &simulation->options;
     int bar = ems_to_pixels(layout, TITLE_BAR), folded = 1;
-    unsigned shut = content->cards.closed | content->cards.hidden;
+    unsigned shut = content->cards.closed_cards | content->cards.hidden_cards;
     while (folded < layout->cards &&
            (shut >> folded & 1 ||
             (layout->card[folded].height != bar && !layout->has_list)))
@@ -507,8 +508,8 @@ Layout layout_create(const FrameContent *content, int width, int height)
     }
     double wide = width / layout.em, high = height / layout.em;
     bool low = page && high < 50; /* a list or code then covers the stage */
-    if (!content->bare && wide >= 53 && high >= 34 && !low &&
-        (page || content->cards.hidden != (1u << picture->count) - 1)) {
+    if (!content->is_bare && wide >= 53 && high >= 34 && !low &&
+        (page || content->cards.hidden_cards != (1u << picture->count) - 1)) {
         double most = WIDE_PART * wide;
         double part = COLUMN_PART, end = big ? BIG_PART : PAGE_PART;
         const Box whole = layout.stage;
@@ -529,7 +530,7 @@ Layout layout_create(const FrameContent *content, int width, int height)
         } while (widens);
         if (!page || content->column == COLUMN_CODE)
             layout.cards = picture->count;
-    } else if (!content->bare && page) { /* no room: column hides stage */
+    } else if (!content->is_bare && page) { /* no room: column hides stage */
         layout.column = layout.stage;
     }
     layout.has_list = page && layout.column.width > 0;
@@ -548,7 +549,7 @@ Box layout_close_box(const Layout *layout, int card)
                  box.height < side ? box.height : side};
 }
 
-Hit layout_hit(const Layout *layout, double x, double y)
+WindowHit layout_hit(const Layout *layout, double x, double y)
 {
     const Layout *l = layout;
     const struct {
@@ -556,15 +557,15 @@ Hit layout_hit(const Layout *layout, double x, double y)
         const Box *box;
         int count;
     } lists[] = {
-        {ZONE_STRIP, &l->strip, 1},     {ZONE_STAGE, l->pane, l->panes},
+        {ZONE_STRIP, &l->title_bar, 1}, {ZONE_STAGE, l->pane, l->panes},
         {ZONE_TIME, &l->time_line, 1},  {ZONE_LIST, &l->column, l->has_list},
         {ZONE_CARD, l->card, l->cards}, {ZONE_SETTING, l->setting, l->settings},
         {ZONE_CHIP, l->chip, l->chips}, {ZONE_CELL, l->cell, l->cells}};
-    Hit hit = {ZONE_NONE, 0, {x, y}};
+    WindowHit hit = {ZONE_NONE, 0, {x, y}};
     for (size_t k = 0; k < sizeof lists / sizeof *lists; k++)
         for (int i = 0; i < lists[k].count; i++)
             if (box_contains(lists[k].box[i], x, y))
-                hit = (Hit){lists[k].zone, i, {x, y}};
+                hit = (WindowHit){lists[k].zone, i, {x, y}};
     if (hit.zone == ZONE_CARD &&
         box_contains(layout_close_box(layout, hit.index), x, y))
         hit.zone = ZONE_CARD_CLOSE;

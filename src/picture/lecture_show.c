@@ -12,8 +12,8 @@ const char *lecture_lit_code(const FrameContent *content)
 {
     const LecturePage *page = content->lecture.page;
     const Trace *trace = active_pane(content)->trace;
-    bool walks = page->lit_at_line && trace && trace->line != LINE_NONE;
-    return walks ? page->lit_at_line[trace->line] : page->lit;
+    bool walks = page->lit_at_line && trace && trace->at_line != LINE_NONE;
+    return walks ? page->lit_at_line[trace->at_line] : page->lit;
 }
 
 /* Lists all pages of the lecture, with a heading before each section.
@@ -27,7 +27,7 @@ static void list_pages(const LecturePage *marked, FrameContent *content)
             *row = (ListRow){.is_heading = true};
             snprintf((row++)->text, SENTENCE_SIZE, "%s", page->section);
         }
-        *row = (ListRow){.grey = page->extra};
+        *row = (ListRow){.is_grey = page->extra};
         snprintf(row->key, VALUE_SIZE, "%s%d", page == marked ? ">" : "",
                  (int)(page - lecture_pages) + 1);
         snprintf((row++)->text, SENTENCE_SIZE, "%s%s", page->topic,
@@ -42,7 +42,7 @@ static void list_letters(FrameContent *content)
     for (const Letter *letter = lecture_letters;
          letter->letter && row < content->list.row + LAYOUT_ROWS;
          letter++, row++) {
-        *row = (ListRow){.grey = false};
+        *row = (ListRow){.is_grey = false};
         snprintf(row->key, VALUE_SIZE, "%s", letter->letter);
         snprintf(row->text, SENTENCE_SIZE, "%s", letter->meaning);
     }
@@ -73,19 +73,19 @@ static void add_lines(const char *text, bool live, char *out, size_t size)
  * values come first; the other lines, if any, follow below lecture->own. */
 static void fill_look(const LecturePage *page, LectureContent *lecture)
 {
-    char *look = lecture->look, others[LOOK_SIZE] = "";
+    char *look = lecture->look_text, others[LOOK_SIZE] = "";
     look[0] = '\0';
     add_lines(page->look, false, others, sizeof others);
-    if (lecture->own[0]) {
+    if (lecture->own_title[0]) {
         add_lines(page->look, true, look, LOOK_SIZE);
         if (others[0])
-            append(look, LOOK_SIZE, "%s\n%s", lecture->own, others);
+            append(look, LOOK_SIZE, "%s\n%s", lecture->own_title, others);
     } else {
         append(look, LOOK_SIZE, "%s", page->look);
     }
 }
 
-void frame_add_lecture(Column column, const LecturePage *left,
+void frame_add_lecture(ColumnContent column, const LecturePage *left,
                        FrameContent *content)
 {
     const Simulation *simulation = active_pane(content)->simulation;
@@ -100,10 +100,10 @@ void frame_add_lecture(Column column, const LecturePage *left,
         return;
     content->lecture.page = page;
     fill_look(page, &content->lecture);
-    content->strip.topic = page->topic;
-    content->cards.covered = 0;
+    content->title_bar.topic = page->topic;
+    content->cards.covered_cards = 0;
     for (int c = 0; c < picture->count; c++)
         if (content->lecture.hides_answer && page->veils &&
             strstr(page->veils, picture->cards[c]->name))
-            content->cards.covered |= 1u << c;
+            content->cards.covered_cards |= 1u << c;
 }

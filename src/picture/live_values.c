@@ -27,7 +27,7 @@ void values_add(LiveValues *values, const char *name, double number)
 void values_add_words(LiveValues *values, const char *name, const char *words)
 {
     if (words)
-        add_value(values, name)->words = words;
+        add_value(values, name)->text = words;
 }
 
 void values_add_flag(LiveValues *values, const char *name, bool flag)
@@ -62,7 +62,8 @@ static void add_window_values(const FrameContent *content, LiveValues *values)
     values_add_flag(values, "guessed", lecture->guesses > 0);
     values_add(values, "guesses", lecture->guesses);
     values_add(values, "right", lecture->right_guesses);
-    values_add_flag(values, content->view->held.on ? "held" : "free", true);
+    values_add_flag(values,
+                    content->view->held_bounds.is_held ? "held" : "free", true);
 }
 
 static void add_setting_values(const Simulation *simulation, LiveValues *values)
@@ -118,8 +119,8 @@ static void add_setting_values(const Simulation *simulation, LiveValues *values)
  * next p is small enough, or the last p changes E by less than rounding. */
 static void add_step_end_values(const Trace *trace, LiveValues *values)
 {
-    const NewtonRecord *last = trace->record + trace->updates - 1;
-    if (trace->updates == 0 || last->status != STATUS_OK)
+    const NewtonRecord *last = trace->record + trace->records - 1;
+    if (trace->records == 0 || last->status != STATUS_OK)
         return;
     values_add_flag(values, "negligible", last->residual > trace->tolerance);
     values_add_flag(values, "hidden",
@@ -130,7 +131,7 @@ static void add_step_end_values(const Trace *trace, LiveValues *values)
 static void add_trace_values(const Simulation *simulation, const Trace *trace,
                              LiveValues *values)
 {
-    bool made = trace->line == LINE_NONE || trace->line >= LINE_SOLVE;
+    bool made = trace->at_line == LINE_NONE || trace->at_line >= LINE_SOLVE;
     bool known = made && isfinite(trace->residual);
     bool above = trace->residual > trace->tolerance;
     if (trace->projected >= 0) {
@@ -140,22 +141,22 @@ static void add_trace_values(const Simulation *simulation, const Trace *trace,
     }
     values_add(values, "h then", trace->h);
     values_add(values, "tolerance", trace->tolerance);
-    values_add_flag(values, "walking", trace->line != LINE_NONE);
-    values_add_flag(values, "updated", trace->updates > 0);
+    values_add_flag(values, "walking", trace->at_line != LINE_NONE);
+    values_add_flag(values, "updated", trace->records > 0);
     values_add(values, "nth", trace->iteration + 1);
     values_add_words(values, "way", trace->slope > 0 ? "uphill" : "downhill");
     values_add_flag(values, "uphill", trace->slope > 0);
     int trial = trace->trials > 1 ? trace->trials : 1;
     double alpha = trace_step_length(trace, trial);
-    if (trace->trials > 0 || trace->line)
+    if (trace->trials > 0 || trace->at_line)
         values_add(values, "length", alpha);
     if (trace->trials > 0)
-        values_add_flag(values, trace->accepted ? "taken" : "refused", true);
+        values_add_flag(values, trace->is_accepted ? "taken" : "refused", true);
     values_add_flag(values, "given up", trace->given_up);
     if (simulation->scene->needs & NEEDS_TIME)
         add_step_end_values(trace, values);
-    if (trace->trials > 0 && trace->difference) {
-        double change = trace->difference(trace->difference_data, alpha);
+    if (trace->trials > 0 && trace->energy_difference) {
+        double change = trace->energy_difference(trace->difference_data, alpha);
         values_add(values, "change", change);
         values_add_words(values, "change", "no number");
         values_add_words(values, "+", change > 0 ? "+" : "");
@@ -176,10 +177,10 @@ static void add_trace_values(const Simulation *simulation, const Trace *trace,
 static double compute_energy_change(const void *function, double alpha)
 {
     const DescentTrace *space = function;
-    const Point x = point_along(space->from, alpha, space->p);
+    const Point x = point_along(space->start, alpha, space->p);
     LocalModel there =
-        descent_evaluate(space->simulation, PROJECTION_NONE, x.at[0], x.at[1]);
-    return there.value - space->value;
+        descent_evaluate(space->simulation, PROJECTION_NONE, x.xy[0], x.xy[1]);
+    return there.value - space->start_energy;
 }
 
 /* Makes the trace of a descent's last update.  Without updates, or if the last
@@ -194,19 +195,19 @@ static const Trace *make_descent_trace(const Simulation *simulation,
     bool given_up = last >= 0 && !made; /* the line search refused all trials */
     *space = (DescentTrace){.simulation = simulation};
     for (int k = 0; k < (descent->scalar ? 1 : 2); k++) {
-        space->from[k] = made ? record->from[k] : descent->point[k];
+        space->start[k] = made ? record->from[k] : descent->point[k];
         space->p[k] = made ? (record->to[k] - record->from[k]) / record->alpha
                            : descent->direction[k];
     }
     bool aims = space->p[0] != 0 || space->p[1] != 0, taken = aims && made;
-    space->value = descent_evaluate(simulation, PROJECTION_NONE, space->from[0],
-                                    space->from[1])
-                       .value;
+    space->start_energy = descent_evaluate(simulation, PROJECTION_NONE,
+                                           space->start[0], space->start[1])
+                              .value;
     space->trace = (Trace){
-        .line = aims && !made ? LINE_SOLVE : LINE_NONE,
+        .at_line = aims && !made ? LINE_SOLVE : LINE_NONE,
         .h = simulation->options.timestep,
         .tolerance = simulation->options.tolerance,
-        .updates = descent->count,
+        .records = descent->count,
         .record = descent->record,
         .iteration = descent->count,
         .residual = given_up ? record->residual : descent->residual,
@@ -215,10 +216,10 @@ static const Trace *make_descent_trace(const Simulation *simulation,
                  : aims ? descent->slope
                         : 0,
         .projected = taken ? record->projected : -1,
-        .difference = aims ? compute_energy_change : NULL,
+        .energy_difference = aims ? compute_energy_change : NULL,
         .difference_data = space,
         .trials = taken ? record->trials : 0,
-        .accepted = taken,
+        .is_accepted = taken,
     };
     return &space->trace;
 }
@@ -235,7 +236,7 @@ void frame_fill_values(FrameContent *content)
         LiveValues *values = &now->values;
         const Simulation *simulation = now->simulation;
         const Picture *picture = picture_of_scene(simulation->scene);
-        Line line = now->trace ? now->trace->line : LINE_NONE;
+        StepLine line = now->trace ? now->trace->at_line : LINE_NONE;
         now->shown_trace = now->trace;
         if (!now->trace && simulation->scene->step == step_descent)
             now->shown_trace = make_descent_trace(simulation, &now->descent);
@@ -253,7 +254,8 @@ void frame_fill_values(FrameContent *content)
         values_add_flag(values, "no step", !now->shown_trace);
         if (now->shown_trace)
             add_trace_values(simulation, now->shown_trace, values);
-        if (picture->add_values && (i == content->active || picture->legend))
+        if (picture->add_values &&
+            (i == content->active_pane || picture->legend))
             picture->add_values(simulation, values);
     }
 }
@@ -278,7 +280,7 @@ static const LiveValue *find_value(const LiveValues *values, int run,
 double values_find_number(const LiveValues *values, const char *name)
 {
     const LiveValue *one = find_value(values, 0, name);
-    return one && !one->words ? one->value[0] : NAN;
+    return one && !one->text ? one->value[0] : NAN;
 }
 
 double frame_find_number(FrameContent *content, const char *name)
@@ -294,16 +296,16 @@ static void format_value(const LiveValue *one, const char *format, char *out,
     char *rest;
     int digits = (int)strtol(format, &rest, 10), exponent;
     double value = one->value[0];
-    Number number[2];
-    for (int k = 0; k < 2 && !one->words; k++)
+    NumberText number[2];
+    for (int k = 0; k < 2 && !one->text; k++)
         number[k] = format_digits(one->value[k], digits ? digits : 3);
-    if (*rest == '/' && !one->words && value > 0 && value < 1 &&
+    if (*rest == '/' && !one->text && value > 0 && value < 1 &&
         frexp(value, &exponent) == 0.5 && exponent > -9)
         snprintf(number->text, sizeof number->text, "1/%d",
                  1 << (1 - exponent));
     bool apart = *rest == '\'' && (value < 0 || strchr(number[0].text, '^'));
-    if (one->words)
-        snprintf(out, size, "%s", one->words);
+    if (one->text)
+        snprintf(out, size, "%s", one->text);
     else if (one->is_point)
         snprintf(out, size, "(%s, %s)", number[0].text, number[1].text);
     else
@@ -326,9 +328,9 @@ static bool fill_line(TextLine *line, const char *text, size_t length)
         line->face = from[name] == '*' ? FACE_BOLD : FACE_REGULAR;
         from += name + 1 + (from[name] == '*');
     }
-    while (from < end && used + 1 < sizeof line->words) {
+    while (from < end && used + 1 < sizeof line->text) {
         if (*from != '{' || text_is_markup_brace(text, from)) {
-            line->words[used++] = *from++;
+            line->text[used++] = *from++;
             continue;
         }
         bool minus = from[1] == '-';
@@ -340,39 +342,39 @@ static bool fill_line(TextLine *line, const char *text, size_t length)
         LiveValue one = *found;
         one.value[0] *= minus ? -1 : 1;
         format_value(&one, from[name] == ':' ? from + name + 1 : "",
-                     line->words + used, sizeof line->words - used);
-        used += strlen(line->words + used);
+                     line->text + used, sizeof line->text - used);
+        used += strlen(line->text + used);
         from += strcspn(from, "}") + 1;
     }
-    line->words[used] = '\0';
+    line->text[used] = '\0';
     return true;
 }
 
 TextLine text_begin(const LiveValues *values, const char *text)
 {
-    return (TextLine){.values = values, .rest = text ? text : ""};
+    return (TextLine){.values = values, .next_text = text ? text : ""};
 }
 
 bool text_next_line(TextLine *line)
 {
     for (;;) {
-        if (*line->rest == '@') {
-            line->rest = line->each = line->rest + 2;
+        if (*line->next_text == '@') {
+            line->next_text = line->repeated = line->next_text + 2;
             line->run = 1;
         }
-        if (!*line->rest && line->each && line->run < VALUES_RUNS) {
-            line->rest = line->each;
+        if (!*line->next_text && line->repeated && line->run < VALUES_RUNS) {
+            line->next_text = line->repeated;
             line->run++;
         }
-        const char *text = line->rest;
+        const char *text = line->next_text;
         size_t length = strcspn(text, "\n");
-        line->rest += length + (text[length] == '\n');
+        line->next_text += length + (text[length] == '\n');
         if (*text && fill_line(line, text, length))
             return true;
         if (!*text)
             break;
     }
-    line->words[0] = '\0';
+    line->text[0] = '\0';
     return false;
 }
 
@@ -396,7 +398,7 @@ static int draw_text_line(Paper *paper, Box box, double size,
 {
     const double air = 0.2, empty = 0.6; /* ems */
     int high = paper_write_paragraph(paper, line->face, size, line->colour, box,
-                                     draw ? INT_MAX : 0, line->words);
+                                     draw ? INT_MAX : 0, line->text);
     return high + paper_pixels(paper, size * (high > 0 ? air : empty));
 }
 
@@ -410,7 +412,7 @@ void card_write_text(const Plot *card, const LiveValues *values,
         size = box.width > MAIN_CARD_WIDTH * paper->em ? 1.6 : 1.2;
     const TextLine begin = text_begin(values, text);
     for (TextLine line = begin; text_next_line(&line);) {
-        int width = paper_width(paper, line.face, 1, line.words);
+        int width = paper_width(paper, line.face, 1, line.text);
         height += draw_text_line(paper, box, 1, &line, false);
         if (width > 0)
             size = fmin(size, 0.97 * box.width / width);
@@ -424,7 +426,7 @@ int card_write_flow(const Plot *card, int at[2], double size, double gap,
                     const TextLine *line, bool draw)
 {
     Paper *paper = card->paper;
-    int width = paper_width(paper, line->face, size, line->words);
+    int width = paper_width(paper, line->face, size, line->text);
     if (at[0] > 0 && at[0] + width > card->box.width) {
         at[0] = 0;
         at[1] += paper_pixels(paper, 1.35 * size);
@@ -432,12 +434,12 @@ int card_write_flow(const Plot *card, int at[2], double size, double gap,
     if (draw)
         paper_write_on_panel(paper, line->face, size, line->colour,
                              card->box.x + at[0], card->box.y + at[1],
-                             ALIGN_LEFT, line->words);
+                             ALIGN_LEFT, line->text);
     at[0] += width + paper_pixels(paper, gap);
     return at[1] + paper_pixels(paper, 1.5 * size);
 }
 
-/* ---- the strip ----------------------------------------------------------- */
+/* ---- the title bar ------------------------------------------------------- */
 
 /* Fills an empty string with the text's first line with known values. */
 static void fill_text(const LiveValues *values, const char *text, char *string,
@@ -445,18 +447,18 @@ static void fill_text(const LiveValues *values, const char *text, char *string,
 {
     if (!string[0])
         snprintf(string, size, "%.*s", (int)size - 1,
-                 text_first_line(values, text).words);
+                 text_first_line(values, text).text);
 }
 
 void frame_fill_texts(FrameContent *content)
 {
     const Scene *scene = active_pane(content)->simulation->scene;
     const LiveValues *values = &active_pane(content)->values;
-    Strip *strip = &content->strip;
+    TitleBar *bar = &content->title_bar;
     frame_fill_values(content);
-    if (!strip->topic)
-        strip->topic = scene->title;
-    fill_text(values, text_sentences, strip->sentence, sizeof strip->sentence);
-    fill_text(values, text_methods, strip->method, sizeof strip->method);
-    fill_text(values, text_states, strip->state, sizeof strip->state);
+    if (!bar->topic)
+        bar->topic = scene->title;
+    fill_text(values, text_sentences, bar->sentence, sizeof bar->sentence);
+    fill_text(values, text_methods, bar->method, sizeof bar->method);
+    fill_text(values, text_states, bar->state, sizeof bar->state);
 }

@@ -36,11 +36,11 @@ double values_find_number(const LiveValues *values, const char *name);
 typedef struct TextLine {
     Colour colour;
     Face face;
-    char words[VALUES_TEXT];
+    char text[VALUES_TEXT];
     const LiveValues *values;
-    const char *rest; /* the text after this line */
-    const char *each; /* lines to repeat for each run, or NULL */
-    int run;          /* run whose values fill the line */
+    const char *next_text; /* the text after this line */
+    const char *repeated;  /* lines to repeat for each run, or NULL */
+    int run;               /* run whose values fill the line */
 } TextLine;
 
 /* Walks over the lines of a text that have known values (NULL: no lines):

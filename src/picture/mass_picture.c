@@ -284,7 +284,7 @@ void mass_bounds(const Plot *stage, double bounds[4])
 static Point find_exact_position(const MassStep *step, double h)
 {
     const Point x = point_along(origin, cos(h), step->x);
-    return point_along(x.at, sin(h), step->v);
+    return point_along(x.xy, sin(h), step->v);
 }
 
 /* Draws the error of a step of forward Euler, about h^2/2 a. */
@@ -292,13 +292,13 @@ static void draw_step_error(const Plot *stage, const MassStep *step, double h,
                             const char *words)
 {
     const Point to = point_along(step->x, h, step->v);
-    const Point at[2] = {point_along(to.at, 0.5 * h * h, step->a),
-                         point_along(to.at, 0.25 * h * h, step->a)};
-    plot_hollow_disc(stage, find_exact_position(step, h).at, 6, 3.4,
+    const Point at[2] = {point_along(to.xy, 0.5 * h * h, step->a),
+                         point_along(to.xy, 0.25 * h * h, step->a)};
+    plot_hollow_disc(stage, find_exact_position(step, h).xy, 6, 3.4,
                      COLOUR_GREY);
-    plot_ring(stage, to.at, 6, 2, COLOUR_X);
-    plot_arrow(stage, to.at, step->a, 0.5 * h * h, 2, COLOUR_WARNING);
-    plot_label(stage, 2, at->at, COLOUR_WARNING, "%s", words);
+    plot_ring(stage, to.xy, 6, 2, COLOUR_X);
+    plot_arrow(stage, to.xy, step->a, 0.5 * h * h, 2, COLOUR_WARNING);
+    plot_label(stage, 2, at->xy, COLOUR_WARNING, "%s", words);
 }
 
 /* Draws what a page explains: the exact end of the step; for forward Euler its
@@ -310,36 +310,36 @@ static void draw_mass_lesson(Plot *stage, const MassStep *step)
     double near = 1.5 * stage->em / stage->camera.scale[0]; /* m */
     bool implicit = stage->simulation->run[0].method->implicit;
     const Point end = find_exact_position(step, h);
-    plot_hollow_disc(stage, end.at, 6, 3.4, COLOUR_GREY);
+    plot_hollow_disc(stage, end.xy, 6, 3.4, COLOUR_GREY);
     if (step->by_old_v) {
         draw_step_error(stage, step, 0.5 * h, "with h/2: a quarter");
         draw_step_error(stage, step, h, "\u00bdh\u00b2 a^{n}");
     }
-    plot_label(stage, 1, end.at, COLOUR_FAINT, "exact");
+    plot_label(stage, 1, end.xy, COLOUR_FAINT, "exact");
     Point x = {{step->x[0], step->x[1]}}, v = {{step->v[0], step->v[1]}};
     for (int k = 0; k < FIXED_POINT_ITERATES && implicit; k++) {
         const Point from = x,
-                    pulled = point_along(step->v, k > 0 ? -h : 0, from.at);
-        x = point_along(step->x, h, pulled.at);
+                    pulled = point_along(step->v, k > 0 ? -h : 0, from.xy);
+        x = point_along(step->x, h, pulled.xy);
         if (k > 0)
-            plot_line(stage, from.at, x.at, 1.4, COLOUR_GREY);
-        plot_hollow_disc(stage, x.at, 5, 3, COLOUR_GREY);
-        if (point_distance(step->new_x, x.at) > near)
-            plot_label(stage, 1, x.at, COLOUR_FAINT, "%d", k + 1);
+            plot_line(stage, from.xy, x.xy, 1.4, COLOUR_GREY);
+        plot_hollow_disc(stage, x.xy, 5, 3, COLOUR_GREY);
+        if (point_distance(step->new_x, x.xy) > near)
+            plot_label(stage, 1, x.xy, COLOUR_FAINT, "%d", k + 1);
     }
     bool symplectic = !step->by_old_v && !implicit;
     for (int k = 0; k < STEPS_AHEAD && symplectic && h >= 2; k++) {
         const Point from = x;
-        v = point_along(v.at, -h, x.at);
-        x = point_along(x.at, h, v.at);
-        plot_line(stage, from.at, x.at, 1, COLOUR_GREY);
-        plot_hollow_disc(stage, x.at, 4, 2.4, COLOUR_GREY);
+        v = point_along(v.xy, -h, x.xy);
+        x = point_along(x.xy, h, v.xy);
+        plot_line(stage, from.xy, x.xy, 1, COLOUR_GREY);
+        plot_hollow_disc(stage, x.xy, 4, 2.4, COLOUR_GREY);
     }
     double turn = 1 - 0.5 * h * h, reach = sqrt(1 - turn * turn);
     const Point side = point_along(step->new_x, -turn, step->x);
-    const Point across = point_along(origin, 1 / reach, side.at);
+    const Point across = point_along(origin, 1 / reach, side.xy);
     if (symplectic && h < 2)
-        plot_ellipse(stage, origin, step->x, across.at, 2.4, false,
+        plot_ellipse(stage, origin, step->x, across.xy, 2.4, false,
                      COLOUR_ALPHA);
 }
 
@@ -365,10 +365,10 @@ static void draw_mass_step(Plot *stage)
         const char *label;
     } arrow[] = {
         {step.x, step.v, 2.6, COLOUR_VELOCITY, "v^{n}"},
-        {tip.at, push.at, 2.6, COLOUR_FORCE,
+        {tip.xy, push.xy, 2.6, COLOUR_FORCE,
          backward ? "h a^{n+1}" : "h a^{n}"},
         {step.x, step.new_v, 1.4, COLOUR_VELOCITY, "v^{n+1}"},
-        {step.x, to.at, 4, COLOUR_X, step.by_old_v ? "h v^{n}" : "h v^{n+1}"},
+        {step.x, to.xy, 4, COLOUR_X, step.by_old_v ? "h v^{n}" : "h v^{n+1}"},
         {step.new_x, step.new_a, 1.6, COLOUR_FORCE, "a^{n+1}"}};
     for (int i = 0; i < 4 + backward; i++)
         plot_arrow(stage, arrow[i].a, arrow[i].d, 1, arrow[i].width,
@@ -384,7 +384,7 @@ static void draw_mass_step(Plot *stage)
         for (int k = 0; k < 4; k++)
             at[k] = point_along(now->a, part[k], now->d);
         if (vector_length(now->d) * stage->camera.scale[0] > 2 * stage->em)
-            plot_label(stage, 4, at->at, now->colour, "%s", now->label);
+            plot_label(stage, 4, at->xy, now->colour, "%s", now->label);
     }
 }
 
@@ -406,7 +406,7 @@ void mass_draw(Plot *stage)
     for (int r = 0; simulation->runs > 1 && r < simulation->runs; r++) {
         MassStep step;
         mass_find_next_step(simulation, r, &step);
-        plot_arrow(stage, step.x, vector_between(step.x, step.new_x).at, 1, 3,
+        plot_arrow(stage, step.x, vector_between(step.x, step.new_x).xy, 1, 3,
                    colour_of_mass(simulation, r));
         plot_ring(stage, step.new_x, 8, 2.2, colour_of_mass(simulation, r));
     }
@@ -467,11 +467,11 @@ void mass_add_values(const Simulation *simulation, LiveValues *values)
         }
     }
     values_add(values, "miss",
-               point_distance(step.new_x, find_exact_position(&step, h).at));
+               point_distance(step.new_x, find_exact_position(&step, h).xy));
     if (step.by_old_v) {
         const Point half = point_along(step.x, 0.5 * h, step.v);
         values_add(
             values, "half miss",
-            point_distance(half.at, find_exact_position(&step, 0.5 * h).at));
+            point_distance(half.xy, find_exact_position(&step, 0.5 * h).xy));
     }
 }

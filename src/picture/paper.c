@@ -34,7 +34,7 @@ int paper_pixels(const Paper *paper, double ems)
 
 void paper_keep_words(Paper *paper, Box box)
 {
-    paper->words[paper->word_count++ % PAPER_WORDS] = box;
+    paper->word_boxes[paper->word_count++ % PAPER_WORDS] = box;
 }
 
 static TextStyle paper_style(const Paper *paper, Face face, double size,

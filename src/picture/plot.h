@@ -17,8 +17,8 @@
 
 typedef struct Axis {
     double low, high;  /* high > low; both > 0 on a logarithmic axis */
-    bool log;          /* is logarithmic, with numbers at powers of ten */
-    bool whole;        /* ticks are at whole numbers only */
+    bool is_log;       /* is logarithmic, with numbers at powers of ten */
+    bool is_whole;     /* ticks are at whole numbers only */
     const char *label; /* markup: x right below the axis, y at the top right */
 } Axis;
 
@@ -30,10 +30,10 @@ typedef struct Plot {
     bool revealed;                /* a page shows its answer */
     Box box;                      /* pixels, without the numbers of the axes */
     Camera camera;                /* maps logarithms on a logarithmic axis */
-    Axis x, y;        /* low = high = 0: no axes, and the unit is metres */
-    bool has_text;    /* words are drawn */
-    double em;        /* pixels */
-    int legend_at[2]; /* pixels, place of the legend's next words */
+    Axis x, y;           /* low = high = 0: no axes, and the unit is metres */
+    bool has_text;       /* words are drawn */
+    double em;           /* pixels */
+    int legend_pixel[2]; /* pixels, place of the legend's next words */
 } Plot;
 
 /* Makes the plot of a box in metres.  paper NULL: the plot only computes
@@ -61,7 +61,7 @@ static inline int plot_pane_index(const Plot *plot)
 /* A point or vector as the value of a function:
  * plot_line(plot, a, point_along(a, t, d).at, ...). */
 typedef struct Point {
-    double at[2];
+    double xy[2];
 } Point;
 
 /* Returns a + t d. */
@@ -183,11 +183,11 @@ void plot_label(const Plot *plot, int points, const double *at, Colour colour,
 
 /* A number as markup: 100000, 0.003, or 2.5 10^{7}.  format_number writes three
  * digits. */
-typedef struct Number {
+typedef struct NumberText {
     char text[48];
-} Number;
-Number format_digits(double value, int digits);
-Number format_number(double value);
+} NumberText;
+NumberText format_digits(double value, int digits);
+NumberText format_number(double value);
 
 /* ---- stages (frame_content.c) ------------------------------------------- */
 

@@ -32,8 +32,8 @@ void race_draw(Plot *stage)
     bool wide = stage->has_text && stage->box.width > NAMES_WIDTH * stage->em;
     Plot plot = plot_create_on_stage(
         stage,
-        (Axis){.log = true, .label = over_h ? "h in s" : "run time in s"},
-        (Axis){.log = true});
+        (Axis){.is_log = true, .label = over_h ? "h in s" : "run time in s"},
+        (Axis){.is_log = true});
     const double at[2][2] = {{plot.x.low, TARGET_ERROR},
                              {plot.x.high, TARGET_ERROR}};
     if (!over_h)

@@ -54,8 +54,8 @@ static void draw_coil(Plot *stage, const double *x, Colour colour)
         bool straight = i == 1 || i >= 2 * SPRING_COILS - 1;
         double side = straight ? 0 : (i % 2 ? 0.06 : -0.06) / length;
         const Point on = point_along(origin, (double)i / (2 * SPRING_COILS), x);
-        const Point to = point_along(on.at, side, across.at);
-        plot_line(stage, from.at, to.at, 2.4, colour);
+        const Point to = point_along(on.xy, side, across.xy);
+        plot_line(stage, from.xy, to.xy, 2.4, colour);
         from = to;
     }
 }
@@ -90,7 +90,7 @@ void spring_draw(Plot *stage)
     if (!modes && spring.length > 0) {
         const double across[2] = {-x[1], x[0]};
         const Point from = point_along(x, SPRING_GAP / spring.length, across);
-        plot_arrow(stage, from.at, spring.force, SPRING_ARROW, 3.2,
+        plot_arrow(stage, from.xy, spring.force, SPRING_ARROW, 3.2,
                    COLOUR_FORCE);
     }
     plot_disc(stage, x, 9, COLOUR_X);
@@ -111,8 +111,8 @@ static void add_central_differences(const Simulation *simulation,
     double force[2];
     for (int i = 0; i < 2; i++) {
         const SpringValues at[2] = {
-            evaluate_spring(point_along(d, -step, unit[i]).at, system),
-            evaluate_spring(point_along(d, step, unit[i]).at, system)};
+            evaluate_spring(point_along(d, -step, unit[i]).xy, system),
+            evaluate_spring(point_along(d, step, unit[i]).xy, system)};
         force[i] = (at[0].energy - at[1].energy) / (2 * step);
         for (int k = 0; k <= i; k++)
             values_add(values, names[i + k],

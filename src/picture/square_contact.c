@@ -56,7 +56,7 @@ static void draw_contact_term(const SquarePen *pen, bool between_bodies,
         return;
     for (ElementIterator walk = elements_begin(&at, NULL, 0);
          elements_next(&walk);) {
-        double f[2], radius = fmax(pen->radius, 2);
+        double f[2], radius = fmax(pen->node_radius, 2);
         double slip =
             compute_contact_force(pen, &at, friction, &walk.element, f);
         const double *x = pen->x + 2 * walk.element.node[0];
@@ -65,7 +65,7 @@ static void draw_contact_term(const SquarePen *pen, bool between_bodies,
         if (factor == 0)
             continue;
         if (size > MIN_FORCE * *most)
-            plot_arrow(pen->stage, point_along(x, -factor, f).at, f, factor,
+            plot_arrow(pen->stage, point_along(x, -factor, f).xy, f, factor,
                        1.8, COLOUR_FORCE);
         if (slip >= 1)
             plot_ring(pen->stage, x, 1.6 * radius, 1.5, COLOUR_FORCE);
@@ -136,20 +136,20 @@ static void draw_wall(const Plot *stage, const Obstacle *wall, double reach,
     double at = (middle[0] - o[0]) * n[1] - (middle[1] - o[1]) * n[0];
     const Point left = point_along(o, at - far, t),
                 right = point_along(o, at + far, t);
-    const Point low[2] = {point_along(left.at, -deep, n),
-                          point_along(right.at, -deep, n)};
-    const double *const corner[] = {left.at, right.at, low[1].at, low[0].at};
+    const Point low[2] = {point_along(left.xy, -deep, n),
+                          point_along(right.xy, -deep, n)};
+    const double *const corner[] = {left.xy, right.xy, low[1].xy, low[0].xy};
     plot_quad(stage, corner, COLOUR_SOLID);
-    plot_line(stage, left.at, right.at, 1.5, COLOUR_EDGE);
+    plot_line(stage, left.xy, right.xy, 1.5, COLOUR_EDGE);
     const Point aside = point_along(
-        point_along(o, at + 0.35 * box->width / scale, t).at, reach, n);
-    plot_to_pixel(stage, aside.at, middle);
+        point_along(o, at + 0.35 * box->width / scale, t).xy, reach, n);
+    plot_to_pixel(stage, aside.xy, middle);
     if (reach * scale > 2)
-        plot_dashes(stage, point_along(left.at, reach, n).at,
-                    point_along(right.at, reach, n).at, 1, NULL, COLOUR_GREY);
+        plot_dashes(stage, point_along(left.xy, reach, n).xy,
+                    point_along(right.xy, reach, n).xy, 1, NULL, COLOUR_GREY);
     if (reach * scale > 2 * stage->em && stage->content->lecture.page &&
         box_contains(*box, middle[0], middle[1]))
-        plot_label(stage, 1, aside.at, COLOUR_FAINT, "\u03b4\u0302");
+        plot_label(stage, 1, aside.xy, COLOUR_FAINT, "\u03b4\u0302");
 }
 
 void square_draw_obstacles(const SquarePen *pen)

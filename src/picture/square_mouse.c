@@ -81,12 +81,12 @@ static void draw_note(const Plot *stage, const LiveValues *values,
     double wide = NOTE_WIDTH * paper->em;
     int margin = paper_pixels(paper, 0.7), high = 2 * margin;
     for (TextLine line = text_begin(values, text); text_next_line(&line);) {
-        wide = fmax(wide, paper_width(paper, line.face, size, line.words));
+        wide = fmax(wide, paper_width(paper, line.face, size, line.text));
         high += paper_write_paragraph(paper, line.face, size, line.colour, *box,
-                                      0, line.words);
+                                      0, line.text);
         high += paper_pixels(paper, 0.2 * size);
     }
-    plot_to_pixel(stage, stage->content->view->hover.point, mouse);
+    plot_to_pixel(stage, stage->content->view->hovered.point, mouse);
     box->width = (int)wide + 2 * margin;
     box->height = high;
     box->x += mouse[0] > middle ? 0 : stage->box.width - box->width;
@@ -168,7 +168,7 @@ static void note_spring(Plot *stage, const Pane *pane, int s)
 void square_hover(Plot *stage)
 {
     const Pane *pane = stage->pane;
-    const Pick *hover = &stage->content->view->hover;
+    const Pick *hover = &stage->content->view->hovered;
     const System *system = &pane->simulation->system;
     if (hover->kind == PICK_NODE && hover->index < system->nodes)
         note_node(stage, pane, hover->index);

@@ -69,21 +69,21 @@ SquarePen square_pen_create(Plot *stage, int run)
             pen.fixed_bodies &= ~(1u << square_mesh_locate_body(mesh, &node));
     }
     pen.width = fmax(fmin(fmax(0.06 * pen.spacing / unit, 1.1), 1.9), 1 / unit);
-    pen.radius = NODE_RADIUS * pen.spacing / unit;
-    if (!content->bare)
-        pen.radius = fmin(pen.radius, 6.5);
-    pen.shows_plastic = !content->shows_strain && !content->bare && pen.ep;
+    pen.node_radius = NODE_RADIUS * pen.spacing / unit;
+    if (!content->is_bare)
+        pen.node_radius = fmin(pen.node_radius, 6.5);
+    pen.shows_plastic = !content->shows_strain && !content->is_bare && pen.ep;
     if (pen.shows_plastic || content->shows_strain)
         pen.colour_range = pen.shows_plastic
                                ? find_strain_range(simulation, pen.ep)
                                : pen.shade_strain;
     if (pen.colour_range > 0)
         pen.width *= 1.4;
-    bool ended = trace && trace->line == LINE_NONE && stage->revealed &&
+    bool ended = trace && trace->at_line == LINE_NONE && stage->revealed &&
                  frame_has_card(content, "prints");
     pen.shows_projected = trace &&
-                          (ended || (trace->line >= LINE_PROJECT &&
-                                     trace->line <= LINE_SEARCH)) &&
+                          (ended || (trace->at_line >= LINE_PROJECT &&
+                                     trace->at_line <= LINE_SEARCH)) &&
                           !content->shows_strain &&
                           simulation->options.projection != PROJECTION_NONE &&
                           trace->projected != 0 && !neo_hookean_of(system);
@@ -258,7 +258,7 @@ void square_draw_faces(const SquarePen *pen)
 void square_draw_nodes(const SquarePen *pen)
 {
     const System *system = pen->system;
-    double radius = pen->radius;
+    double radius = pen->node_radius;
     Colour colour = pen->colour_range > 0 ? COLOUR_FAINT : COLOUR_X;
     if (pen->colour_range > 0) /* larger nodes would hide the colours */
         radius *= 0.75;

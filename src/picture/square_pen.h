@@ -14,7 +14,7 @@ typedef struct SquarePen {
     double spacing;         /* pixels between two nodes at rest, or more if the
                                nodes have flown apart */
     double width;           /* width of a spring */
-    double radius;          /* radius of a node */
+    double node_radius;     /* radius of a node */
     double shade_strain;    /* strain of the lightest shade of faces */
     double colour_range;    /* strain of the end colours; 0: no colours */
     bool shows_plastic;     /* colours show plastic strain */

@@ -57,10 +57,10 @@ static Extent find_first_view(const FrameContent *content,
     double stretch = options->bodies > 0 ? 1 : fmin(fabs(options->stretch), 2);
     double extent = stretch < 1 ? 1 + 1.5 * (1 - stretch) : stretch;
     double half = 0.5 * simulation->mesh.side *
-                  (content->bare ? BARE_VIEW_SIZE : VIEW_SIZE);
-    Extent first = {
-        {0, 0},
-        {half * extent, half * (content->bare ? extent : fmin(extent, 1.25))}};
+                  (content->is_bare ? BARE_VIEW_SIZE : VIEW_SIZE);
+    Extent first = {{0, 0},
+                    {half * extent,
+                     half * (content->is_bare ? extent : fmin(extent, 1.25))}};
     for (int k = 0; k < 2 && scene_sets_view(simulation); k++) {
         first.middle[k] = 0.5 * (view[2 + k] + view[k]);
         first.half_size[k] = 0.5 * (view[2 + k] - view[k]);
@@ -119,10 +119,10 @@ static void widen_to_obstacles(const Plot *stage, Extent *view)
     const Simulation *simulation = stage->simulation;
     const Options *options = &simulation->options;
     const Contact *contact = contact_of(&simulation->system);
-    const HeldByHand *hand = &stage->content->hand;
+    const HeldByHand *hand = &stage->content->held;
     const Extent seen = find_seen_extent(stage, view);
     double air = 0.04 * fmin(view->half_size[0], view->half_size[1]);
-    if (hand->on && !stage->content->view->held.on)
+    if (hand->is_held && !stage->content->view->held_bounds.is_held)
         widen_to_circle(&seen, hand->target, air, PULL_REACH, view);
     for (int k = 0; contact && k < options->grounds + options->balls; k++) {
         const Obstacle *obstacle = &contact->obstacle[k];
@@ -133,7 +133,7 @@ static void widen_to_obstacles(const Plot *stage, Extent *view)
             widen_to_circle(&seen, obstacle->o, obstacle->radius + air,
                             held ? INFINITY : BALL_REACH, view);
         else
-            widen_to_circle(&seen, foot.at, 3 * air,
+            widen_to_circle(&seen, foot.xy, 3 * air,
                             held ? INFINITY : GROUND_REACH, view);
     }
 }
@@ -200,7 +200,7 @@ void square_bounds(const Plot *stage, double bounds[4])
 {
     static const double GROWTH = 1.5;
     const Simulation *simulation = stage->simulation;
-    bool bare = stage->content->bare;
+    bool bare = stage->content->is_bare;
     Extent view = find_first_view(stage->content, simulation);
     double box[4], tall, grown = 1;
     pane_node_bounds(stage->pane, simulation->runs, box);
@@ -242,8 +242,8 @@ static void draw_direction(const SquarePen *pen)
     double most = 0.5 * fmin(stage->box.width, stage->box.height);
     double least = fmin(MIN_ARROW * stage->em, 0.1 * most);
     int apart = (int)ceil(ARROW_SPACING * stage->paper->unit / pen->spacing);
-    if (!trace || !trace->p || trace->line < LINE_SOLVE ||
-        trace->line > LINE_SEARCH)
+    if (!trace || !trace->p || trace->at_line < LINE_SOLVE ||
+        trace->at_line > LINE_SEARCH)
         return;
     for (int i = 0; i < pen->system->nodes; i++) {
         double length = vector_length(trace->p + 2 * i) * scale;
@@ -271,17 +271,17 @@ static void mark_under_mouse(const SquarePen *pen)
     const Plot *stage = pen->stage;
     const FrameContent *content = stage->content;
     const System *system = pen->system;
-    const HeldByHand *hand = &content->hand;
-    bool holds = hand->on && stage->pane == active_pane(content);
-    const Pick *hover = &content->view->hover;
+    const HeldByHand *hand = &content->held;
+    bool holds = hand->is_held && stage->pane == active_pane(content);
+    const Pick *hover = &content->view->hovered;
     bool over = hover->pane == plot_pane_index(stage);
     bool writes = pen->simulation->options.next == NEXT_SPRING;
     int lit = hover->kind == PICK_SPRING ? hover->index
               : writes                   ? find_newest_spring(pen->simulation)
                                          : -1;
     if (over && hover->kind == PICK_NODE && hover->index < system->nodes)
-        plot_ring(stage, pen->x + 2 * (size_t)hover->index, pen->radius + 4, 2,
-                  COLOUR_TEXT);
+        plot_ring(stage, pen->x + 2 * (size_t)hover->index,
+                  pen->node_radius + 4, 2, COLOUR_TEXT);
     if (over && lit >= 0 && lit < system->springs)
         square_draw_spring(pen, lit, 4.5,
                            writes ? COLOUR_PROJECT : COLOUR_TEXT);
@@ -296,7 +296,7 @@ static void mark_under_mouse(const SquarePen *pen)
         from = pen->contact->obstacle[hand->obstacle].o;
     if (holds && hand->node >= 0) {
         from = pen->x + 2 * (size_t)hand->node;
-        plot_ring(stage, from, pen->radius + 4, 2, COLOUR_HAND);
+        plot_ring(stage, from, pen->node_radius + 4, 2, COLOUR_HAND);
     }
     if (from) {
         plot_dashes(stage, from, hand->target, 2, NULL, COLOUR_HAND);
@@ -320,13 +320,13 @@ static int draw_below_springs(const SquarePen *pen)
     }
     int folded = square_fill_cells(
         pen, pen->contact || system_term_data(pen->system, &fracture));
-    if (pane->ghost) {
-        square_draw_ghost(pen, pane->ghost, COLOUR_GHOST);
+    if (pane->ghost_x) {
+        square_draw_ghost(pen, pane->ghost_x, COLOUR_GHOST);
         plot_legend(pen->stage, COLOUR_GHOST, "ghost: %.*s",
                     (int)strcspn(pane->ghost_label, ":"), pane->ghost_label);
     }
     size_t bytes = 2 * (size_t)pen->system->nodes * sizeof *pen->x;
-    if (trace && trace->x_tilde && trace->line &&
+    if (trace && trace->x_tilde && trace->at_line &&
         memcmp(trace->x_tilde, pen->x, bytes) != 0) {
         square_draw_ghost(pen, trace->x_tilde, COLOUR_X_TILDE);
         plot_legend(pen->stage, COLOUR_X_TILDE, "{xt}, inertia alone");
@@ -476,7 +476,7 @@ static void draw_mean_velocity(const SquarePen *pen)
     }
     const Point tip = point_along(x, VELOCITY_TIME, v);
     plot_arrow(pen->stage, x, v, VELOCITY_TIME, 4, COLOUR_VELOCITY);
-    plot_label(pen->stage, 1, tip.at, COLOUR_VELOCITY, "%s m/s",
+    plot_label(pen->stage, 1, tip.xy, COLOUR_VELOCITY, "%s m/s",
                format_digits(vector_length(v), 2).text);
     plot_legend(pen->stage, COLOUR_VELOCITY, "velocity of the centre of mass");
 }
@@ -523,7 +523,7 @@ static void draw_magnifier(const SquarePen *pen)
     }
     double reach = 1.2 * gap.d_hat;
     for (int c = 0; c < 4; c++)
-        bounds[c] = 0.5 * (gap.foot[c % 2] + gap.node[c % 2]) +
+        bounds[c] = 0.5 * (gap.nearest[c % 2] + gap.node[c % 2]) +
                     (c < 2 ? -reach : reach);
     plot_ring(pen->stage, gap.node, 7, 1.5, COLOUR_P);
     canvas_framed_box(canvas, lens.box, COLOUR_WHITE, COLOUR_P);
@@ -532,10 +532,10 @@ static void draw_magnifier(const SquarePen *pen)
     SquarePen near = square_pen_create(&lens, 0);
     square_fill_cells(&near, true);
     square_draw_obstacles(&near);
-    near.radius = 4;
+    near.node_radius = 4;
     square_draw_springs(&near);
     square_draw_nodes(&near);
-    plot_line(&lens, gap.foot, gap.node, 3, COLOUR_P);
+    plot_line(&lens, gap.nearest, gap.node, 3, COLOUR_P);
     snprintf(words, sizeof words, "\u03b4 = %s mm",
              format_number(1e3 * gap.d).text);
     paper_write_on_panel(lens.paper, FACE_BOLD, 1, COLOUR_P,
@@ -560,11 +560,11 @@ static void draw_slid_distances(const Plot *stage)
     }
     const double to[2] = {from[0] + gone[1], from[1]}, up[2] = {0, ABOVE};
     for (int i = 0; i < 2; i++)
-        plot_dashes(stage, point_along(i ? to : from, -3, up).at,
-                    point_along(i ? to : from, 2, up).at, 1.4, NULL,
+        plot_dashes(stage, point_along(i ? to : from, -3, up).xy,
+                    point_along(i ? to : from, 2, up).xy, 1.4, NULL,
                     COLOUR_TEXT);
     plot_arrow(stage, from, (double[2]){gone[0], 0}, 1, 2, COLOUR_P);
-    plot_label(stage, 1, point_along(to, 2, up).at, COLOUR_P, "gone %s m",
+    plot_label(stage, 1, point_along(to, 2, up).xy, COLOUR_P, "gone %s m",
                format_number(gone[0]).text);
 }
 
@@ -583,12 +583,12 @@ void square_draw(Plot *stage)
         square_draw_obstacles(&pen[r]);
     }
     for (int r = 1; r < runs; r++) {
-        if (!content->bare)
+        if (!content->is_bare)
             square_fill_cells(&pen[r], true);
         square_draw_springs(&pen[r]);
         square_draw_nodes(&pen[r]);
     }
-    if (!content->bare)
+    if (!content->is_bare)
         folded = draw_below_springs(pen);
     bool cuts = layers & LAYER_CUTS,
          solid = cuts && content->lecture.hides_answer;
@@ -604,7 +604,7 @@ void square_draw(Plot *stage)
         square_draw_faces(pen);
     if (!solid)
         square_draw_nodes(pen);
-    if (content->bare)
+    if (content->is_bare)
         return;
     square_draw_forces(pen, runs);
     for (int r = 0; r < runs && runs > 1; r++)

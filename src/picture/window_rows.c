@@ -1,4 +1,4 @@
-/* window_rows.c - the strip, the settings, the time line and the chips. */
+/* window_rows.c - the title bar, the settings, the time line and the chips. */
 #include "picture/cards.h"
 
 #include <math.h>
@@ -25,26 +25,25 @@ static void draw_zone_ground(Paper *paper, Box zone, bool rule_below)
 }
 
 /* Draws topic and sentence from the left, method and state from the right.  A
- * message stands in the place of the sentence.  If the strip is low and both do
+ * message stands in the place of the sentence.  If the bar is low and both do
  * not fit, the message also takes the place of the topic. */
-static void draw_strip(Paper *paper, Box room, const Strip *strip)
+static void draw_title_bar(Paper *paper, Box room, const TitleBar *bar)
 {
     double em = paper->em;
-    bool low = room.height <= 2.6 * em, message = strip->message[0];
-    const char *said = message ? strip->message : strip->sentence;
-    const char *title = strip->topic ? strip->topic : "";
-    Colour colour = !message            ? COLOUR_TEXT
-                    : strip->is_warning ? COLOUR_WARNING
-                                        : COLOUR_VALUE;
+    bool low = room.height <= 2.6 * em, message = bar->message[0];
+    const char *said = message ? bar->message : bar->sentence;
+    const char *title = bar->topic ? bar->topic : "";
+    Colour colour = !message          ? COLOUR_TEXT
+                    : bar->is_warning ? COLOUR_WARNING
+                                      : COLOUR_VALUE;
     char words[2 * SENTENCE_SIZE];
     draw_zone_ground(paper, room, true);
     box_cut_off(&room, EDGE_LEFT, (int)(0.9 * em));
     room.width -= (int)(0.9 * em);
-    snprintf(words, sizeof words, "%s%s%s", strip->method,
-             strip->method[0] && strip->state[0] ? " \u00b7 " : "",
-             strip->state);
+    snprintf(words, sizeof words, "%s%s%s", bar->method,
+             bar->method[0] && bar->state[0] ? " \u00b7 " : "", bar->state);
     if (paper_width(paper, FACE_REGULAR, 1, words) > 0.45 * room.width)
-        snprintf(words, sizeof words, "%s", strip->state);
+        snprintf(words, sizeof words, "%s", bar->state);
     room.width -= paper_write_in_box(paper, FACE_REGULAR, 1, COLOUR_FAINT, room,
                                      ALIGN_RIGHT, words);
     room.width -= (int)(1.4 * em);
@@ -69,7 +68,7 @@ static void draw_setting(Paper *paper, Box box, const Setting *setting,
                          bool selected, bool over)
 {
     double em = paper->em, below = floor(box.y + 0.5 * box.height + 0.6 * em);
-    Colour colour = setting->off ? COLOUR_GREY : COLOUR_VALUE;
+    Colour colour = setting->is_off ? COLOUR_GREY : COLOUR_VALUE;
     char value[VALUE_SIZE + 64], *rest;
     double number = strtod(setting->value, &rest);
     const char *power = strchr(setting->value, 'e');
@@ -87,9 +86,9 @@ static void draw_setting(Paper *paper, Box box, const Setting *setting,
                                    box, ALIGN_LEFT, setting->name);
     box_cut_off(&box, EDGE_LEFT, (int)(0.5 * em + width));
     box.width += (int)(0.8 * em); /* the value may reach into the gap */
-    width =
-        paper_write_in_box(paper, setting->changed ? FACE_BOLD : FACE_REGULAR,
-                           TEXT_SIZE, colour, box, ALIGN_LEFT, value);
+    width = paper_write_in_box(paper,
+                               setting->is_changed ? FACE_BOLD : FACE_REGULAR,
+                               TEXT_SIZE, colour, box, ALIGN_LEFT, value);
     canvas_dashes(&paper->canvas, (double[2]){box.x, below + 0.5},
                   (double[2]){box.x + width, below + 0.5}, fmax(1, paper->unit),
                   paper->unit, NULL, colour);
@@ -110,11 +109,11 @@ static void draw_bars(Paper *paper, Box bars, double pitch,
     long group = (long)ceil(MIN_BAR / pitch), most = FULL_BAR_UPDATES;
     int gap = (int)fmax(1, 0.14 * pitch), least = (int)(0.08 * bars.height) + 1;
     for (long s = 1; s <= line->steps; s++)
-        most = (long)fmax(most, line->bar(line->bar_data, s).updates);
+        most = (long)fmax(most, line->get_bar(line->bar_data, s).updates);
     for (long s = 0; s < line->steps; s += group) {
         StepBar bar = {0, false};
         for (long k = s; k < s + group && k < line->steps; k++) {
-            StepBar one = line->bar(line->bar_data, k + 1);
+            StepBar one = line->get_bar(line->bar_data, k + 1);
             bar.updates = (int)fmax(bar.updates, one.updates);
             bar.unconverged |= one.unconverged;
         }
@@ -145,18 +144,18 @@ static void draw_time_line(Paper *paper, const Layout *layout,
     if (zone.width <= 0)
         return;
     draw_zone_ground(paper, zone, false);
-    if (line->bar)
+    if (line->get_bar)
         draw_bars(paper, bars, bars.width / room, line);
     canvas_line(&paper->canvas, x, top, x, bars.y + bars.height + 0.2 * em,
                 2 * paper->unit, COLOUR_TEXT);
     canvas_disc(&paper->canvas, x, top, (words ? 7 : 5) * paper->unit,
                 COLOUR_TEXT);
-    int width = paper_width(paper, FACE_REGULAR, TEXT_SIZE, line->text);
+    int width = paper_width(paper, FACE_REGULAR, TEXT_SIZE, line->label);
     if (at + width > zone.x + zone.width - 0.9 * em)
         at = fmax(x - 1.1 * em - width, zone.x + 0.4 * em);
     if (words)
         paper_write(paper, FACE_REGULAR, TEXT_SIZE, COLOUR_TEXT, at,
-                    top - 0.62 * em, ALIGN_LEFT, "%s", line->text);
+                    top - 0.62 * em, ALIGN_LEFT, "%s", line->label);
 }
 
 /* ---- chips --------------------------------------------------------------- */
@@ -165,10 +164,10 @@ static void draw_chips(Paper *paper, const Layout *layout,
                        const FrameContent *content)
 {
     const double gap = 0.5 * paper->em, size = 0.92;
-    const Hit *mouse = &content->view->mouse;
+    const WindowHit *mouse = &content->view->mouse_hit;
     draw_zone_ground(paper, layout->chip_row, false);
     for (int i = 0; i < layout->chips; i++) {
-        const Chip *chip = &content->chips.item[i];
+        const Chip *chip = &content->chips.chip[i];
         Box box = layout->chip[i];
         bool all = layout->chips_left_out > 0 && i == layout->chips - 1;
         bool over = mouse->zone == ZONE_CHIP && mouse->index == i;
@@ -176,9 +175,9 @@ static void draw_chips(Paper *paper, const Layout *layout,
         int key = paper_width(paper, FACE_BOLD, size, chip->key);
         int width = key + paper_width(paper, FACE_REGULAR, size, label);
         canvas_framed_box(&paper->canvas, box,
-                          chip->lit ? COLOUR_LIT
-                          : over    ? COLOUR_WHITE
-                                    : COLOUR_CHIP,
+                          chip->highlighted ? COLOUR_LIT
+                          : over            ? COLOUR_WHITE
+                                            : COLOUR_CHIP,
                           over ? COLOUR_GREY : COLOUR_BORDER);
         box_cut_off(&box, EDGE_LEFT,
                     (int)fmax(0, 0.5 * (box.width - gap - width)));
@@ -193,8 +192,8 @@ static void draw_chips(Paper *paper, const Layout *layout,
 void window_rows_draw(Paper *paper, const Layout *layout,
                       const FrameContent *content)
 {
-    const Hit *mouse = &content->view->mouse;
-    draw_strip(paper, layout->strip, &content->strip);
+    const WindowHit *mouse = &content->view->mouse_hit;
+    draw_title_bar(paper, layout->title_bar, &content->title_bar);
     draw_zone_ground(paper, layout->settings_row, false);
     for (int i = 0; i < layout->settings; i++)
         if (layout->setting[i].width > 0)

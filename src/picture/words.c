@@ -28,9 +28,9 @@ static const Colour INK = 190; /* a pixel with a channel below this is ink */
 
 /* ---- numbers ------------------------------------------------------------ */
 
-Number format_digits(double value, int digits)
+NumberText format_digits(double value, int digits)
 {
-    Number out;
+    NumberText out;
     size_t size = sizeof out.text;
     char plain[26];
     const char *sign = value < 0 ? "\u2212" : "";
@@ -53,7 +53,7 @@ Number format_digits(double value, int digits)
     return out;
 }
 
-Number format_number(double value)
+NumberText format_number(double value)
 {
     return format_digits(value, 3);
 }
@@ -86,12 +86,12 @@ void plot_legend(Plot *plot, Colour colour, const char *format, ...)
     double em = plot->paper->em;
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(line.words, sizeof line.words, format, arguments);
+    vsnprintf(line.text, sizeof line.text, format, arguments);
     va_end(arguments);
     room.box.x += (int)(0.9 * em);
     room.box.y += (int)(0.6 * em);
     room.box.width -= (int)(1.8 * em);
-    card_write_flow(&room, plot->legend_at, LEGEND_SIZE, 1.6, &line, true);
+    card_write_flow(&room, plot->legend_pixel, LEGEND_SIZE, 1.6, &line, true);
 }
 
 /* ---- labels -------------------------------------------------------------- */
@@ -109,7 +109,7 @@ double plot_label_cost(const Plot *plot, Box place)
                    (pixel >> 16 & 255) < INK;
         }
     for (int i = 0; i < plot->paper->word_count && i < PAPER_WORDS; i++) {
-        Box both = box_intersection(seen, plot->paper->words[i]);
+        Box both = box_intersection(seen, plot->paper->word_boxes[i]);
         ink += both.width > 0 ? (double)both.width * both.height : 0;
     }
     return (COST_INK * ink - COST_OUTSIDE * seen.width * seen.height) / area +

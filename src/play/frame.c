@@ -67,7 +67,7 @@ static void fill_help(FrameContent *content)
 static void fill_settings(const Player *player, Frame *frame)
 {
     FrameContent *content = &frame->content;
-    const Hit *mouse = &player->screen.view.mouse;
+    const WindowHit *mouse = &player->screen.view.mouse_hit;
     const Options shown = player_shown_options(player), *options = &shown;
     const OptionRow *all[OPTIONS_MAX_ROWS];
     content->settings.selected = -1;
@@ -78,20 +78,20 @@ static void fill_settings(const Player *player, Frame *frame)
         Setting *setting = &content->settings.item[content->settings.count++];
         char now[COMMAND_TEXT_SIZE], start[COMMAND_TEXT_SIZE];
         setting->name = option_label(row);
-        setting->letters = row->display.letters;
+        setting->min_letters = row->display.letters;
         player_format_value(row, options, player_simulation(player),
                             setting->value, VALUE_SIZE);
         option_write_short(row, options, now, sizeof now);
         option_write_short(
             row, &past_start_control(&player->past, player->active)->options,
             start, sizeof start);
-        setting->changed = strcmp(now, start) != 0;
+        setting->is_changed = strcmp(now, start) != 0;
         const char *idle = player_idle_reason(player, row);
-        setting->off = strcmp(setting->value, "none") == 0 || idle;
+        setting->is_off = strcmp(setting->value, "none") == 0 || idle;
         bool is_explained =
             over ? i == mouse->index : row == player->hands.selected;
         if (is_explained && (idle || row->help[0]))
-            snprintf(content->strip.sentence, SENTENCE_SIZE, "%s: %s",
+            snprintf(content->title_bar.sentence, SENTENCE_SIZE, "%s: %s",
                      row->name, idle ? idle : row->help);
         if (row == player->hands.selected)
             content->settings.selected = i;
@@ -119,7 +119,7 @@ static void fill_options(const Player *player, FrameContent *content)
         snprintf(row->text, SENTENCE_SIZE, "%s %s%s%s", all[i]->name, value,
                  idle || all[i]->help[0] ? ": " : "",
                  idle ? idle : all[i]->help);
-        row->grey = idle != NULL;
+        row->is_grey = idle != NULL;
     }
 }
 
@@ -141,7 +141,7 @@ static void add_chip(Frame *frame, CommandKind kind, int state, bool lit)
     snprintf(key, VALUE_SIZE, "%.*s", (int)strcspn(row->keys, "|"), row->keys);
     shorten_key(key);
     frame->chip_command[i] = kind;
-    frame->content.chips.item[frame->content.chips.count++] =
+    frame->content.chips.chip[frame->content.chips.count++] =
         (Chip){key, text, lit};
 }
 
@@ -254,7 +254,7 @@ static void fill_pane(const Player *player, int p, Frame *frame)
     player_label(player, p, frame->label[p]);
     *pane = (Pane){.simulation = simulation,
                    .history = &frame->history[p],
-                   .ghost = view->ghost,
+                   .ghost_x = view->ghost,
                    .ghost_label = view->ghost_label,
                    .failure = run->outcome.status};
     if (past_panes(&player->past) > 1)
@@ -269,7 +269,7 @@ static void fill_pane(const Player *player, int p, Frame *frame)
 static StepBar find_step_bar(const void *shown, long step)
 {
     const Player *player = shown;
-    const Outcome *outcome =
+    const StepOutcome *outcome =
         &past_entry(&player->past, player->active, step)->outcome;
     return (StepBar){outcome->updates, status_is_unconverged(outcome->status)};
 }
@@ -280,7 +280,7 @@ static void fill_time(const Player *player, FrameContent *content)
 {
     const Past *past = &player->past;
     const char *turn = player_simulation(player)->scene->step_name;
-    char *text = content->time_line.text;
+    char *text = content->time_line.label;
     double time = 0, longest = -1; /* s, time of the pane with the longest h */
     for (int p = 0; p < past_panes(past); p++) {
         const Simulation *now = &past->pane[p].simulation;
@@ -306,15 +306,15 @@ static void fill_time(const Player *player, FrameContent *content)
                player->time.log_speed < 0 ? "   slowed %.4g times"
                                           : "   %.4g steps a frame",
                ldexp(1, abs(player->time.log_speed)));
-    snprintf(content->strip.state, VALUE_SIZE, "%s",
+    snprintf(content->title_bar.state, VALUE_SIZE, "%s",
              player->time.mode == MODE_REST ? "at rest" : "");
     if (!past_makes(past) ||
         (clock_now() - player->time.work_start <= LONG_WORK &&
          !player_is_slow(player)))
         return;
-    snprintf(content->strip.sentence, SENTENCE_SIZE,
+    snprintf(content->title_bar.sentence, SENTENCE_SIZE,
              "a long step: Esc stops it, at the last whole one");
-    snprintf(content->strip.state, VALUE_SIZE, "computing, update %d",
+    snprintf(content->title_bar.state, VALUE_SIZE, "computing, update %d",
              player_active_run(player)->outcome.updates);
 }
 
@@ -356,7 +356,7 @@ static void fill_own_options(const Player *player, LectureContent *lecture)
         before = ", ";
     }
     if (is_changed)
-        snprintf(lecture->own, sizeof lecture->own, "%s:", text);
+        snprintf(lecture->own_title, sizeof lecture->own_title, "%s:", text);
 }
 
 static void fill_frame(const Player *player, Frame *frame)
@@ -375,7 +375,7 @@ static void fill_frame(const Player *player, Frame *frame)
     content->panes = past_panes(past);
     if (content->panes > LAYOUT_PANES) /* scripts can have more panes */
         content->panes = LAYOUT_PANES;
-    content->active = active < content->panes ? active : 0;
+    content->active_pane = active < content->panes ? active : 0;
     for (int i = 0; i < content->panes; i++)
         fill_pane(player, i, frame);
     fill_time(player, content);
@@ -383,37 +383,37 @@ static void fill_frame(const Player *player, Frame *frame)
     fill_chips(player, frame);
     const Control *control = past_control(past, active);
     if (control_hand_holds(control) && player->view_of_pane[active].place < 0)
-        content->hand = (HeldByHand){true,
+        content->held = (HeldByHand){true,
                                      control->held_node,
                                      control->held_obstacle,
                                      {control->target[0], control->target[1]}};
     content->time_line.steps = past->stores_states ? past_newest(past) : 0;
-    content->time_line.bar = find_step_bar;
+    content->time_line.get_bar = find_step_bar;
     content->time_line.bar_data = player;
     content->time_line.step = past->step;
-    content->strip.is_warning = player->is_warning;
+    content->title_bar.is_warning = player->is_warning;
     content->cards.enlarged = player->screen.enlarged_card;
     content->shows_strain =
         player->screen.shows_strain !=
         (content->pane[0].simulation->scene->strain_colour_max > 0);
-    content->bare = player->screen.is_bare;
+    content->is_bare = player->screen.is_bare;
     if (player->screen.column == COLUMN_KEYS)
         fill_help(content);
     if (player->screen.column == COLUMN_OPTIONS)
         fill_options(player, content);
-    if (!(player->must_explain && content->strip.sentence[0] &&
+    if (!(player->must_explain && content->title_bar.sentence[0] &&
           !player->hands.is_typing))
-        snprintf(content->strip.message, SENTENCE_SIZE, "%s", player->note);
+        snprintf(content->title_bar.message, SENTENCE_SIZE, "%s", player->note);
     content->lecture.hides_answer = player_hides_answer(player);
     fill_own_options(player, &content->lecture);
     bool judged =
         content->pane[0].simulation->options.page == player->tour.revealed &&
-        player->tour.verdict[0] && !content->lecture.own[0];
+        player->tour.verdict[0] && !content->lecture.own_title[0];
     content->lecture.verdict = judged ? player->tour.verdict : NULL;
     content->lecture.guesses = player->tour.guesses;
     content->lecture.right_guesses = player->tour.right_guesses;
     frame_add_lecture(player->screen.column, player->tour.last_page, content);
-    content->cards.closed ^= player->screen.toggled_cards;
+    content->cards.closed_cards ^= player->screen.toggled_cards;
     if (player->screen.sheet)
         sheet_fill(player, content);
     frame_fill_texts(content);
@@ -426,14 +426,14 @@ static void update_hover(Player *player)
     const Mouse *mouse = &player->hands.mouse;
     const Canvas *canvas = &player->screen.paper.canvas;
     View *view = &player->screen.view;
-    PickKind kind = view->hover.kind;
+    PickKind kind = view->hovered.kind;
     bool body = kind == PICK_NODE || kind == PICK_SPRING ||
                 kind == PICK_OBSTACLE || kind == PICK_EDGE;
     if (!body || !canvas->pixels || !mouse->has_position || mouse->drag ||
-        view->mouse.zone != ZONE_STAGE)
+        view->mouse_hit.zone != ZONE_STAGE)
         return;
     Layout layout = layout_create(content, canvas->width, canvas->height);
-    view->hover = frame_pick(content, &layout, mouse->x, mouse->y);
+    view->hovered = frame_pick(content, &layout, mouse->x, mouse->y);
 }
 
 void player_fill_frame(Player *player)

@@ -18,7 +18,7 @@ static const double WHEEL_ZOOM = 1.15; /* zoom by a notch of the wheel */
 /* The parts of the window and of the scene to which the mouse points. */
 typedef struct MouseTarget {
     Layout layout; /* layout of the last frame */
-    Hit hit;       /* part of the window under the mouse */
+    WindowHit hit; /* part of the window under the mouse */
     int pane;
     double place[2]; /* m, place of the mouse in the scene of this pane */
     Pick pick;       /* part of the scene under the mouse */
@@ -29,22 +29,22 @@ static MouseTarget find_mouse_target(Player *player)
     const Mouse *mouse = &player->hands.mouse;
     const Paper *paper = player_prepare_paper(player);
     const FrameContent *content = &player->screen.frame.content;
-    HeldBounds *held = &player->screen.view.held;
+    HeldBounds *held = &player->screen.view.held_bounds;
     MouseTarget target = {
         .layout = layout_create(content, paper ? paper->canvas.width : 1,
                                 paper ? paper->canvas.height : 1),
         .pane = player->active};
     target.hit = layout_hit(&target.layout, mouse->x, mouse->y);
-    int pane = held->on                        ? held->pane
+    int pane = held->is_held                   ? held->pane
                : target.hit.zone == ZONE_STAGE ? target.hit.index
                                                : target.pane;
     if (pane < past_panes(&player->past)) /* the pane of a drag may be closed */
         target.pane = pane;
-    held->away = false;
+    held->is_away = false;
     Camera camera = camera_of_pane(content, &target.layout, target.pane);
     camera_to_world(&camera, mouse->x, mouse->y, target.place);
     target.pick = frame_pick(content, &target.layout, mouse->x, mouse->y);
-    held->away = target.hit.zone != ZONE_STAGE;
+    held->is_away = target.hit.zone != ZONE_STAGE;
     return target;
 }
 
@@ -189,8 +189,8 @@ static Status press_target(Player *player, const MouseTarget *target)
     const LecturePage *page = player_active_options(player)->page;
     double point[2];
     mouse->item = target->pick.index;
-    player->screen.view.held = frame_hold_bounds(&player->screen.frame.content,
-                                                 &target->layout, target->pane);
+    player->screen.view.held_bounds = frame_hold_bounds(
+        &player->screen.frame.content, &target->layout, target->pane);
     switch (target->pick.kind) {
     case PICK_OBSTACLE:
         mouse->drag = COMMAND_OBSTACLE;
@@ -218,7 +218,7 @@ static Status press_target(Player *player, const MouseTarget *target)
     default:
         if (target->pick.kind !=
             PICK_NODE) /* a click ends the highlight of a spring */
-            player->screen.view.hover.kind = PICK_NONE;
+            player->screen.view.hovered.kind = PICK_NONE;
         mouse->item = target->pick.nearest_node;
         mouse->drag = mouse->item < 0              ? COMMAND_PAN
                       : drag_places_things(player) ? COMMAND_PLACE
@@ -327,17 +327,17 @@ static Status note_hover(Player *player)
     View *view = &player->screen.view;
     MouseTarget target = find_mouse_target(player);
     Pick pick = target.pick;
-    bool same = target.hit.zone == view->mouse.zone &&
-                target.hit.index == view->mouse.index &&
-                pick.kind == view->hover.kind &&
-                pick.index == view->hover.index &&
-                pick.pane == view->hover.pane;
+    bool same = target.hit.zone == view->mouse_hit.zone &&
+                target.hit.index == view->mouse_hit.index &&
+                pick.kind == view->hovered.kind &&
+                pick.index == view->hovered.index &&
+                pick.pane == view->hovered.pane;
     bool idle =
         pick.kind == PICK_NONE && !player->screen.frame.content.lecture.page;
     if (target.hit.zone == ZONE_CELL)
-        view->chosen = target.hit.index;
-    view->mouse = target.hit;
-    view->hover = pick;
+        view->cell = target.hit.index;
+    view->mouse_hit = target.hit;
+    view->hovered = pick;
     player->must_explain = player->must_explain || !same;
     if (!same || !idle)
         player->screen.must_redraw = true;
@@ -400,7 +400,7 @@ static Status press_left_button(Player *player, const MouseTarget *target,
         snprintf(line, sizeof line, "%.7s", key + (key[0] == '>'));
         return key[0] ? choose_list_line(player, line) : STATUS_OK;
     case ZONE_CELL:
-        player->screen.view.chosen = index;
+        player->screen.view.cell = index;
         return obey(player, COMMAND_OPEN, 0);
     case ZONE_STAGE:
         if (target->pane != player->active)
@@ -450,7 +450,7 @@ static Status release_button(Player *player)
     CommandKind drag = mouse->drag;
     int node = mouse->item;
     mouse->drag = COMMAND_NONE;
-    player->screen.view.held.on = false;
+    player->screen.view.held_bounds.is_held = false;
     if (!mouse->has_moved && (drag == COMMAND_GRAB || drag == COMMAND_PLACE) &&
         node < simulation->mesh.nodes)
         player_note(player, "a drag moves node %d, a right click %s it", node,
@@ -545,8 +545,8 @@ Status player_obey_input(Player *player, const Input *input)
     case INPUT_CLOSE:
         return obey(player, COMMAND_QUIT, 0);
     case INPUT_LEAVE:
-        player->screen.view.hover = (Pick){.kind = PICK_NONE};
-        player->screen.view.mouse = (Hit){.zone = ZONE_NONE};
+        player->screen.view.hovered = (Pick){.kind = PICK_NONE};
+        player->screen.view.mouse_hit = (WindowHit){.zone = ZONE_NONE};
         /* fall through */
     case INPUT_REDRAW:
         player->screen.must_redraw = true;

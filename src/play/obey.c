@@ -87,11 +87,11 @@ static void store_own_option(Player *player, const Command *command)
 Status player_obey_queue(Player *player, bool now)
 {
     const Past *past = &player->past;
-    Queue queue = player->commands.queue;
+    CommandQueue queue = player->commands.queue;
     const bool obeys_page = player->tour.obeys_page;
     Status status = STATUS_OK;
     int i = 0;
-    player->commands.queue = (Queue){.count = 0};
+    player->commands.queue = (CommandQueue){.count = 0};
     for (; i < queue.count && !status; i++) {
         const Command *command = &queue.command[i];
         bool pulls = command->kind == COMMAND_RELEASE &&

@@ -198,7 +198,7 @@ void past_fill_history(const Past *past, int pane, History *history)
         stride *= 2;
     history->series = history->count = 0;
     for (long step = 0; step < last + stride; step += stride) {
-        const Sample *sample =
+        const EnergySample *sample =
             find_entry(past, pane, step < last ? step : last)->sample;
         if (sample)
             history_add_point(history, sample->time, sample->rows, sample->row);
@@ -543,7 +543,7 @@ static Status pane_run_end_iteration(Past *past, int pane, Status status)
 {
     PaneRun *run = &past->pane[pane];
     const Simulation *simulation = &run->simulation;
-    Outcome *outcome = &run->outcome;
+    StepOutcome *outcome = &run->outcome;
     if (status == STATUS_RUNNING)
         return status;
     run->is_iterating = false;
@@ -581,7 +581,7 @@ static Status pane_run_iterate(Past *past, int pane)
         return pane_run_end_iteration(past, pane,
                                       simulation_advance(&run->simulation));
     if (run->substeps == 0) {
-        run->outcome = (Outcome){0};
+        run->outcome = (StepOutcome){0};
         pane_run_forget_step(run);
     }
     if (pane_has_ended(from)) {
@@ -743,7 +743,7 @@ Status past_begin_runs(Past *past, const Options *options, int panes,
         control->options = options[p];
         run->start_control = control;
         run->control = control_retain(control);
-        run->outcome = (Outcome){.status = run->simulation.status};
+        run->outcome = (StepOutcome){.status = run->simulation.status};
         step_trace_clear(&run->trace);
     }
     if (status && past->current >= 0)

@@ -136,7 +136,7 @@ static void print_newton(FILE *file, const Simulation *simulation)
 /* Prints by how much the total energy has risen in steps of backward Euler. */
 static void print_gain(FILE *file, const Simulation *simulation)
 {
-    Gain sum = {0};
+    EnergyGain sum = {0};
     for (int r = 0; r < simulation->runs; r++) {
         sum.steps += simulation->ledger[r].gain.steps;
         sum.energy += simulation->ledger[r].gain.energy;

@@ -39,11 +39,11 @@ Status obey_screen(Player *player, const Command *command)
 
 Status obey_column(Player *player, const Command *command)
 {
-    Column column = command->kind == COMMAND_KEYS      ? COLUMN_KEYS
-                    : command->kind == COMMAND_PAGES   ? COLUMN_PAGES
-                    : command->kind == COMMAND_LETTERS ? COLUMN_LETTERS
-                    : command->kind == COMMAND_OPTIONS ? COLUMN_OPTIONS
-                                                       : COLUMN_CODE;
+    ColumnContent column = command->kind == COMMAND_KEYS      ? COLUMN_KEYS
+                           : command->kind == COMMAND_PAGES   ? COLUMN_PAGES
+                           : command->kind == COMMAND_LETTERS ? COLUMN_LETTERS
+                           : command->kind == COMMAND_OPTIONS ? COLUMN_OPTIONS
+                                                              : COLUMN_CODE;
     if (column == COLUMN_CODE && !player_active_options(player)->page)
         return player_refuse(player, "only pages of the lecture have code: "
                                      "Page Down opens them");
@@ -124,7 +124,7 @@ Status obey_card(Player *player, const Command *command)
 {
     int card = (int)command->number;
     player_fill_frame(player);
-    bool closed = player->screen.frame.content.cards.closed >> card & 1;
+    bool closed = player->screen.frame.content.cards.closed_cards >> card & 1;
     if (command->kind == COMMAND_CARD || closed)
         player->screen.toggled_cards ^= 1u << card;
     else
@@ -139,7 +139,7 @@ Status obey_card(Player *player, const Command *command)
 Status obey_choose(Player *player, const Command *command)
 {
     const FrameContent *content = &player->screen.frame.content;
-    int *chosen = &player->screen.view.chosen;
+    int *chosen = &player->screen.view.cell;
     const Paper *paper = player_prepare_paper(player);
     const char *key = command->text;
     bool up = strcmp(key, "Up") == 0, upright = up || strcmp(key, "Down") == 0;

@@ -203,7 +203,7 @@ Status player_tolerate_failure(Player *player, Status status)
 
 void player_enqueue(Player *player, const Command *command)
 {
-    Queue *queue = &player->commands.queue;
+    CommandQueue *queue = &player->commands.queue;
     Command *last = queue->command + (queue->count > 0 ? queue->count - 1 : 0);
     if (queue->count > 0 && command_replaces(command, last))
         *last = *command;

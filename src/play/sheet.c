@@ -48,9 +48,9 @@ Status obey_sheet(Player *player, const Command *command)
     const Scene *scene = scenes; /* scene of cell 1; cell 0 is the tour */
     while (++sheet->cells < LAYOUT_CELLS && scene->name && !scene->only_by_name)
         scene++;
-    player->screen.view.chosen = options->page || options->scene->only_by_name
-                                     ? 0
-                                     : (int)(options->scene - scenes) + 1;
+    player->screen.view.cell = options->page || options->scene->only_by_name
+                                   ? 0
+                                   : (int)(options->scene - scenes) + 1;
     return STATUS_OK;
 }
 
@@ -102,16 +102,17 @@ void sheet_fill(const Player *player, FrameContent *content)
         const Simulation *simulation = &sheet->simulation[i];
         content->sheet.cell[i] =
             (SheetCell){.name = i > 0 ? scene->name : "the guided tour",
-                        .group = i == 1 ? NULL : scene->group,
+                        .heading = i == 1 ? NULL : scene->group,
                         .simulation = simulation->scene ? simulation : NULL};
-        if (i == player->screen.view.chosen)
-            snprintf(content->strip.sentence, SENTENCE_SIZE, "%s: %s",
+        if (i == player->screen.view.cell)
+            snprintf(content->title_bar.sentence, SENTENCE_SIZE, "%s: %s",
                      content->sheet.cell[i].name,
                      i > 0 ? scene->sentence : "the lecture, page by page");
     }
-    content->strip.topic = "Scenes";
-    snprintf(content->strip.method, SENTENCE_SIZE, "arrows, Enter");
-    snprintf(content->strip.state, VALUE_SIZE, "digits: a page of the tour");
+    content->title_bar.topic = "Scenes";
+    snprintf(content->title_bar.method, SENTENCE_SIZE, "arrows, Enter");
+    snprintf(content->title_bar.state, VALUE_SIZE,
+             "digits: a page of the tour");
 }
 
 /* Opens the scene or page of the chosen cell by a command, which scripts can
@@ -119,7 +120,7 @@ void sheet_fill(const Player *player, FrameContent *content)
 Status obey_open(Player *player, const Command *command)
 {
     char line[32] = "page-on";
-    int cell = player->screen.view.chosen;
+    int cell = player->screen.view.cell;
     bool behind = cell == 0 && player_active_options(player)->page;
     if (cell > 0)
         snprintf(line, sizeof line, "scene %s", scenes[cell - 1].name);

@@ -172,7 +172,7 @@ Status player_reveal_answer(Player *player, const char *typed)
     if (typed && (!option_read(&any, 1, typed, &guess) || !isfinite(guess)))
         return player_refuse(player, "a number is wanted: 0.25 or 1/4");
     bool right = fabs(guess - truth) <= 0.02 * fabs(truth);
-    Number number = format_digits(truth, 5);
+    NumberText number = format_digits(truth, 5);
     bool judged = typed && page->answer && !isnan(truth);
     player->tour.revealed = page;
     player->tour.guesses += judged;

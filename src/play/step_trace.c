@@ -185,7 +185,7 @@ void step_trace_add_round(StepTrace *trace, const Newton *newton,
         trace->x_tilde[i] += newton->at.E.x_n[i];
 }
 
-static void append_place(StepTrace *trace, int round, Line line, int trials)
+static void append_place(StepTrace *trace, int round, StepLine line, int trials)
 {
     trace->place[trace->places++] = (TracePlace){round, line, trials};
 }
@@ -225,7 +225,7 @@ void step_trace_end(StepTrace *trace, const Options *options)
 int step_trace_walk(const StepTrace *trace, TimeUnit unit, int place, int way)
 {
     for (int i = place + way; 0 <= i && i < trace->places; i += way) {
-        Line line = trace->place[i].line;
+        StepLine line = trace->place[i].at_line;
         if (unit == UNIT_LINE || line == LINE_START || line == LINE_TEST ||
             line == LINE_END)
             return i;
@@ -233,10 +233,10 @@ int step_trace_walk(const StepTrace *trace, TimeUnit unit, int place, int way)
     return place;
 }
 
-int step_trace_find_place(const StepTrace *trace, int round, Line line)
+int step_trace_find_place(const StepTrace *trace, int round, StepLine line)
 {
     for (int i = trace->places - 1; i >= 0; i--)
-        if (trace->place[i].round == round && trace->place[i].line <= line)
+        if (trace->place[i].round == round && trace->place[i].at_line <= line)
             return i;
     return trace->places - 1;
 }
@@ -265,12 +265,12 @@ static void fill_round_values(const StepTrace *trace, const TracePlace *at,
 {
     const Round *round = &trace->round[at->round];
     const NewtonRecord *record = &trace->records.record[at->round];
-    bool solved = at->line >= LINE_SOLVE;
+    bool solved = at->at_line >= LINE_SOLVE;
     shown->x = round->x;
-    shown->updates = at->round + solved;
+    shown->records = at->round + solved;
     shown->trials = at->trials;
-    shown->accepted = at->trials == record->trials && record->alpha > 0;
-    if (at->line >= LINE_PROJECT)
+    shown->is_accepted = at->trials == record->trials && record->alpha > 0;
+    if (at->at_line >= LINE_PROJECT)
         shown->projected = record->projected;
     if (!solved)
         return;
@@ -280,7 +280,7 @@ static void fill_round_values(const StepTrace *trace, const TracePlace *at,
     shown->first_alpha = round->first_trial;
     if (!round->p)
         return;
-    shown->difference = evaluate_round_energy;
+    shown->energy_difference = evaluate_round_energy;
     shown->difference_data = round;
 }
 
@@ -293,24 +293,25 @@ const double *step_trace_fill(const StepTrace *trace, int place, Trace *shown)
                     last->status != STATUS_RUNNING;
     const TracePlace at =
         over ? (TracePlace){count, LINE_END, 0} : trace->place[place];
-    bool end = at.line == LINE_END;
+    bool end = at.at_line == LINE_END;
     TracePlace source = at;
     if (end && count > 0) /* the end shows the values of the last round */
         source = (TracePlace){count - 1, LINE_END, last->trials};
     *shown = trace->start_trace;
-    shown->line = over ? LINE_NONE : at.line;
+    shown->at_line = over ? LINE_NONE : at.at_line;
     shown->iteration = source.round;
-    shown->updates = at.round;
+    shown->records = at.round;
     shown->record = row;
     shown->x_tilde = trace->x_tilde;
-    if (at.line != LINE_START && source.round < count)
+    if (at.at_line != LINE_START && source.round < count)
         fill_round_values(trace, &source, shown);
     shown->given_up =
-        given_up && (end || (at.line == LINE_SEARCH && at.round == count - 1 &&
-                             at.trials == last->trials && last->alpha == 0));
+        given_up &&
+        (end || (at.at_line == LINE_SEARCH && at.round == count - 1 &&
+                 at.trials == last->trials && last->alpha == 0));
     if (end || count == 0)
         return NULL;
-    if (at.line != LINE_UPDATE && at.line != LINE_TEST)
+    if (at.at_line != LINE_UPDATE && at.at_line != LINE_TEST)
         return trace->round[at.round].x;
     return at.round + 1 < count ? trace->round[at.round + 1].x : trace->end_x;
 }

@@ -122,7 +122,7 @@ static void enter_scene(Player *player)
     player->screen.toggled_cards = 0;
     player->screen.enlarged_card = -1;
     player_deselect(player);
-    player->screen.view.hover = (Pick){.kind = PICK_NONE};
+    player->screen.view.hovered = (Pick){.kind = PICK_NONE};
     player->hands.mouse.drag = COMMAND_NONE;
     snprintf(title, sizeof title, "elasto: %s (press ? for the keys)",
              options->scene->name);
@@ -310,7 +310,7 @@ static bool walk_lines(Player *player, int way)
 static void describe_outcome(const Player *player, const OptionRow *row,
                              char *text, size_t size)
 {
-    const Outcome *outcome = &player_active_run(player)->outcome;
+    const StepOutcome *outcome = &player_active_run(player)->outcome;
     bool curve = player->screen.scene->picture == PICTURE_CURVE;
     char value[VALUE_SIZE], change[64] = "stays";
     player_format_value(row, player_active_options(player),
@@ -338,7 +338,7 @@ static void compare_outcomes(Player *player)
     if (at->round >= 0 && trace->places > 2) {
         player->time.mode = MODE_PAUSE;
         player->view_of_pane[player->active].place =
-            step_trace_find_place(trace, at->round, at->line);
+            step_trace_find_place(trace, at->round, at->at_line);
     }
     describe_outcome(player,
                      &option_rows[past->branch[past->current].edit.number], has,

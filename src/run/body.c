@@ -28,7 +28,7 @@ static const struct PinWord {
                  {"all", 0, 0},
                  {NULL, 0, 0}};
 
-Names pins_words(void)
+NameTable pins_words(void)
 {
     return NAMES_OF(pin_words);
 }

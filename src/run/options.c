@@ -308,13 +308,13 @@ const OptionRow *option_find(const char *name)
     return place >= 0 && name[0] ? &option_rows[place] : NULL;
 }
 
-const char *names_get(Names names, int i)
+const char *names_get(NameTable names, int i)
 {
     const char *row = (const char *)names.table + (size_t)i * names.size;
     return *(const char *const *)row;
 }
 
-int names_find(Names names, const char *name)
+int names_find(NameTable names, const char *name)
 {
     for (int i = names_count(names) - 1; i >= 0; i--)
         if (strcmp(names_get(names, i), name) == 0)
@@ -322,7 +322,7 @@ int names_find(Names names, const char *name)
     return -1;
 }
 
-int names_find_or_parse(Names names, const char *text)
+int names_find_or_parse(NameTable names, const char *text)
 {
     char *end;
     long number = strtol(text, &end, 10);
@@ -331,7 +331,7 @@ int names_find_or_parse(Names names, const char *text)
     return number >= 1 && number <= names_count(names) ? (int)number - 1 : -1;
 }
 
-int names_count(Names names)
+int names_count(NameTable names)
 {
     int count = 0;
     while (names_get(names, count))

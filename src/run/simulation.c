@@ -167,8 +167,8 @@ bool simulation_is_draggable(const Simulation *simulation)
     return (scene->needs & NEEDS_TIME) && !scene->step && !scene->handle_kinds;
 }
 
-Effect simulation_find_option_effect(const Simulation *simulation,
-                                     const OptionRow *row)
+ChangeEffect simulation_find_option_effect(const Simulation *simulation,
+                                           const OptionRow *row)
 {
     unsigned needs = simulation->scene->needs;
     bool update = (needs & NEEDS_START) && row->effect == EFFECT_AGAIN;

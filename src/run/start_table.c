@@ -24,12 +24,12 @@ typedef struct TableReader {
     const char *const *names; /* names of wanted columns, up to NULL */
     int column_index[MAX_COLUMNS]; /* [wanted column]; -1: missing */
     bool has_panes;           /* the table has a column "pane" */
-    char why[200];            /* why the table cannot be read, or "" */
+    char failure[200];        /* why the table cannot be read, or "" */
 } TableReader;
 
 /* Stores why the table cannot be read. */
 #define explain(reader, ...)                                                   \
-    snprintf((reader)->why, sizeof(reader)->why, __VA_ARGS__)
+    snprintf((reader)->failure, sizeof(reader)->failure, __VA_ARGS__)
 
 /* Numbers of the wanted columns in one row. */
 typedef struct TableRow {
@@ -83,7 +83,7 @@ static void read_names(TableReader *reader)
             if (strcmp(name, reader->names[k]) == 0)
                 reader->column_index[k] = reader->columns;
     }
-    for (int k = 0; reader->names[k] && !reader->why[0]; k++)
+    for (int k = 0; reader->names[k] && !reader->failure[0]; k++)
         if (reader->column_index[k] < 0)
             explain(reader,
                     "its first line, '%s', has no column '%s'; --states and "
@@ -91,12 +91,12 @@ static void read_names(TableReader *reader)
                     shown, reader->names[k]);
 }
 
-/* Reads the next row.  Returns false at the end, or with a reason in `why`. */
+/* Reads the next row.  Returns false at the end or after a `failure`. */
 static bool read_next_row(TableReader *reader, TableRow *row)
 {
     int fields = 0;
     do
-        if (reader->why[0] || !read_next_line(reader))
+        if (reader->failure[0] || !read_next_line(reader))
             return false;
     while (reader->line_text[0] == '\0');
     char *rest = reader->line_text, *end;
@@ -115,16 +115,16 @@ static bool read_next_row(TableReader *reader, TableRow *row)
                 fields > reader->columns
                     ? "; a number has a point, a comma ends it"
                     : "");
-    return !reader->why[0];
+    return !reader->failure[0];
 }
 
 /* The rows of a step and a run, which the second column numbers from 0. */
 typedef struct TablePart {
     const char *option;             /* option with the table, for messages */
-    const char *file;               /* name of the file */
-    const char *element;            /* "node" or "spring" */
+    const char *path;               /* name of the file */
+    const char *element_name;       /* "node" or "spring" */
     const char *names[MAX_COLUMNS]; /* names of columns, up to NULL */
-    int size; /* nodes or springs of a run, which is the number of its rows */
+    int rows;                       /* number of nodes or springs of a run */
     int run;  /* index of the run that is read */
 } TablePart;
 
@@ -135,7 +135,7 @@ static void read_rows(TableReader *reader, const Options *options,
                       const TablePart *part, TableRow *row)
 {
     const double step = options->state_step;
-    const char *element = part->element;
+    const char *element = part->element_name;
     double last = -1;
     int count = 0, runs = (int)fmax(options->scene->body.runs, 1);
     TableRow next = {{0}};
@@ -145,26 +145,26 @@ static void read_rows(TableReader *reader, const Options *options,
         if (step >= 0 && last != step)
             continue;
         count = goes_on ? count : 0;
-        int i = count - part->run * part->size;
+        int i = count - part->run * part->rows;
         if (next.value[1] != count)
             explain(reader, "line %ld has %s %g where %s %d is missing",
                     reader->line_number, element, next.value[1], element,
                     count);
-        if (i >= 0 && i < part->size)
+        if (i >= 0 && i < part->rows)
             row[i] = next;
         count++;
     }
-    int bodies = count / part->size;
-    if (reader->why[0])
+    int bodies = count / part->rows;
+    if (reader->failure[0])
         return;
     if (step >= 0 && count == 0)
         explain(reader, "step %.0f is not in it", step);
     else if (count == 0)
         explain(reader, "it has no row below the names of its columns");
-    else if (count % part->size != 0 || (!reader->has_panes && bodies > runs))
+    else if (count % part->rows != 0 || (!reader->has_panes && bodies > runs))
         explain(reader,
                 "its %sstep has %d %ss, the body %d; --segments may differ",
-                step < 0 ? "last " : "", count, element, part->size);
+                step < 0 ? "last " : "", count, element, part->rows);
     else if (part->run >= bodies)
         explain(reader, "body %d of the scene is not in it", part->run + 1);
 }
@@ -175,9 +175,9 @@ static void read_rows(TableReader *reader, const Options *options,
 static Status read_table_part(const Options *options, const TablePart *part,
                               TableRow **row, Message message)
 {
-    TableReader reader = {.file = fopen(part->file, "r"), .names = part->names};
+    TableReader reader = {.file = fopen(part->path, "r"), .names = part->names};
     errno = reader.file ? 0 : errno;
-    *row = malloc((size_t)part->size * sizeof **row);
+    *row = malloc((size_t)part->rows * sizeof **row);
     if (reader.file && *row) {
         read_names(&reader);
         read_rows(&reader, options, part, *row);
@@ -187,9 +187,9 @@ static Status read_table_part(const Options *options, const TablePart *part,
     free(reader.line_text);
     if (reader.file)
         fclose(reader.file);
-    if (reader.why[0])
-        return refuse(message, "--%s '%.60s': %s", part->option, part->file,
-                      reader.why);
+    if (reader.failure[0])
+        return refuse(message, "--%s '%.60s': %s", part->option, part->path,
+                      reader.failure);
     return *row ? STATUS_OK : STATUS_OUT_OF_MEMORY;
 }
 

@@ -154,10 +154,10 @@ double descent_direction(const Simulation *simulation, Projection projection,
 /* The line x + alpha p of a line search. */
 typedef struct SearchLine {
     const Simulation *simulation;
-    unsigned parts; /* enum LandscapePart */
-    double h;       /* s */
+    unsigned energy_parts; /* enum LandscapePart */
+    double h;              /* s */
     const double *x, *p;
-    double value; /* E(x) */
+    double start_energy; /* E(x) */
 } SearchLine;
 
 /* Returns E(x + alpha p) - E(x), for line_search_backtrack. */
@@ -166,9 +166,9 @@ static double descent_energy_difference(const void *function, double alpha)
     const SearchLine *line = function;
     const double to[2] = {line->x[0] + alpha * line->p[0],
                           line->x[1] + alpha * line->p[1]};
-    LocalModel E = evaluate_landscape(line->simulation, line->parts, line->h,
-                                      PROJECTION_NONE, to);
-    return E.value - line->value;
+    LocalModel E = evaluate_landscape(line->simulation, line->energy_parts,
+                                      line->h, PROJECTION_NONE, to);
+    return E.value - line->start_energy;
 }
 
 /* Returns E and its derivatives at the iterate, with the options' projection.

@@ -91,7 +91,7 @@ static void put_text(Writer *to, const LiveValues *values, const char *word,
 {
     for (TextLine line = text_begin(values, text); text_next_line(&line);)
         print(to, "%s\t#%06x\t%d\t%s\n", word, document_colour(line.colour),
-              line.face == FACE_BOLD, line.words);
+              line.face == FACE_BOLD, line.text);
 }
 
 /* ---- the page of the lecture ----------------------------------------------
@@ -114,7 +114,7 @@ static void put_page_texts(Writer *to, const FrameContent *content)
                                      : "words",
               simulation_find_point(active_pane(content)->simulation, at));
     } else {
-        put_text(to, values, "look", content->lecture.look);
+        put_text(to, values, "look", content->lecture.look_text);
         put_text(to, values, "try", page->touch);
     }
     put_text(to, values, "claim", page->claim);
@@ -137,8 +137,8 @@ static void put_algorithm(Writer *to, const FrameContent *content, int card,
         if (!text_has_line(&pane->values, row->shown_if))
             continue;
         const ShownRow now = listing_show_row(pane, row);
-        print(to, "row\t%d\t%d\t%d\t%d\t%s\t%s\n", card, now.lit, now.struck,
-              row->indented, now.text.words, now.value.words);
+        print(to, "row\t%d\t%d\t%d\t%d\t%s\t%s\n", card, now.highlighted,
+              now.is_struck, row->indented, now.text.text, now.value.text);
     }
 }
 
@@ -159,7 +159,7 @@ static void put_values(Writer *to, const Pane *pane, const char *name)
         print(to, ": ");
         put_energies(to, pane->simulation);
     } else if (strcmp(name, "residual") == 0 && trace) {
-        for (int i = 0; i < trace->updates; i++)
+        for (int i = 0; i < trace->records; i++)
             print(to, "; update %d: residual %s, step length %s", i + 1,
                   format_number(trace->record[i].residual).text,
                   format_number(trace->record[i].alpha).text);
@@ -202,18 +202,18 @@ static void put_card(Writer *to, const FrameContent *content, int index,
 {
     const Pane *pane = active_pane(content);
     const LecturePage *page = content->lecture.page;
-    bool covered = content->cards.covered >> index & 1;
+    bool covered = content->cards.covered_cards >> index & 1;
     bool graph = !covered && card->draw && !card->has_no_curves;
     bool star =
         page && page->main_card && strcmp(page->main_card, card->name) == 0;
-    bool closed = content->cards.closed >> index & 1;
+    bool closed = content->cards.closed_cards >> index & 1;
     TextLine title = text_first_line(&pane->values, card->title);
     CardTableRow row;
     char word[24];
     snprintf(word, sizeof word, "words\t%d", index);
     if (graph) {
         print(to, "card\t%d\t%s\t%s\t%d\t%s\t%s", index, card->name,
-              star ? "star" : "graph", closed, title.words, title.words);
+              star ? "star" : "graph", closed, title.text, title.text);
         put_values(to, pane, card->name);
         print(to, "\n");
         for (int i = 0; card->legend_row && card->legend_row(content, i, &row);
@@ -222,18 +222,18 @@ static void put_card(Writer *to, const FrameContent *content, int index,
         TextLine line = text_begin(&pane->values, card->legend);
         while (text_next_line(&line))
             print(to, "legend\t%d\t#%06x\t%s\n", index,
-                  document_colour(line.colour), line.words);
+                  document_colour(line.colour), line.text);
     }
-    if (graph && !card->table && !text_has_line(&pane->values, card->words))
+    if (graph && !card->fill_row && !text_has_line(&pane->values, card->words))
         return;
     print(to, "card\t%d\t%s%s\t%s\t%d\t%s\t\n", index, card->name,
           graph ? "-text" : "", covered ? "covered" : "text", closed,
-          title.words);
+          title.text);
     put_text(to, &pane->values, word,
              covered ? "after your guess" : card->words);
-    if (card->rows && !covered)
-        put_algorithm(to, content, index, card->rows);
-    if (card->table && !covered && !put_table(to, content, index, card))
+    if (card->listing && !covered)
+        put_algorithm(to, content, index, card->listing);
+    if (card->fill_row && !covered && !put_table(to, content, index, card))
         put_text(to, &pane->values, word, text_undrawn);
 }
 
@@ -241,7 +241,7 @@ static void put_cards(Writer *to, const FrameContent *content)
 {
     const Picture *picture = active_picture(content);
     for (int i = 0; i < picture->count && content->sheet.cells == 0; i++)
-        if (!(content->cards.hidden >> i & 1) &&
+        if (!(content->cards.hidden_cards >> i & 1) &&
             strcmp(picture->cards[i]->name, "page") != 0)
             put_card(to, content, i, picture->cards[i]);
 }
@@ -340,7 +340,7 @@ static void put_picture(Writer *to, const Player *player)
             print(to, " %s.", method->label);
         put_shape(to, pane);
     }
-    print(to, " %s, %s.", content->time_line.text, content->strip.state);
+    print(to, " %s, %s.", content->time_line.label, content->title_bar.state);
     if (simulation->scene->needs & NEEDS_BODY) {
         print(to, " Energies: ");
         put_energies(to, simulation);
@@ -348,7 +348,7 @@ static void put_picture(Writer *to, const Player *player)
     }
     for (TextLine line = text_begin(values, active_picture(content)->legend);
          text_next_line(&line);)
-        print(to, " %s.", line.words);
+        print(to, " %s.", line.text);
     print(to, "\n");
 }
 
@@ -357,11 +357,12 @@ static void put_event(Writer *to, const Player *player)
 {
     const FrameContent *content = &player->screen.frame.content;
     const Trace *trace = active_pane(content)->shown_trace;
-    const Outcome *outcome = &player_active_run(player)->outcome;
+    const StepOutcome *outcome = &player_active_run(player)->outcome;
     const char *turn = player_simulation(player)->scene->step_name;
     print(to, "event\t%s %ld", turn ? turn : "step", content->time_line.step);
-    if (trace && trace->line != LINE_NONE && content->strip.sentence[0]) {
-        print(to, ": %s", content->strip.sentence);
+    if (trace && trace->at_line != LINE_NONE &&
+        content->title_bar.sentence[0]) {
+        print(to, ": %s", content->title_bar.sentence);
     } else if (outcome->updates > 0) {
         print(to, ": %d update%s, %s %s by %s", outcome->updates,
               outcome->updates > 1 ? "s" : "",
@@ -383,12 +384,12 @@ void document_write(const Player *player, char *text)
     print(to, "page\t%d\t%d\t%s\n", page ? (int)(page - lecture_pages) + 1 : 0,
           lecture_count_pages(), name);
     print(to, "topic\t%s\nsentence\t%s\n",
-          content->strip.topic ? content->strip.topic : name,
-          page ? "" : content->strip.sentence);
-    print(to, "time\t%s · %s · %s\n", content->time_line.text,
-          content->strip.method, content->strip.state);
-    print(to, "told\t%d\t%s\n", content->strip.is_warning,
-          content->strip.message);
+          content->title_bar.topic ? content->title_bar.topic : name,
+          page ? "" : content->title_bar.sentence);
+    print(to, "time\t%s · %s · %s\n", content->time_line.label,
+          content->title_bar.method, content->title_bar.state);
+    print(to, "told\t%d\t%s\n", content->title_bar.is_warning,
+          content->title_bar.message);
     print(to, "step\t%ld\t%ld\t%d\n", content->time_line.step,
           content->time_line.steps, content->time_line.paused);
     if (page)

@@ -23,8 +23,8 @@ static void show_all(void)
     frame_create(&simulation, &content);
     frame_fill_values(&content);
     for (int i = 0; i < 9; i++) {
-        content.settings.item[i].letters = 4 + 2 * i;
-        content.chips.item[i] = (Chip){"Tab", label + 8 - i, false};
+        content.settings.item[i].min_letters = 4 + 2 * i;
+        content.chips.chip[i] = (Chip){"Tab", label + 8 - i, false};
     }
     content.settings.count = content.chips.count = 9;
 }
@@ -83,7 +83,7 @@ TEST(zones_tile_every_size)
         for (content.panes = 1; content.panes <= LAYOUT_PANES;
              content.panes++) {
             Layout l = layout_create(&content, sizes[s][0], sizes[s][1]);
-            const Box zones[] = {l.strip,        l.stage,     l.column,
+            const Box zones[] = {l.title_bar,    l.stage,     l.column,
                                  l.settings_row, l.time_line, l.chip_row};
             const Box window = {0, 0, l.width, l.height};
             long area = 0;
@@ -115,7 +115,7 @@ TEST(small_windows_leave_parts_out)
     }
     /* shorter labels move the chips together */
     for (int i = 0; i < content.chips.count; i++)
-        content.chips.item[i].label++;
+        content.chips.chip[i].label++;
     CHECK(layout_create(&content, 900, 900).chips_left_out == 0);
     Layout small = layout_create(&content, 400, 300);
     CHECK(small.cards == 0 && small.settings == 0);
@@ -127,11 +127,11 @@ TEST(small_windows_leave_parts_out)
     CHECK(check_boxes(big.setting, 9, big.settings_row) < 9);
     simulation.options.big = false;
     /* wider than the window: the first line */
-    content.settings.item[0].letters = 400;
+    content.settings.item[0].min_letters = 400;
     Layout wide = layout_create(&content, 900, 900);
     CHECK(wide.settings > 1 && wide.setting[1].y > wide.setting[0].y);
     CHECK(wide.setting[0].y < wide.settings_row.y + wide.em);
-    content.bare = true;
+    content.is_bare = true;
     Layout bare = layout_create(&content, 900, 900);
     CHECK(bare.stage.width == 900 && bare.stage.height == 900);
     CHECK(layout_hit(&bare, 450, 899).zone == ZONE_STAGE);
@@ -139,7 +139,7 @@ TEST(small_windows_leave_parts_out)
 
 static bool hits(const Layout *layout, double x, double y, Zone zone, int index)
 {
-    Hit hit = layout_hit(layout, x, y);
+    WindowHit hit = layout_hit(layout, x, y);
     return hit.zone == zone && hit.index == index;
 }
 
@@ -149,7 +149,7 @@ TEST(a_click_hits_the_part_that_is_drawn_there)
 {
     show_all();
     content.panes = 5;
-    content.cards.closed |= 1 << LISTING;
+    content.cards.closed_cards |= 1 << LISTING;
     Layout l = layout_create(&content, 1280, 800);
     const Box *const lists[] = {l.pane, l.card, l.setting, l.chip};
     const int counts[] = {l.panes, l.cards, l.settings, l.chips};
@@ -173,7 +173,7 @@ TEST(a_click_hits_the_part_that_is_drawn_there)
     CHECK(l.card[LISTING].height < l.card[LINE].height);
     for (int i = LISTING; i <= ASSEMBLY; i++) {
         Box close = layout_close_box(&l, i);
-        Hit hit = layout_hit(&l, close.x + 2, close.y + 2);
+        WindowHit hit = layout_hit(&l, close.x + 2, close.y + 2);
         CHECK(hit.zone == ZONE_CARD_CLOSE && hit.index == i);
     }
     CHECK(layout_hit(&l, 640, 5).zone == ZONE_STRIP);
@@ -192,7 +192,7 @@ TEST(cards_share_the_column)
     CHECK(pair.card[RESIDUAL].width < 0.5 * pair.card[LINE].width);
     Layout narrow = layout_create(&content, 900, 900);
     CHECK(narrow.card[RESIDUAL].y < narrow.card[ENERGIES].y);
-    content.cards.closed |= 1 << ENERGIES;
+    content.cards.closed_cards |= 1 << ENERGIES;
     Layout apart = layout_create(&content, 1280, 800);
     CHECK(apart.card[RESIDUAL].y < apart.card[ENERGIES].y);
     content.cards.enlarged = LISTING;

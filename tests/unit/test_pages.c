@@ -314,8 +314,8 @@ static const char *missing_line(const FrameContent *content, const char *text)
     static TextLine line;
     line = text_begin(&active_pane(content)->values, text);
     while (text_next_line(&line))
-        if (!strstr(seen.texts, line.words))
-            return line.words;
+        if (!strstr(seen.texts, line.text))
+            return line.text;
     return NULL;
 }
 
@@ -346,7 +346,7 @@ static void see_frame(const FrameContent *content, Paper *paper)
 static void check_frame(const LecturePage *page, Simulation *simulation,
                         int kind, Paper *paper)
 {
-    static const Column column[KINDS] = {
+    static const ColumnContent column[KINDS] = {
         COLUMN_CARDS, COLUMN_CARDS, COLUMN_CARDS, COLUMN_CODE, COLUMN_PAGES};
     int width = paper->canvas.width, height = paper->canvas.height;
     bool large = kind == LARGE || kind == LARGE_ASKED;

@@ -27,16 +27,16 @@ TEST(the_curve_goes_through_the_step)
                 Trace trace;
                 step_trace_fill(kept, place, &trace);
                 int round = kept->place[place].round;
-                if (trace.line != LINE_UPDATE)
+                if (trace.at_line != LINE_UPDATE)
                     continue;
                 seen++;
                 if (!trace.p) { /* of the first one where pins move */
-                    CHECK(i == 3 && round == 0 && !trace.difference);
+                    CHECK(i == 3 && round == 0 && !trace.energy_difference);
                     continue;
                 }
                 const NewtonRecord *record = &kept->records.record[round];
-                double change =
-                    trace.difference(trace.difference_data, record->alpha);
+                double change = trace.energy_difference(trace.difference_data,
+                                                        record->alpha);
                 rough += kept->round[round].has_remainder;
                 if (kept->round[round].has_remainder &&
                     record->alpha < trace.first_alpha / ROUND_PARTS)

@@ -290,7 +290,7 @@ static bool point_in_pane(const char *place, const Layout *layout)
 static int find_chip(const char *key)
 {
     int i = content->chips.count - 1;
-    while (i >= 0 && strcmp(content->chips.item[i].key, key) != 0)
+    while (i >= 0 && strcmp(content->chips.chip[i].key, key) != 0)
         i--;
     return i;
 }
@@ -324,7 +324,7 @@ static void point_at(const char *place)
         mouse[0] = texts[i].x + 2;
         mouse[1] = texts[i].y;
     } else if (strcmp(place, "strip") == 0) {
-        point_into(layout.strip, false);
+        point_into(layout.title_bar, false);
     } else if (strcmp(place, "time") == 0) {
         point_into(layout.time_line, false);
     } else if (strcmp(place, "stage") == 0) {
@@ -524,26 +524,26 @@ static void collect_parts(void)
         const Trace *trace = content->pane[p].trace;
         fact("inside %d %d", p, pane_has_all(&layout, p));
         fact("label %d\t%s", p, text_or(content->pane[p].label));
-        fact("line %d %d", p, trace ? (int)trace->line : 0);
+        fact("line %d %d", p, trace ? (int)trace->at_line : 0);
     }
     for (int i = 0; i < content->settings.count; i++) {
         const Setting *setting = &content->settings.item[i];
         fact("number %s %s", setting->name, setting->value);
-        fact("changed %s %d", setting->name, setting->changed);
+        fact("changed %s %d", setting->name, setting->is_changed);
         append(order, sizeof order, "%s ", setting->name);
     }
     fact("order\t%s", order);
     for (int i = 0; i < content->chips.count; i++) {
-        fact("chip %s %s", content->chips.item[i].key,
-             content->chips.item[i].label);
-        fact("lit %s %d", content->chips.item[i].key,
-             content->chips.item[i].lit);
+        fact("chip %s %s", content->chips.chip[i].key,
+             content->chips.chip[i].label);
+        fact("lit %s %d", content->chips.chip[i].key,
+             content->chips.chip[i].highlighted);
     }
     for (int c = 0; c < active_picture(content)->count; c++)
         fact("card %d %s", c,
-             content->cards.closed >> c & 1 ? "closed"
-             : content->cards.enlarged == c ? "large"
-                                            : "open");
+             content->cards.closed_cards >> c & 1 ? "closed"
+             : content->cards.enlarged == c       ? "large"
+                                                  : "open");
 }
 
 /* Collects what the window shows, as lines of text. */
@@ -553,7 +553,7 @@ static void collect_facts(void)
                                         "obstacle", "other", "other",
                                         "other",    "other", "other"};
     const LecturePage *page = content->lecture.page;
-    const Trace *trace = content->pane[content->active].trace;
+    const Trace *trace = content->pane[content->active_pane].trace;
     facts[0] = '\0';
     fact("at %ld", content->time_line.step);
     fact("newest %ld", past_newest(&player.past));
@@ -563,26 +563,26 @@ static void collect_facts(void)
     fact("page %s", page ? page->name : "none");
     fact("stands %d", content->time_line.paused);
     fact("panes %d", content->panes);
-    fact("ghost %d", content->pane[content->active].ghost != NULL);
+    fact("ghost %d", content->pane[content->active_pane].ghost_x != NULL);
     fact("speed %d", player.time.log_speed);
     fact("scene %s", player_simulation(&player)->scene->name);
-    fact("over %s %d", kinds[content->view->hover.kind],
-         content->view->hover.index);
+    fact("over %s %d", kinds[content->view->hovered.kind],
+         content->view->hovered.index);
     double scale = scale_now();
     fact("scale %s", scale < scale_before   ? "smaller"
                      : scale > scale_before ? "larger"
                                             : "same");
     fact("residual %.5g", trace ? trace->residual : -1);
     const Newton *newton =
-        content->pane[content->active].simulation->run->newton;
+        content->pane[content->active_pane].simulation->run->newton;
     fact("solver\t%s %s", newton ? solver_name(newton->active_solver) : "none",
          newton && newton->refusal ? newton->refusal : "");
     fact("says\t%s", text_or(player.note));
-    fact("topic\t%s", text_or(content->strip.topic));
-    fact("state\t%s", text_or(content->strip.state));
-    fact("time\t%s", text_or(content->time_line.text));
-    fact("sentence\t%s", text_or(content->strip.sentence));
-    fact("method\t%s", text_or(content->strip.method));
+    fact("topic\t%s", text_or(content->title_bar.topic));
+    fact("state\t%s", text_or(content->title_bar.state));
+    fact("time\t%s", text_or(content->time_line.label));
+    fact("sentence\t%s", text_or(content->title_bar.sentence));
+    fact("method\t%s", text_or(content->title_bar.method));
     collect_parts();
 }
 
@@ -612,7 +612,7 @@ static void look(const char *line)
  * many there are. */
 static int find_records(const Simulation *simulation, const NewtonRecord **row)
 {
-    const Records *made = &player.past.pane[content->active].records;
+    const Records *made = &player.past.pane[content->active_pane].records;
     bool descends = simulation->scene->step == step_descent;
     *row = descends ? simulation->descent.record : made->record;
     return descends ? simulation->descent.count : made->count;

@@ -141,11 +141,11 @@ TEST(every_size_is_drawn)
                     continue;
                 stand_up(scene->name, mode);
                 content.shows_strain = mode & 1;
-                content.bare = mode == 3;
+                content.is_bare = mode == 3;
                 content.column = mode == 2 ? COLUMN_KEYS : COLUMN_CARDS;
-                content.cards.closed = 0;
+                content.cards.closed_cards = 0;
                 content.pane[0].failure = STATUS_NOT_FINITE;
-                view.hover = (Pick){.kind = PICK_SPRING, .index = 0};
+                view.hovered = (Pick){.kind = PICK_SPRING, .index = 0};
                 if (simulation.runs > 0 && mode > 0) {
                     simulation.run[0].x[0] = NAN;
                     simulation.run[0].x[1] = mode == 1 ? 1e300 : -INFINITY;
@@ -161,7 +161,7 @@ TEST(a_bare_square_is_the_slide)
 {
     stand_up("square", 3);
     set_size(300, 300);
-    content.bare = true;
+    content.is_bare = true;
     draw();
     for (int i = 0; i < 300 * 300; i++) {
         Colour at = paper.canvas.pixels[i];
@@ -190,7 +190,7 @@ static const struct {
     Colour colour;
     int least; /* 0: none at all */
     PickKind hover;
-    Line at; /* the trace; no line: none */
+    StepLine at; /* the trace; no line: none */
     int projected, trials;
     bool accepted;
 } states[] = {
@@ -220,20 +220,20 @@ TEST(states_show_what_they_are)
         p[2 * k] = 0.1;
     for (size_t i = 0; i < sizeof states / sizeof *states; i++) {
         stand_up(states[i].line, states[i].steps);
-        const Trace trace = {.line = states[i].at,
+        const Trace trace = {.at_line = states[i].at,
                              .tolerance = 0.01,
                              .x = simulation.run[0].x,
                              .p = states[i].at >= LINE_SOLVE ? p : NULL,
                              .projected = states[i].projected,
                              .trials = states[i].trials,
-                             .accepted = states[i].accepted,
+                             .is_accepted = states[i].accepted,
                              .slope = -4,
                              .residual = 2,
                              .record = records,
-                             .updates = 3,
-                             .difference = falling};
-        content.pane[0].trace = trace.line ? &trace : NULL;
-        view.hover = (Pick){.kind = states[i].hover, .index = 12};
+                             .records = 3,
+                             .energy_difference = falling};
+        content.pane[0].trace = trace.at_line ? &trace : NULL;
+        view.hovered = (Pick){.kind = states[i].hover, .index = 12};
         draw_without_words();
         int card = states[i].card;
         int count = count_colour(
@@ -249,7 +249,7 @@ TEST(fine_squares_are_faces)
 {
     stand_up("square --segments 90 --turn 17 --stretch 1.3", 0);
     set_size(400, 400);
-    content.bare = true;
+    content.is_bare = true;
     draw();
     int white = 0, covered = 0, blue = 0;
     for (int j = 0; j < 400; j++) {
@@ -302,7 +302,7 @@ TEST(what_flies_far_is_drawn_or_reported)
         x[i] = i == 2 * 11 + 1 ? 1e220 : i == 2 * 13 + 1 ? -1e220 : 0;
     draw();
     CHECK(on_stage(COLOUR_X) > 300);
-    view.hover = (Pick){.kind = PICK_SPRING, .index = 0};
+    view.hovered = (Pick){.kind = PICK_SPRING, .index = 0};
     draw();
     CHECK(on_stage(COLOUR_NOTE) > 1000);
     for (int part = 0; part < 2; part++) { /* first one node, then all nodes */
@@ -348,12 +348,12 @@ TEST(the_camera_does_not_jump)
 TEST(the_target_of_the_hand_is_in_the_picture)
 {
     stand_up("square --stretch 1", 0);
-    content.hand = (HeldByHand){true, 4, -1, {2, -1}};
+    content.held = (HeldByHand){true, 4, -1, {2, -1}};
     draw_without_words();
     CHECK(on_stage(COLOUR_HAND) > 100);
     Camera camera = camera_of_pane(&content, &layout, 0);
     double at[2];
-    camera_to_pixel(&camera, content.hand.target, at);
+    camera_to_pixel(&camera, content.held.target, at);
     CHECK(box_contains(layout.stage, at[0], at[1]));
 }
 
@@ -468,9 +468,9 @@ TEST(texts_say_what_is_known)
     values.run = 0;
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         TextLine line = text_first_line(&values, rows[i].text);
-        assert_string_equal(line.words, rows[i].line);
+        assert_string_equal(line.text, rows[i].line);
         CHECK((line.colour == COLOUR_WARNING) == (i == 1));
-        CHECK(!text_next_line(&line) && line.words[0] == 0);
+        CHECK(!text_next_line(&line) && line.text[0] == 0);
     }
 }
 
@@ -534,13 +534,14 @@ TEST(the_plot_of_energies_stays_high)
             history.value[s][4] = -1000 * s; /* all are seen */
         content.settings.count = 12;
         for (int k = 0; k < 12; k++)
-            content.settings.item[k] = (Setting){.name = "k", .letters = 16};
+            content.settings.item[k] =
+                (Setting){.name = "k", .min_letters = 16};
         content.panes = rows[i].panes;
         for (int k = 1; k < content.panes; k++)
             content.pane[k] = content.pane[0];
         for (int k = 0; k < content.panes; k++)
             content.pane[k].label = "turned by 30 \u00b0, h 0.02 s";
-        content.cards.closed &= ~(1u << ENERGIES);
+        content.cards.closed_cards &= ~(1u << ENERGIES);
         content.cards.enlarged = strstr(rows[i].line, "big") ? ENERGIES : -1;
         set_size(rows[i].wide, rows[i].high);
         writings = 0;
