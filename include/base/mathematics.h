@@ -3,8 +3,7 @@
  * The C libraries round these functions differently: glibc and musl differ for
  * 14, 0.01 and 0.2 % of the arguments.  A time step therefore calls the
  * functions of this header.  sqrt and frexp are exact in every library.  Errors
- * are below 1.5 units in the last place.
- */
+ * are below 1.5 units in the last place. */
 #pragma once
 
 /* The program tests for NaN and infinity, and its sums must keep their order so

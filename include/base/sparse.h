@@ -4,8 +4,7 @@
  * The pattern of the Hessian follows from the mesh and stays the same from step
  * to step.  The triplets are therefore sorted once.  The slot of a triplet is
  * its place in the compressed columns, and assembly is
- *   value[slot[t]] += entry t.
- */
+ *   value[slot[t]] += entry t. */
 #pragma once
 
 #include <stddef.h>

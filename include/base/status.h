@@ -1,8 +1,7 @@
 /* status.h - every way in which a call can end, each with a text.
  *
  * A function that can fail returns a Status.  STATUS_OK is 0, so `if (status)`
- * reads "if the call failed".  Numeric kernels cannot fail.
- */
+ * reads "if the call failed".  Numeric kernels cannot fail. */
 #pragma once
 
 #include <stdbool.h>

@@ -2,8 +2,7 @@
  *
  * A page is a scene with settings, and texts about the scene.  The table is
  * generated from src/lesson/pages.txt.  A new page needs a text there, and a
- * session for its claim in tests/data/claims.txt.
- */
+ * session for its claim in tests/data/claims.txt. */
 #pragma once
 
 #include "run/message.h"

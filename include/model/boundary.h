@@ -13,8 +13,7 @@
  *
  * Search: a box holds what a point or an edge covers on its way.  The boxes of
  * the edges are sorted by their left side.  A point visits the edges from the
- * first one that may reach it to the right side of its own box.
- */
+ * first one that may reach it to the right side of its own box. */
 #pragma once
 
 #include "model/square_mesh.h"

@@ -7,8 +7,7 @@
  *     a-----b       J = (e1 x e2)/(2 A0)   1 at rest, 0 if flat
  *                   W = c f(J/J_hat)       J, c = A0 k_c, f of barrier.h
  *
- * J_hat is 0.4: a triangle with more than 40 % of its area has no force.
- */
+ * J_hat is 0.4: a triangle with more than 40 % of its area has no force. */
 #pragma once
 
 #include "model/elements.h"

@@ -11,8 +11,7 @@
  *                               pushes the node away.
  *
  * c = A d_hat kappa/2 in J, where A is the length of boundary for each node.
- * Every node is tested, since a break turns inner nodes into boundary.
- */
+ * Every node is tested, since a break turns inner nodes into boundary. */
 #pragma once
 
 #include "model/elements.h"

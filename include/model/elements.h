@@ -9,8 +9,7 @@
  *   point and edge      a = x_p - x_0,  b = x_1 - x_0
  *
  * The source of a term has W, its gradient and its Hessian in (a, b).  Loops,
- * the step from (a, b) to the nodes and the matrix are in elements.c.
- */
+ * the step from (a, b) to the nodes and the matrix are in elements.c. */
 #pragma once
 
 #include "model/system.h"

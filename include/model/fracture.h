@@ -7,8 +7,7 @@
  * broken spring stays in all lists, with k = 0.
  *
  * The strengths differ by up to a tenth, by a hash of the spring's number.
- * Without this, rounding would choose the springs of a symmetric scene.
- */
+ * Without this, rounding would choose the springs of a symmetric scene. */
 #pragma once
 
 #include "model/system.h"

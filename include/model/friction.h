@@ -15,8 +15,7 @@
  *   f0' = sign(y) a (2 - a),  a = min(|y|/e, 1)
  *   f0'' = 2/e max(0, 1 - |y|/e)
  * Below the speed eps_v the contact sticks, apart from a slow creep.  Above
- * eps_v it slides with the force mu lambda.
- */
+ * eps_v it slides with the force mu lambda. */
 #pragma once
 
 #include "model/contact.h"

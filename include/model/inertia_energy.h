@@ -5,8 +5,7 @@
  *   n        nodes
  *   x        [2n] m, in
  *   x_tilde  [2n] m, in
- *   m        [n] kg, in
- */
+ *   m        [n] kg, in */
 #pragma once
 
 /* E_I(x), kg m^2. */

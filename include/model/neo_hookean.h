@@ -17,8 +17,7 @@
  *
  * A flat triangle, J = 0, has infinite energy, so no triangle turns over.
  * Lame's parameters in plane strain: mu = E/(2 (1 + nu)), lambda = E nu/((1 +
- * nu) (1 - 2 nu)).  Options refuse nu < 0: W would have no lower bound.
- */
+ * nu) (1 - 2 nu)).  Options refuse nu < 0: W would have no lower bound. */
 #pragma once
 
 #include "model/elements.h"

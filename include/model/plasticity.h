@@ -11,8 +11,7 @@
  *   tau = V' = e - sign(e) flow (|e| - Y_n)_+,  tau' = 1 or 1 - flow
  *
  * with Y_n = Y + H kappa_n, the yield strain after the hardening so far.  For
- * |e| < Y_n the spring is elastic.  For H = 0 V is Huber's function.
- */
+ * |e| < Y_n the spring is elastic.  For H = 0 V is Huber's function. */
 #pragma once
 
 #include "model/system.h"

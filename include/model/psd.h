@@ -2,8 +2,7 @@
  * (slide utils.py, make_PSD).
  *
  * The eigenvectors of each energy are known, so no energy needs the eigenvalue
- * routine of the slide.  Springs use spring_hessian (spring_law.h).
- */
+ * routine of the slide.  Springs use spring_hessian (spring_law.h). */
 #pragma once
 
 #include <math.h>

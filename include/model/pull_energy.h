@@ -4,8 +4,7 @@
  * Hand: the mouse pulls a node by a spring of rest length 0, far stiffer than
  * the springs of the square.  Before each step its end o moves ahead of the
  * node towards the mouse.  The change of P in the step is the work of the hand;
- * no energy is stored between steps.
- */
+ * no energy is stored between steps. */
 #pragma once
 
 #include "model/system.h"

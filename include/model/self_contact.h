@@ -16,8 +16,7 @@
  * between two.
  *
  * The matrix has blocks for the pairs that may be near in this step.  Further
- * pairs that come near during the step get blocks then (TermKind.grow).
- */
+ * pairs that come near during the step get blocks then (TermKind.grow). */
 #pragma once
 
 #include "model/boundary.h"

@@ -13,8 +13,7 @@
  * nodes has the eigenvalues 0, 0 and twice those of H, so projecting H is the
  * slide's make_PSD without an eigenvalue routine.  A stretched spring has no
  * negative eigenvalue, a compressed spring has one, and a spring shorter than
- * its rest length over sqrt(3) has two.
- */
+ * its rest length over sqrt(3) has two. */
 #pragma once
 
 #include "model/psd.h"

@@ -5,8 +5,7 @@
  * A body has (columns+1) (rows+1) nodes on a grid centred at the origin.  Node
  * i*(rows+1)+j is column i, row j, counted from the lower left.  The springs of
  * a body are in this order: horizontal, vertical, the two diagonals of each
- * cell. Only multigrid uses these numbers directly.
- */
+ * cell. Only multigrid uses these numbers directly. */
 #pragma once
 
 #include <stdbool.h>

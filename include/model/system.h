@@ -7,8 +7,7 @@
  * steps only, in begin_step and end_step of a term.
  *
  * Code that changes a system calls system_mark_changed, which raises its
- * version.  Solvers store the version for which their results are valid.
- */
+ * version.  Solvers store the version for which their results are valid. */
 #pragma once
 
 #include <math.h>

@@ -6,8 +6,7 @@
  * pass.
  *
  * A function pointer that is NULL means: this term adds nothing here.  Terms
- * ignore pins: the caller clears pinned nodes in g and in the Hessian.
- */
+ * ignore pins: the caller clears pinned nodes in g and in the Hessian. */
 #pragma once
 
 #include "base/sparse.h"

@@ -201,8 +201,8 @@ typedef struct TimeLine {
 
 /* A key and what it does now. */
 typedef struct Chip {
-    const char *key, *label; /* name of the key, effect: "Space", "play" */
-    bool highlighted;        /* is the key to press next */
+    char key[VALUE_SIZE], label[VALUE_SIZE]; /* "Space", "play" */
+    bool highlighted;                        /* is the key to press next */
 } Chip;
 
 typedef struct ChipRow {
@@ -366,7 +366,6 @@ double frame_find_number(FrameContent *content, const char *name);
  *   toggled  bit c: card c was opened or closed by hand */
 bool cards_need_line_energy(const Simulation *simulation, unsigned toggled);
 
-/* Samples what the scene's picture plots over time.  Returns the number of
- * quantities. */
+/* Samples what the picture plots over time.  Returns the number of values. */
 int picture_sample_energies(const Simulation *simulation,
                             Energy row[HISTORY_SERIES]);

@@ -17,8 +17,7 @@
  *
  * A small window leaves zones out: first the column, then the settings, then
  * the chips.  In a bare window the stage is alone.  Pixels are those of the
- * canvas, y down.
- */
+ * canvas, y down. */
 #pragma once
 
 #include "picture/canvas.h"
@@ -46,8 +45,7 @@ typedef struct Layout {
     int chips_left_out;     /* number of chips that do not fit */
     Box bars;               /* bars of the steps, inside the time line */
     int cells;
-    Box cell[LAYOUT_CELLS]; /* square with the name below; a heading stands
-                               above the box */
+    Box cell[LAYOUT_CELLS]; /* square above the name; a heading is higher */
 } Layout;
 
 typedef enum Zone {
@@ -95,8 +93,7 @@ extern const Lens LENS_FITS;
 /* Makes the camera that shows the bounds in the middle of the box, with the
  * user's zoom and pan.
  *   bounds     [4] m: left, bottom, right, top
- *   stretched  x and y have different scales, so that the bounds fill the box
- */
+ *   stretched  x and y have scales of their own: the bounds fill the box */
 Camera camera_create(Box box, const double bounds[4], bool stretched,
                      const Lens *lens);
 static inline void camera_to_pixel(const Camera *camera, const double world[2],

@@ -21,8 +21,7 @@
  * that step, and makes the steps from there once more (past_iterate).
  * The panes share their time and count of steps.  A step is one time step of
  * the pane with the longest one, and as many of the others as fit into it.  A
- * pane that cannot make its part ends; the others go on.
- */
+ * pane that cannot make its part ends; the others go on. */
 #pragma once
 
 #include "play/command.h"
@@ -120,8 +119,7 @@ typedef struct Past {
     bool stores_states;    /* states are stored: the user may go back */
     bool panes_fail_alone; /* a pane that fails ends alone; the others go on */
     long written; /* last step with valid rows in the tables; -1: none */
-    long booked;  /* last step whose energies in the tables are valid: an
-                          edit after a step changes them, too */
+    long booked;  /* last step whose energies in the tables are valid */
     size_t used_bytes, max_bytes; /* memory of states, samples; its limit */
     int line_pane;       /* pane in which E along p is drawn; -1: none */
     WorkStage work_stage; /* stage of the work that leads to `aim_step` */

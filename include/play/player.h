@@ -114,8 +114,6 @@ typedef struct Frame {
     History history[LAYOUT_PANES];
     Trace trace[LAYOUT_PANES];
     char label[LAYOUT_PANES][LABEL_SIZE]; /* values that differ by pane */
-    char chip_key[LAYOUT_CHIPS][VALUE_SIZE];
-    char chip_label[LAYOUT_CHIPS][VALUE_SIZE];
     CommandKind chip_command[LAYOUT_CHIPS]; /* command of a click on it */
     int options;                            /* number of options in the row */
     const OptionRow *option[OPTIONS_MAX_ROWS];
@@ -133,8 +131,7 @@ typedef struct Screen {
     const LecturePage *page;   /* page that camera and cards are set for */
     ColumnContent column;
     struct Sheet *sheet; /* open sheet of scenes, or NULL */
-    bool shows_strain;   /* springs' colours show strain where the scene's do
-                              not, and the other way round */
+    bool shows_strain;   /* the scene's choice to colour strain is reversed */
     bool is_bare;        /* the picture is shown without texts and cards */
     bool is_black;       /* a black screen is shown */
     unsigned toggled_cards; /* bit c: card c was opened or closed by the user */

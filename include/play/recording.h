@@ -8,8 +8,7 @@
  * a step also changes the energies of this step.
  *
  * The program ffmpeg makes films of frames from a pipe, 60 frames a second; in
- * .gif 50, since .gif counts hundredths of a second.
- */
+ * .gif 50, since .gif counts hundredths of a second. */
 #pragma once
 
 #include "picture/canvas.h"

@@ -1,7 +1,6 @@
 /* step_trace.h - the iterates of a step, for cards and for a walk through it.
  *
- * A round is a Newton iteration; a place is a line of Algorithm 3 in a round.
- */
+ * A round is a Newton iteration, a place a line of Algorithm 3 in a round. */
 #pragma once
 
 #include "picture/frame_content.h"

@@ -1,6 +1,5 @@
 /* exhibit.h - data of the lecture's small scenes, which are part of the saved
- * state, and the points and switches that a user can move in them.
- */
+ * state, and the points and switches that a user can move in them. */
 #pragma once
 
 #include "run/scene.h"

@@ -1,8 +1,7 @@
 /* options.h - the options of a run as a struct, and a table about them.
  *
  * A row of the table is the only description of an option: the command line,
- * --help, the window's row of numbers, scripts and labels of panes read it.
- */
+ * --help, the window's row of numbers, scripts and labels of panes read it. */
 #pragma once
 
 #include <stddef.h>

@@ -1,6 +1,5 @@
 /* simulation.h - a scene while it runs: a system and one to three runs of it,
- * each with its integrator and its state.
- */
+ * each with its integrator and its state. */
 #pragma once
 
 #include "run/exhibit.h"

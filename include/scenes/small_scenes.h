@@ -14,8 +14,7 @@
  *   is a point, its run time and its error.
  * envelope: the square for every time step and stiffness.
  *
- * run/exhibit.h has the data of these scenes.
- */
+ * run/exhibit.h has the data of these scenes. */
 #pragma once
 
 #include "run/simulation.h"

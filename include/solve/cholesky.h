@@ -1,8 +1,7 @@
 /* cholesky.h - sparse Cholesky factorisation (slide: spsolve), by CHOLMOD.
  *
  * The pattern is analysed once; each change of the values needs a new factor.
- * Solves allocate nothing.  CHOLMOD's types stay inside cholesky.c.
- */
+ * Solves allocate nothing.  CHOLMOD's types stay inside cholesky.c. */
 #pragma once
 
 #include "base/sparse.h"

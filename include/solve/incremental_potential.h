@@ -4,8 +4,7 @@
  * For implicit Euler w = h^2 and x_tilde = x_n + h v_n.  The other integrators
  * have another target and weight.  The unknown is stored as the displacement
  * u = x - x_n, so that v = u/h has full accuracy even where h v is far below
- * the rounding of x.
- */
+ * the rounding of x. */
 #pragma once
 
 #include "base/sparse.h"

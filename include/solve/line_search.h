@@ -3,8 +3,7 @@
  *
  * The slides halve alpha while E(x + alpha p) > E(x).  A function here returns
  * the difference of the two (incremental_potential_prepare_line), so that
- * rounding of large energies does not hide a small decrease.
- */
+ * rounding of large energies does not hide a small decrease. */
 #pragma once
 
 #include "base/status.h"

@@ -4,8 +4,7 @@
  * newton_start sets the function and the start; newton_minimise is the loop.
  * Each pass through the loop leaves a record for the log, the window and the
  * tests.  The observer of the records may pause the loop, and the next call of
- * newton_minimise continues it.
- */
+ * newton_minimise continues it. */
 #pragma once
 
 #include "solve/line_search.h"

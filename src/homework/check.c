@@ -5,8 +5,7 @@
  * NOTE is a warning of the compiler, or "".  The output goes to stream 3, since
  * the student's file may print to stdout.  Each function runs in its own
  * process, which may crash, exit or hang.  student.c is compiled with
- * sanitizers, and so that uninitialised variables hold an enormous number.
- */
+ * sanitizers, and so that uninitialised variables hold an enormous number. */
 #include <SDL.h>
 #include <cholmod.h>
 #include <fcntl.h>

@@ -6,8 +6,7 @@
  * K has the eigenvalues 1 and -1, twice each (Smith et al.: Stable Neo-Hookean
  * Flesh Simulation, 2018).
  *
- * `unit` below is a factor that makes J relative: unit J is 1 at rest.
- */
+ * `unit` below is a factor that makes J relative: unit J is 1 at rest. */
 #pragma once
 
 #include "model/elements.h"

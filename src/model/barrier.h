@@ -7,8 +7,7 @@
  *   f''(s) = (1 + s)/s^2     > 0   2 just below s = 1, 0 above it
  *
  * f is convex and has a continuous slope.  s > 0 is a distance divided by the
- * distance at which the barrier begins.
- */
+ * distance at which the barrier begins. */
 #pragma once
 
 double barrier_value(double s);     /* f(s) */

@@ -76,25 +76,16 @@ void canvas_clear(Canvas *canvas, Colour colour)
                 colour | 0xff000000u);
 }
 
-/* Returns the minimum, the second argument if one is NaN; faster than fmin. */
-static inline double min_double(double a, double b)
-{
-    return a < b ? a : b;
-}
-
-static inline double max_double(double a, double b)
-{
-    return a > b ? a : b;
-}
+/* The smaller or larger number, b if one is NaN; faster than fmin and fmax. */
+#define MIN(a, b) ((a) < (b) ? (a) : (b))
+#define MAX(a, b) ((a) > (b) ? (a) : (b))
 
 /* Returns the pixels of `clip` (corner >= 0) that a rectangle touches. */
 static Box find_touched_pixels(Box clip, double left, double top, double right,
                                double bottom)
 {
-    double x0 = max_double(left, clip.x),
-           x1 = min_double(right, clip.x + clip.width);
-    double y0 = max_double(top, clip.y),
-           y1 = min_double(bottom, clip.y + clip.height);
+    double x0 = MAX(left, clip.x), x1 = MIN(right, clip.x + clip.width);
+    double y0 = MAX(top, clip.y), y1 = MIN(bottom, clip.y + clip.height);
     if (!(x1 >= x0) || !(y1 >= y0))
         return (Box){0, 0, 0, 0};
     int x = (int)x0, y = (int)y0, right_end = (int)x1, low_end = (int)y1;
@@ -229,16 +220,6 @@ static inline void blend_column(uint32_t *column, ptrdiff_t across, int low,
     *p = blend(*p, colour, part * amount >> FIXED_BITS);
 }
 
-static inline int min_int(int a, int b)
-{
-    return a < b ? a : b;
-}
-
-static inline int max_int(int a, int b)
-{
-    return a > b ? a : b;
-}
-
 /* Loops over columns, or rows if steep: axis k is along the loop, j across. */
 void canvas_line(Canvas *canvas, double x0, double y0, double x1, double y1,
                  double width, Colour colour)
@@ -260,8 +241,8 @@ void canvas_line(Canvas *canvas, double x0, double y0, double x1, double y1,
     double from = line[back + k], slope = d[j] / d[k];
     int start = (int)(from * FIXED_ONE);
     int stop = (int)(line[2 - back + k] * FIXED_ONE);
-    int begin = max_int(start >> FIXED_BITS, first[k]);
-    int end = min_int((stop + FIXED_ONE - 1) >> FIXED_BITS, behind[k]);
+    int begin = MAX(start >> FIXED_BITS, first[k]);
+    int end = MIN((stop + FIXED_ONE - 1) >> FIXED_BITS, behind[k]);
     int reach = (int)(0.5 * width * sqrt(1 + slope * slope) * FIXED_ONE);
     int middle =
         (int)((line[back + j] + (begin + 0.5 - from) * slope) * FIXED_ONE);
@@ -269,13 +250,13 @@ void canvas_line(Canvas *canvas, double x0, double y0, double x1, double y1,
     uint32_t full = find_opacity(colour),
              *column = canvas->pixels + begin * next[k];
     for (int i = begin; i < end; i++, middle += step, column += next[k]) {
-        int low = max_int(middle - reach, first[j] * FIXED_ONE);
-        int high = min_int(middle + reach, behind[j] * FIXED_ONE);
+        int low = MAX(middle - reach, first[j] * FIXED_ONE);
+        int high = MIN(middle + reach, behind[j] * FIXED_ONE);
         uint32_t amount = full;
         /* The first and the last pixel of the line are covered in part. */
         if (i == begin || i + 1 == end) {
-            int left = max_int(i * FIXED_ONE, start);
-            int right = min_int((i + 1) * FIXED_ONE, stop);
+            int left = MAX(i * FIXED_ONE, start);
+            int right = MIN((i + 1) * FIXED_ONE, stop);
             amount = (uint32_t)(right - left) * amount >> FIXED_BITS;
         }
         if (low < high)
@@ -351,10 +332,9 @@ void canvas_triangle(Canvas *canvas, const double c[6], bool smooth,
     if (!(fabs(turn) > 1e-12) || !(fabs(turn) < 1e15))
         return;
     Box box = find_touched_pixels(
-        canvas->clip, min_double(c[0], min_double(c[2], c[4])) - reach,
-        min_double(c[1], min_double(c[3], c[5])) - reach,
-        max_double(c[0], max_double(c[2], c[4])) + reach,
-        max_double(c[1], max_double(c[3], c[5])) + reach);
+        canvas->clip, MIN(c[0], MIN(c[2], c[4])) - reach,
+        MIN(c[1], MIN(c[3], c[5])) - reach, MAX(c[0], MAX(c[2], c[4])) + reach,
+        MAX(c[1], MAX(c[3], c[5])) + reach);
     for (int k = 0; k < 3; k++) {
         const double *p = c + 2 * k, *q = c + 2 * ((k + 1) % 3);
         double dx = q[0] - p[0], dy = q[1] - p[1];
@@ -380,10 +360,9 @@ void canvas_triangle(Canvas *canvas, const double c[6], bool smooth,
         for (int i = left; smooth && i < right; i++) {
             double inside = 0.5; /* distance inside; 1/2: full coverage */
             for (int k = 0; k < 3; k++)
-                inside = min_double(inside, edge[k][0] * i + first[k]);
-            row[i] =
-                blend(row[i], colour,
-                      (uint32_t)(max_double(inside + 0.5, 0) * full + 0.5));
+                inside = MIN(inside, edge[k][0] * i + first[k]);
+            row[i] = blend(row[i], colour,
+                           (uint32_t)(MAX(inside + 0.5, 0) * full + 0.5));
         }
     }
 }
@@ -409,8 +388,8 @@ void canvas_ring(Canvas *canvas, double x, double y, double radius,
             double dx = i + 0.5 - x, d2 = dx * dx + dy * dy;
             if (d2 <= in2 || d2 >= out2)
                 continue;
-            double d = sqrt(d2), part = min_double(far - d, 1);
-            part = disc ? part : min_double(part, d - near);
+            double d = sqrt(d2), part = MIN(far - d, 1);
+            part = disc ? part : MIN(part, d - near);
             row[i] = blend(row[i], colour, (uint32_t)(part * full + 0.5));
         }
     }

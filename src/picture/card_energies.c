@@ -1,5 +1,4 @@
-/* card_energies.c - cards of energies and radii over time, and of the energy
- * budget. */
+/* card_energies.c - energies and radii over time, and the energy budget. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -10,8 +9,7 @@
  * the largest one until now. */
 static const double MAX_AXIS_RATIO = 1000;
 /* The axis becomes logarithmic when the energy has grown by LOG_GROWTH. The
- * ends of the axis then lie within LOG_LOW and LOG_HIGH times the energy at the
- * start. */
+ * ends lie within LOG_LOW and LOG_HIGH times the energy at the start. */
 static const double LOG_GROWTH = 1e6, LOG_HIGH = 1e9, LOG_LOW = 1e-12;
 static const double MIN_STEPS = 8; /* least length of the time axis, steps */
 /* Energies that never reach this part of the largest one have no curve. */
@@ -93,8 +91,7 @@ static Curves find_curves(const FrameContent *content)
     return all;
 }
 
-/* Returns the index of the last point of the history that is not after this
- * time, or -1. */
+/* Returns the index of the last point up to this time; -1: no point. */
 static int find_history_point(const History *history, double time)
 {
     int at = -1;

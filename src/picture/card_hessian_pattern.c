@@ -1,11 +1,9 @@
-/* card_hessian_pattern.c - the non-zero blocks of the Hessian and its factor.
- */
+/* card_hessian_pattern.c - non-zero blocks of the Hessian and its factor. */
 #include <stdlib.h>
 
 #include "picture/cards.h"
 
-/* Kinds of blocks: zero in the factor, non-zero in the factor alone, non-zero
- * in the matrix, too. */
+/* Blocks: zero in the factor, non-zero in it alone, non-zero in the matrix. */
 enum { NOTHING, FILL, ENTRY };
 
 /* Returns the row of a node: the node's number in natural order, else the
@@ -87,8 +85,7 @@ static void draw_pattern(const Plot *card, Box square, bool natural,
     }
 }
 
-/* Draws two patterns side by side: rows in the order of the nodes, and in the
- * order of elimination. */
+/* Draws the patterns in the nodes' order and in the order of elimination. */
 void hessian_pattern_draw(const Plot *card)
 {
     Paper *paper = card->paper;

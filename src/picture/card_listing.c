@@ -1,5 +1,4 @@
-/* card_listing.c - cards with the lines of an algorithm, and with the numbers
- * that the slides' program prints. */
+/* card_listing.c - lines of an algorithm, and numbers that the slides print. */
 #include <math.h>
 #include <stdio.h>
 

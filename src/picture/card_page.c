@@ -12,8 +12,7 @@ typedef struct PageText {
     double letter_size;  /* size of the letters, times LETTERS */
 } PageText;
 
-/* Sizes of a page's letters, ems: the usual one, that of a page with much room,
- * and the least one. */
+/* Sizes of a page's letters, ems: usual, on a page with much room, least. */
 static const double LETTERS = 1.2, LARGEST = 1.45, SMALLEST = 0.8;
 static const double LINE_WIDTH = 24; /* least width of a line, in letters */
 /* Sizes over that of the letters: letters of a verdict and of a formula, width
@@ -83,9 +82,8 @@ static int lay_out_page(Paper *paper, Box inside, double size,
     return y - (int)(GAP * text_line_height(size * paper->em)) - inside.y;
 }
 
-/* Returns the height of the texts in pixels, with the question or with the
- * answer, whichever is higher: the size of the letters stays when the answer
- * comes. */
+/* Returns the height of the texts in pixels, with question or answer, whichever
+ * is higher: the letters keep their size when the answer comes. */
 static int measure_page(Paper *paper, Box inside, double size,
                         const FrameContent *content)
 {

@@ -1,5 +1,4 @@
-/* frame_content.c - cameras of the panes, what the mouse finds on the stage,
- * and the drawing of a whole frame. */
+/* frame_content.c - cameras of panes, picking on the stage, drawing a frame. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -198,8 +197,7 @@ static Box box_of_switch(const Plot *stage, int i, int count)
                  box->y + top + i * (high + gap), wide, high};
 }
 
-/* Draws the scene's switches as chips in the upper right corner; in a narrow
- * stage in the lower right corner. */
+/* Draws the scene's switches as chips in a corner of the stage. */
 static void draw_switches(const Plot *stage)
 {
     Paper *paper = stage->paper;

@@ -208,16 +208,6 @@ static double length_beyond_view(const Plot *plot)
     return 4 * (plot->box.width + plot->box.height) / plot->camera.scale[0];
 }
 
-/* Draws an arrow of fixed length in the direction -grad E at the iterate. */
-static void draw_negative_gradient(const Plot *plot, const LocalModel *E)
-{
-    const double *x = plot->simulation->descent.point;
-    double far = 6 * plot->em / plot->camera.scale[0] / vector_length(E->g);
-    plot_arrow(plot, x, E->g, -far, 2.2, COLOUR_TEXT);
-    plot_label(plot, 1, point_along(x, -far, E->g).xy, COLOUR_TEXT,
-               "\u2212\u2207E");
-}
-
 /* Draws the forces of the parts of E that are on; 1 m of arrow is 1 kg m. */
 static void draw_forces(const Plot *plot, const LocalModel *E)
 {
@@ -419,8 +409,13 @@ void landscape_draw(Plot *stage)
         draw_forces(&plot, &E);
     else if (!lecture->hides_answer)
         draw_directions(&plot, plot.has_text && both);
-    if (halves)
-        draw_negative_gradient(&plot, &E);
+    if (halves) {
+        double size = 6 * plot.em / plot.camera.scale[0]; /* m */
+        double far = size / vector_length(E.g);
+        plot_arrow(&plot, descent->point, E.g, -far, 2.2, COLOUR_TEXT);
+        plot_label(&plot, 1, point_along(descent->point, -far, E.g).at,
+                   COLOUR_TEXT, "\u2212\u2207E");
+    }
     if (stage->revealed && plot.has_text && !shows_layer(&plot, LAYER_CURVES) &&
         simulation->exhibit.switches != PART_INERTIA)
         mark_stationary_points(&plot);

@@ -1,5 +1,4 @@
-/* lecture_show.c - the list of pages, the list of the formulas' letters, and
- * what a page shows besides its scene. */
+/* lecture_show.c - lists of pages and letters, and what a page shows. */
 #include <stdio.h>
 #include <string.h>
 

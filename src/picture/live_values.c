@@ -115,18 +115,6 @@ static void add_setting_values(const Simulation *simulation, LiveValues *values)
     }
 }
 
-/* Adds why a step has converged with a large residual: a bound shows that the
- * next p is small enough, or the last p changes E by less than rounding. */
-static void add_step_end_values(const Trace *trace, LiveValues *values)
-{
-    const NewtonRecord *last = trace->record + trace->records - 1;
-    if (trace->records == 0 || last->status != STATUS_OK)
-        return;
-    values_add_flag(values, "negligible", last->residual > trace->tolerance);
-    values_add_flag(values, "hidden",
-                    last->alpha == 0 && trace->trials == last->trials);
-}
-
 /* Adds the values of the current step, or of the last update of a descent. */
 static void add_trace_values(const Simulation *simulation, const Trace *trace,
                              LiveValues *values)
@@ -153,8 +141,16 @@ static void add_trace_values(const Simulation *simulation, const Trace *trace,
     if (trace->trials > 0)
         values_add_flag(values, trace->is_accepted ? "taken" : "refused", true);
     values_add_flag(values, "given up", trace->given_up);
-    if (simulation->scene->needs & NEEDS_TIME)
-        add_step_end_values(trace, values);
+    const NewtonRecord *last = trace->record + trace->records - 1;
+    if (simulation->scene->needs & NEEDS_TIME && trace->records > 0 &&
+        last->status == STATUS_OK) {
+        /* A bound shows that the next p is small enough, or rounding hides the
+         * change of E by the last p. */
+        values_add_flag(values, "negligible",
+                        last->residual > trace->tolerance);
+        values_add_flag(values, "hidden",
+                        last->alpha == 0 && trace->trials == last->trials);
+    }
     if (trace->trials > 0 && trace->energy_difference) {
         double change = trace->energy_difference(trace->difference_data, alpha);
         values_add(values, "change", change);

@@ -36,8 +36,7 @@ double plot_round_axis_end(double value)
     return step * ceil(value / step * (1 - 1e-12));
 }
 
-/* Returns the coordinate of a value on an axis: a logarithm if the axis is
- * logarithmic. */
+/* Returns the coordinate of a value, a logarithm on a logarithmic axis. */
 static double axis_coordinate(const Axis *axis, double value)
 {
     return axis->is_log ? log10(value) : value;
@@ -206,8 +205,7 @@ Plot plot_create_on_stage(const Plot *stage, Axis x, Axis y)
     const Box *box = &plot.box;
     plot.x = x;
     plot.y = y;
-    /* The first pass finds the numbers of y, the second one makes room for
-     * them. */
+    /* The second pass makes room for the numbers that the first finds. */
     for (int pass = 0; pass < 2; pass++) {
         if (stage->has_text && pass > 0)
             plot.box = find_box_inside_axes(stage, &plot.y, 2.2, 1.7);

@@ -7,8 +7,7 @@
  * Points are [2] in the units of the axes, widths and radii in units of the
  * paper, other sizes in ems.  In a plot with axes, lines and arrows are clipped
  * at the box, and discs and rings whose centre lies outside are left out.  A
- * stage is clipped by its canvas.
- */
+ * stage is clipped by its canvas. */
 #pragma once
 
 #include "base/mathematics.h"
@@ -36,8 +35,7 @@ typedef struct Plot {
     int legend_pixel[2]; /* pixels, place of the legend's next words */
 } Plot;
 
-/* Makes the plot of a box in metres.  paper NULL: the plot only computes
- * positions. */
+/* Makes the plot of a box in metres; without paper, only for positions. */
 static inline Plot plot_of_box(Paper *paper, const FrameContent *content,
                                const Pane *pane, Box box, double em)
 {
@@ -90,8 +88,7 @@ static inline double vector_length(const double *d)
 /* Rounds value > 0 up to 1, 2 or 5 times a power of ten. */
 double plot_round_up(double value);
 
-/* Rounds value > 0 up to a multiple of a tick, to end an axis that begins at 0.
- */
+/* Rounds value > 0 up to a multiple of a tick: the end of an axis from 0. */
 double plot_round_axis_end(double value);
 
 /* Makes the plot inside a card, and draws its axes with their numbers. */
@@ -102,8 +99,7 @@ Plot plot_create(const Plot *card, Axis x, Axis y);
  * is not 0. */
 Plot plot_create_on_stage(const Plot *stage, Axis x, Axis y);
 
-/* Maps a point to pixels; the pixels are not finite if the point has no
- * logarithm. */
+/* Maps a point to pixels, which are not finite for logarithms below 0. */
 void plot_to_pixel(const Plot *plot, const double *at, double pixel[2]);
 
 /* Picks the point nearest to pixel (x, y), the last one if several are equally
@@ -119,8 +115,7 @@ bool plot_pick_point(const Plot *plot, int count, const double *at,
 void bounds_make_square(double least, double needed, double factor,
                         double bounds[4]);
 
-/* ---- shapes; the phase of dashes is that of canvas_dashes -----------------
- */
+/* ---- shapes; the phase of dashes is that of canvas_dashes ---------------- */
 
 void plot_line(const Plot *plot, const double *a, const double *b, double width,
                Colour colour);
@@ -167,8 +162,7 @@ void plot_arrow(const Plot *plot, const double *a, const double *d,
  * upper left corner to the right and goes on in a second line. */
 void plot_legend(Plot *plot, Colour colour, const char *format, ...);
 
-/* Draws a scale bar in the lower left corner: 1, 2 or 5 times a power of ten
- * metres. */
+/* Draws a scale bar in the lower left corner: 1, 2 or 5 times 10^n metres. */
 void plot_scale(const Plot *plot);
 
 /* Returns the cost of a place for a label, which is high if the box covers

@@ -1,5 +1,4 @@
-/* race_picture.c - the graph of run time against error, with one curve for each
- * method, and its table. */
+/* race_picture.c - run time against error of each method, and its table. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -152,8 +151,7 @@ bool race_fill_row(const FrameContent *content, int row, CardTableRow *cells)
     return true;
 }
 
-/* Draws the table; the plot over h is about errors, the other one about energy
- * and stability. */
+/* Draws the table.  Over h errors come first, else energy and stability. */
 void race_table_draw(const Plot *card)
 {
     static const int order[2][CARD_COLUMNS] = {{0, 6, 7, 1, 2, 3, 4, 5, 8},

@@ -21,8 +21,7 @@ typedef struct ScalarUpdate {
     int refused_lengths; /* number of refused trials alpha = 1, 1/2, ... */
     int iterate;         /* index of the iterate x0 */
     bool is_made;
-    bool shows_derivative; /* draws f' with its tangent instead of f with the
-                              model */
+    bool shows_derivative; /* draws f' and tangent, not f and model */
 } ScalarUpdate;
 
 static LocalModel evaluate_scalar(const Simulation *simulation, double x)

@@ -98,8 +98,7 @@ void spring_draw(Plot *stage)
 
 /* ---- cards -------------------------------------------------------------- */
 
-/* Adds the force by central differences of the energy, and the Hessian by
- * central differences of the force. */
+/* Adds force and Hessian as central differences of energy and force. */
 static void add_central_differences(const Simulation *simulation,
                                     LiveValues *values)
 {

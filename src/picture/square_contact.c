@@ -119,9 +119,8 @@ void square_write_friction(const SquarePen *pen)
                    format_number(fabs(atan(slope)) / DEGREE).text);
 }
 
-/* Draws a wall as a half plane or as a thin slab, and a dashed line at the
- * distance `reach` where its force begins, enlarged on a page with its letter.
- */
+/* Draws a wall as a half plane or a thin slab, and dashes at the distance
+ * `reach` where its force begins, enlarged on a page with its letter. */
 static void draw_wall(const Plot *stage, const Obstacle *wall, double reach,
                       bool as_slab)
 {

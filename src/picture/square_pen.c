@@ -141,8 +141,7 @@ void square_draw_springs(const SquarePen *pen)
 
 /* ---- cells -------------------------------------------------------------- */
 
-/* Whether a triangle of the face has turned over, whose nodes are anticlockwise
- * at rest. */
+/* Whether a triangle of the face, anticlockwise at rest, has turned over. */
 static bool face_is_folded(const double *x, const int node[4])
 {
     return twice_signed_area(x + 2 * node[0], x + 2 * node[1],

@@ -36,16 +36,6 @@ typedef struct Extent {
     double middle[2], half_size[2];
 } Extent;
 
-/* Whether the body is alone and free: without walls, balls, ceiling and other
- * runs. */
-static bool body_is_free(const Simulation *simulation)
-{
-    const Options *options = &simulation->options;
-    return options->grounds + options->balls == 0 &&
-           !simulation->scene->body.obstacle && options->ceiling[1] == 0 &&
-           simulation->runs == 1;
-}
-
 /* Returns the view that the scene sets, or else the square at the start, at
  * most twice as wide as at rest.  A compressed square has room to spring out
  * and bulge. */
@@ -68,8 +58,7 @@ static Extent find_first_view(const FrameContent *content,
     return first;
 }
 
-/* Returns the part of the world that is seen if the view fits the stage, which
- * is higher or wider than the view. */
+/* Returns what the stage shows of the world when the view just fits into it. */
 static Extent find_seen_extent(const Plot *stage, const Extent *view)
 {
     Extent seen = *view;
@@ -200,11 +189,15 @@ void square_bounds(const Plot *stage, double bounds[4])
 {
     static const double GROWTH = 1.5;
     const Simulation *simulation = stage->simulation;
+    const Options *options = &simulation->options;
     bool bare = stage->content->is_bare;
+    bool is_free = options->grounds + options->balls == 0 &&
+                   !simulation->scene->body.obstacle &&
+                   options->ceiling[1] == 0 && simulation->runs == 1;
     Extent view = find_first_view(stage->content, simulation);
     double box[4], tall, grown = 1;
     pane_node_bounds(stage->pane, simulation->runs, box);
-    if (body_is_free(simulation))
+    if (is_free)
         follow_body(simulation, pane_positions(stage->pane), &view);
     while (grown < find_needed_growth(box, &view, &tall) * (1 - 1e-12) &&
            grown < MAX_GROWTH) {
@@ -431,8 +424,7 @@ static void compute_rest_positions(const Simulation *simulation, double *x)
         square_mesh_rest_position(&simulation->mesh, i, x + 2 * i);
 }
 
-/* Draws the arrows of a page: forces on the nodes, or displacements from rest.
- */
+/* Draws a page's arrows: forces on the nodes, or displacements from rest. */
 static void draw_page_arrows(const SquarePen *pen)
 {
     unsigned layers = pen->simulation->options.layers;
@@ -457,8 +449,7 @@ static void draw_page_arrows(const SquarePen *pen)
                "node %d", system->nodes - 1);
 }
 
-/* Draws the velocity of the centre of mass as the way of the centre in
- * VELOCITY_TIME. */
+/* Draws the velocity of the centre of mass as its way in VELOCITY_TIME. */
 static void draw_mean_velocity(const SquarePen *pen)
 {
     const System *system = pen->system;

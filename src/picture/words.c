@@ -16,9 +16,8 @@ static const double LEGEND_SIZE = 0.92; /* ems */
 static const double SCALE_PART = 0.08;
 static const double MAX_PIXEL = 1e6;   /* pixels, farthest labelled point */
 static const double LINE_HEIGHT = 1.3; /* ems, height of a label */
-/* Costs of a label's place: if the label is all on ink or on other words, if it
- * is all outside of the plot, if it is far from its point, and for each place
- * before in the list. */
+/* Costs of a label's place on ink or other words, outside of the plot, or far
+ * from its point, and for each place before in the list. */
 static const double COST_INK = 60, COST_OUTSIDE = 30, COST_FAR = 2.5,
                     COST_LATER = 0.04;
 static const double LABEL_MARGIN = 0.2;   /* ems, free margin of a label */

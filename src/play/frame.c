@@ -129,20 +129,17 @@ static void fill_options(const Player *player, FrameContent *content)
  *   state  in, index of the label in CommandRow.chips */
 static void add_chip(Frame *frame, CommandKind kind, int state, bool lit)
 {
-    int i = frame->content.chips.count;
-    const CommandRow *row = &command_rows[kind];
-    const char *label = row->chips;
-    if (i >= LAYOUT_CHIPS)
-        return;
-    char *key = frame->chip_key[i], *text = frame->chip_label[i];
+    ChipRow *chips = &frame->content.chips;
+    Chip *chip = &chips->chip[chips->count];
+    const char *label = command_rows[kind].chips;
+    const char *keys = command_rows[kind].keys;
     for (; state > 0; state--)
         label = strchr(label, '|') + 1;
-    snprintf(text, VALUE_SIZE, "%.*s", (int)strcspn(label, "|"), label);
-    snprintf(key, VALUE_SIZE, "%.*s", (int)strcspn(row->keys, "|"), row->keys);
-    shorten_key(key);
-    frame->chip_command[i] = kind;
-    frame->content.chips.chip[frame->content.chips.count++] =
-        (Chip){key, text, lit};
+    *chip = (Chip){.highlighted = lit};
+    append(chip->label, VALUE_SIZE, "%.*s", (int)strcspn(label, "|"), label);
+    append(chip->key, VALUE_SIZE, "%.*s", (int)strcspn(keys, "|"), keys);
+    shorten_key(chip->key);
+    frame->chip_command[chips->count++] = kind;
 }
 
 static void fill_chips(const Player *player, Frame *frame)
@@ -318,17 +315,6 @@ static void fill_time(const Player *player, FrameContent *content)
              player_active_run(player)->outcome.updates);
 }
 
-/* Returns the first pane whose option is not the page's own, or -1. */
-static int find_changed_pane(const Player *player, const OptionRow *row)
-{
-    const Past *past = &player->past;
-    for (int p = 0; p < player->tour.own_panes && p < past_panes(past); p++)
-        if (!option_is_equal(row, &player->tour.own_options[p],
-                             &past_control(past, p)->options))
-            return p;
-    return -1;
-}
-
 /* If options of the page are changed, writes a heading for Look with the page's
  * own ones: "As the page opened, with h 1 s:". */
 static void fill_own_options(const Player *player, LectureContent *lecture)
@@ -337,16 +323,21 @@ static void fill_own_options(const Player *player, LectureContent *lecture)
     const Options *own = player->tour.own_options;
     char text[SENTENCE_SIZE] = "As the page opened", value[VALUE_SIZE];
     const char *before = ", with ";
-    const LecturePage *page = past_control(&player->past, 0)->options.page;
+    const Past *past = &player->past;
+    const LecturePage *page = past_control(past, 0)->options.page;
     /* After undo the window may show another page than the one opened last. */
     if (!page || page != own->page || !player->setup.asks_guess)
         return;
     int rows = player_list_options(player, true, row);
+    int panes = (int)fmin(player->tour.own_panes, past_panes(past));
     bool is_changed =
-        exhibit_find_flips(&player->past.pane[0].simulation) != own->flips;
+        exhibit_find_flips(&past->pane[0].simulation) != own->flips;
     for (int i = 0; i < rows; i++) {
-        int p = find_changed_pane(player, row[i]);
-        if (p < 0)
+        int p = 0; /* the first pane whose option is not the page's own */
+        while (p < panes && option_is_equal(row[i], &own[p],
+                                            &past_control(past, p)->options))
+            p++;
+        if (p == panes)
             continue;
         is_changed = true;
         player_format_value(row[i], &own[p], player_simulation(player), value,

@@ -457,12 +457,11 @@ static Status release_button(Player *player)
                     simulation->system.pinned[node] ? "frees" : "pins");
     if ((drag == COMMAND_OBSTACLE || drag == COMMAND_GRAB) &&
         player->hands.holding) {
-        player_enqueue(player,
-                       &(Command){.kind = COMMAND_RELEASE, .joined = true});
+        Command next = {.kind = COMMAND_RELEASE, .joined = true};
+        player_enqueue(player, &next);
+        next = (Command){.kind = COMMAND_PIN, .number = node, .joined = true};
         if (drag == COMMAND_GRAB && mouse->repins_node)
-            player_enqueue(player, &(Command){.kind = COMMAND_PIN,
-                                              .number = node,
-                                              .joined = true});
+            player_enqueue(player, &next);
         return player_show_refusal(player, player_obey_queue(player, false));
     }
     if (drag == COMMAND_SET && mouse->has_moved)

@@ -113,19 +113,6 @@ Status obey_type(Player *player, const Command *command)
     return STATUS_OK;
 }
 
-/* Sets an option of a pane to the value of a command if obstacles have room. */
-static Status set_option_value(Player *player, int pane, const Command *command,
-                               Options *options)
-{
-    const OptionRow *row = &option_rows[command->number];
-    Status status = options_set(options, row, command->text, command->x,
-                                MESSAGE(player->message));
-    return status || !row->max_times
-               ? status
-               : simulation_check_clearance(&player->past.pane[pane].simulation,
-                                            options, MESSAGE(player->message));
-}
-
 /* Sets an option in all panes, or only in the active one if the panes differ in
  * it or a page sets it.  Begins new runs if the option needs a new start. */
 Status obey_set(Player *player, const Command *command)
@@ -147,8 +134,14 @@ Status obey_set(Player *player, const Command *command)
     player_copy_options(player, options);
     double old = options[player->active].number[row->slot];
     Status status = STATUS_OK;
-    for (int p = from; p < to && !status; p++)
-        status = set_option_value(player, p, command, &options[p]);
+    const Message message = MESSAGE(player->message);
+    for (int p = from; p < to && !status; p++) {
+        status =
+            options_set(&options[p], row, command->text, command->x, message);
+        if (!status && row->max_times) /* obstacles need room */
+            status = simulation_check_clearance(
+                &player->past.pane[p].simulation, &options[p], message);
+    }
     if (status)
         return status;
     Command change = *command;

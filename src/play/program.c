@@ -247,8 +247,7 @@ static const char *find_option_file(const Options *options,
                : NULL;
 }
 
-/* Refuses a file name that two options have, as one file would replace another,
- * also the one that is read. */
+/* Refuses a file name that two options have, since files replace each other. */
 static Status check_file_names(const Options *options, Message message)
 {
     for (const OptionRow *row = option_rows; row->name; row++)

@@ -235,27 +235,17 @@ Status recording_write_states(Recording *recording, bool energies_only,
     return status;
 }
 
-Status recording_write_iteration(Recording *recording,
-                                 const NewtonRecord *record, int pane)
+Status recording_write_iteration(Recording *recording, const NewtonRecord *at,
+                                 int pane)
 {
     Table *log = &recording->table[RECORDING_LOG];
     /* An iteration below 0 is the end of a step by a prescribed motion. */
-    double iteration = record->iteration < 0 ? NAN : record->iteration;
-    double row[] = {(double)record->step,
-                    iteration,
-                    record->residual,
-                    record->alpha,
-                    record->trials,
-                    record->slope,
-                    record->change,
-                    record->projected,
-                    record->factorised,
-                    record->shift,
-                    record->status,
-                    record->seconds,
-                    record->solver,
-                    record->residual_kind,
-                    pane};
+    double iteration = at->iteration < 0 ? NAN : at->iteration;
+    double step = (double)at->step;
+    double row[] = {
+        step,       iteration,   at->residual,  at->alpha,         at->trials,
+        at->slope,  at->change,  at->projected, at->factorised,    at->shift,
+        at->status, at->seconds, at->solver,    at->residual_kind, pane};
     if (log->output.file)
         table_add_row(log, row);
     return table_check(log);

@@ -32,16 +32,6 @@ Status obey_scene(Player *player, const Command *command)
     return STATUS_OK;
 }
 
-/* Whether the page has opening commands, and the mesh has their nodes. */
-static bool page_can_reopen(Player *player, const Options *now)
-{
-    Options own;
-    const LecturePage *page = now->page;
-    return page && page->open &&
-           !lecture_make_options(page, &own, MESSAGE(player->message)) &&
-           own.segments == now->segments;
-}
-
 /* Makes room for the body at its start.  Obstacles that overlap the body go
  * back to their places when the run began.  Returns OK, or INVALID_INPUT if the
  * run began with another number of obstacles. */
@@ -94,8 +84,11 @@ Status player_restart_runs(Player *player, const Options *options, int panes,
                            const Command *edit)
 {
     const Control *before = control_retain(past_control(&player->past, 0));
-    bool opens =
-        edit->kind == COMMAND_RESTART && page_can_reopen(player, options);
+    const LecturePage *page = options->page;
+    Options own; /* opening commands need the page's own nodes */
+    bool opens = edit->kind == COMMAND_RESTART && page && page->open &&
+                 !lecture_make_options(page, &own, MESSAGE(player->message)) &&
+                 own.segments == options->segments;
     Status status = player_begin_runs(player, options, opens ? 1 : panes, edit);
     if (opens)
         player->time.walk_unit = UNIT_STEP;

@@ -286,8 +286,7 @@ static void enter_line_walk(Player *player, AfterWork after)
     }
 }
 
-/* Moves all panes one line or update forward (1) or back (-1).  Returns whether
- * any pane has moved. */
+/* Walks a line or update on (1) or back (-1).  Returns whether a pane moved. */
 static bool walk_lines(Player *player, int way)
 {
     bool moved = false;
@@ -305,8 +304,7 @@ static bool walk_lines(Player *player, int way)
 
 /* ---- the step once more, with an edit ------------------------------------ */
 
-/* Describes the step under a setting: "projection none: E(x) rises by 206 J s²
- * in 12 updates". */
+/* Describes a step: "projection none: E(x) rises by 206 J s² in 12 updates". */
 static void describe_outcome(const Player *player, const OptionRow *row,
                              char *text, size_t size)
 {
@@ -497,8 +495,7 @@ Status obey_next(Player *player, const Command *command)
         return STATUS_OK;
     if (after == AFTER_SHOW_PEAK &&
         player->view_of_pane[player->active].place >= 0) {
-        leave_algorithm_lines(
-            player); /* from the peak of E to the end of the step */
+        leave_algorithm_lines(player); /* to the end of the step */
         return STATUS_OK;
     }
     return player_seek(player, player->past.step + 1, after);

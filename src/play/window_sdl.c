@@ -208,45 +208,31 @@ static Input read_event(const SDL_Event *event)
     bool press = event->type == SDL_MOUSEBUTTONDOWN;
     int button = event->button.button;
     double scale[2];
-    switch (event->type) {
-    case SDL_QUIT:
+    if (event->type == SDL_QUIT) {
         input.kind = INPUT_CLOSE;
-        break;
-    case SDL_KEYDOWN:
-    case SDL_KEYUP:
+    } else if (event->type == SDL_KEYDOWN || event->type == SDL_KEYUP) {
         read_key(&event->key, &input);
-        break;
-    case SDL_TEXTINPUT: /* a sign or a digit */
-        if (isgraph((unsigned char)text[0]) &&
-            !isalpha((unsigned char)text[0]) && text[1] == '\0') {
-            input.kind = INPUT_KEY;
-            snprintf(input.key, sizeof input.key, "%s", text);
-        }
-        break;
-    case SDL_WINDOWEVENT:
+    } else if (event->type == SDL_TEXTINPUT &&
+               isgraph((unsigned char)text[0]) &&
+               !isalpha((unsigned char)text[0]) && text[1] == '\0') {
+        input.kind = INPUT_KEY; /* a sign or a digit */
+        snprintf(input.key, sizeof input.key, "%s", text);
+    } else if (event->type == SDL_WINDOWEVENT) {
         input.kind = read_window_event(&event->window);
-        break;
-    case SDL_MOUSEMOTION:
+    } else if (event->type == SDL_MOUSEMOTION) {
         input.kind = INPUT_MOVE;
         mouse = (SDL_Point){event->motion.x, event->motion.y};
-        break;
-    case SDL_MOUSEBUTTONDOWN:
-    case SDL_MOUSEBUTTONUP:
+    } else if (press || event->type == SDL_MOUSEBUTTONUP) {
         mouse = (SDL_Point){event->button.x, event->button.y};
         input.kind = press ? INPUT_PRESS : INPUT_RELEASE;
         input.button = button == SDL_BUTTON_LEFT    ? BUTTON_LEFT
                        : button == SDL_BUTTON_RIGHT ? BUTTON_RIGHT
                                                     : BUTTON_MIDDLE;
         input.clicks = event->button.clicks;
-        break;
-    case SDL_MOUSEWHEEL:
+    } else if (event->type == SDL_MOUSEWHEEL) {
+        bool flipped = event->wheel.direction == SDL_MOUSEWHEEL_FLIPPED;
         input.kind = INPUT_WHEEL;
-        input.wheel_notches = event->wheel.preciseY;
-        if (event->wheel.direction == SDL_MOUSEWHEEL_FLIPPED)
-            input.wheel_notches = -input.wheel_notches;
-        break;
-    default:
-        break;
+        input.wheel_notches = (flipped ? -1 : 1) * event->wheel.preciseY;
     }
     find_pixels_per_point(scale);
     input.x = mouse.x * scale[0];

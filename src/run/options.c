@@ -1,8 +1,7 @@
 /* options.c - the table of options.
  *
  * A new option is a field in options.h and a row in this table, from which all
- * that is said about it, its reading and its term come.
- */
+ * that is said about it, its reading and its term come. */
 #include "run/options.h"
 
 #include <math.h>

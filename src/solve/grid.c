@@ -1,6 +1,5 @@
 /* grid.c - the square's numbers laid out as planes, and copies to and from
- * them.
- */
+ * them. */
 #include "solve/grid.h"
 
 #include <math.h>

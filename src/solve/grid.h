@@ -16,8 +16,7 @@
  * Sums have one shape whatever the width of the registers: each of LANES
  * neighbours has its own partial sum, the partial sums of a band of rows are
  * added in a fixed order, and then the bands are.  The bits are therefore the
- * same everywhere.
- */
+ * same everywhere. */
 #pragma once
 
 #include <stddef.h>

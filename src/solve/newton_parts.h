@@ -1,6 +1,5 @@
 /* newton_parts.h - the parts of Newton's loop (newton.c), each in a file of its
- * own.
- */
+ * own. */
 #pragma once
 
 #include "solve/newton.h"

@@ -13,8 +13,7 @@
  * With one right-hand side CHOLMOD would call BLAS three times for each panel;
  * on the small panels of a square mesh these calls take longer than the
  * arithmetic.  In panels.c four columns go through a panel at a time: half the
- * time at 32 segments, four fifths at 64 and above.
- */
+ * time at 32 segments, four fifths at 64 and above. */
 #pragma once
 
 typedef struct Panel {

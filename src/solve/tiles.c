@@ -1,6 +1,5 @@
 /* tiles.c - minimisation of E tile by tile, where folds run through the
- * square.
- */
+ * square. */
 #include "solve/tiles.h"
 
 #include <float.h>

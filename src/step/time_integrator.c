@@ -67,8 +67,7 @@ void time_integrator_free(TimeIntegrator *run)
  *
  *     x_tilde = x + h v        method->set_target
  *     x = argmin of E          newton_minimise
- *     v = (x - x_n) / h        method->finish
- */
+ *     v = (x - x_n) / h        method->finish */
 
 /* Advances the clock by a step of h. */
 static void count_step(StepClock *clock, double h)

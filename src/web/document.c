@@ -1,5 +1,4 @@
-/* document.c - writes a frame as lines of text, which document.js shows as
- * elements.
+/* document.c - writes a frame as lines of text, which document.js shows.
  *
  * A line is a word and its fields, with a tab before each field.  TEXT is
  * markup (text.h) with its numbers filled in; LINE stands for the three fields
@@ -29,8 +28,7 @@
  *     words INDEX LINE            a line of a card of kind text,
  *     row INDEX LIT STRUCK INDENTED TEXT VALUE   of the algorithm in it,
  *     cells INDEX COLOUR TEXT ... and of the table in it; heads come first
- *     step STEP NEWEST PAUSED
- */
+ *     step STEP NEWEST PAUSED */
 #include "web/document.h"
 
 #include <math.h>
@@ -94,11 +92,9 @@ static void put_text(Writer *to, const LiveValues *values, const char *word,
               line.face == FACE_BOLD, line.text);
 }
 
-/* ---- the page of the lecture ----------------------------------------------
- */
+/* ---- the page of the lecture --------------------------------------------- */
 
-/* Writes the texts of the page; `look` and `try` only if the answer is shown.
- */
+/* Writes the texts of the page; `look` and `try` only with the answer. */
 static void put_page_texts(Writer *to, const FrameContent *content)
 {
     const LecturePage *page = content->lecture.page;
@@ -125,8 +121,7 @@ static void put_page_texts(Writer *to, const FrameContent *content)
               page->code[i]);
 }
 
-/* ---- cards -----------------------------------------------------------------
- */
+/* ---- cards --------------------------------------------------------------- */
 
 /* Writes the lines of an algorithm that the scene shows now. */
 static void put_algorithm(Writer *to, const FrameContent *content, int card,
@@ -237,17 +232,7 @@ static void put_card(Writer *to, const FrameContent *content, int index,
         put_text(to, &pane->values, word, text_undrawn);
 }
 
-static void put_cards(Writer *to, const FrameContent *content)
-{
-    const Picture *picture = active_picture(content);
-    for (int i = 0; i < picture->count && content->sheet.cells == 0; i++)
-        if (!(content->cards.hidden_cards >> i & 1) &&
-            strcmp(picture->cards[i]->name, "page") != 0)
-            put_card(to, content, i, picture->cards[i]);
-}
-
-/* ---- what can be set -------------------------------------------------------
- */
+/* ---- what can be set ----------------------------------------------------- */
 
 /* Whether a sentence "Drag ..." of the text names the option. */
 static bool asks_to_drag(const char *text, const OptionRow *row)
@@ -302,8 +287,7 @@ static void put_handles_and_switches(Writer *to, const Simulation *simulation)
         print(to, "switch\t%d\t%d\t%s\n", i, part[i].on, part[i].label);
 }
 
-/* ---- what is seen, and what happened ---------------------------------------
- */
+/* ---- what is seen, and what happened ------------------------------------- */
 
 /* Describes size and place of a body, or the place of a point. */
 static void put_shape(Writer *to, const Pane *pane)
@@ -323,8 +307,7 @@ static void put_shape(Writer *to, const Pane *pane)
               format_digits(at[1], 4).text);
 }
 
-/* Describes the picture: method and shape in each pane, the energies and the
- * legend of the active pane. */
+/* Describes the picture: method and shape of each pane, energies, legend. */
 static void put_picture(Writer *to, const Player *player)
 {
     const FrameContent *content = &player->screen.frame.content;
@@ -377,6 +360,7 @@ void document_write(const Player *player, char *text)
 {
     const FrameContent *content = &player->screen.frame.content;
     const LecturePage *page = content->lecture.page;
+    const Picture *picture = active_picture(content);
     Writer writer = {.text = text}, *to = &writer;
     text[0] = '\0';
     const char *name =
@@ -401,7 +385,10 @@ void document_write(const Player *player, char *text)
                   content->lecture.guesses);
         print(to, "\n");
     }
-    put_cards(to, content);
+    for (int i = 0; i < picture->count && content->sheet.cells == 0; i++)
+        if (!(content->cards.hidden >> i & 1) &&
+            strcmp(picture->cards[i]->name, "page") != 0)
+            put_card(to, content, i, picture->cards[i]);
     put_numbers(to, player);
     put_handles_and_switches(to, active_pane(content)->simulation);
     put_picture(to, player);

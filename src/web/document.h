@@ -1,18 +1,14 @@
-/* document.h - writes the texts of a frame, which the page shows beside its
- * canvas.
- */
+/* document.h - writes the texts that the page shows beside its canvas. */
 #pragma once
 
 #include "play/player.h"
 
-/* Shows a drawn card, or the picture for card -1, on its canvas in the page.
- * window_web.c defines this function. */
+/* Shows a drawn card, or the picture (-1), in the page (window_web.c). */
 void window_show_card(const Canvas *canvas, int card);
 
 enum { DOCUMENT_SIZE = 48 << 10 };
 
-/* Writes the texts of the last frame, with their numbers filled in; the head of
- * document.c lists the kinds of lines.
+/* Writes the texts of the last frame; the head of document.c lists their kinds.
  *   text  [DOCUMENT_SIZE] out */
 void document_write(const Player *player, char *text);
 

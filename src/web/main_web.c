@@ -1,6 +1,5 @@
 /* main_web.c - functions that page.js calls: they begin the program with a
- * command line, make its frames and answer questions about the last frame.
- */
+ * command line, make its frames and answer questions about the last frame. */
 #include <emscripten.h>
 #include <limits.h>
 #include <signal.h>
@@ -38,8 +37,7 @@ static bool plays;                      /* the page shows a session */
  * own.  Returns PROGRAM_PLAYS, or the exit code if nothing new is shown. */
 EMSCRIPTEN_KEEPALIVE int web_begin(const char *words)
 {
-    Session *next =
-        plays && session == &sessions[0] ? &sessions[1] : &sessions[0];
+    Session *next = &sessions[plays && session == &sessions[0]];
     int count = 1;
     snprintf(next->text, sizeof next->text, "elasto\n%s", words);
     next->word[0] = strtok(next->text, "\n");
@@ -169,8 +167,7 @@ EMSCRIPTEN_KEEPALIVE void web_answer(const char *guess)
         obey_or_refuse(player, player_reveal_answer(player, guess));
 }
 
-/* ---- the printed lecture --------------------------------------------------
- */
+/* ---- the printed lecture ------------------------------------------------- */
 
 /* Runs a page of the lecture, counted from 0, up to the step that is printed,
  * in the other session, and shows its picture.  Then web_document and
@@ -180,7 +177,7 @@ EMSCRIPTEN_KEEPALIVE void web_print_page(int page, int width, int height)
     static bool played, prints;
     const Command next = {.kind = COMMAND_NEXT};
     const LecturePage *row = &lecture_pages[page];
-    Session *other = session == &sessions[0] ? &sessions[1] : &sessions[0];
+    Session *other = &sessions[session == &sessions[0]];
     Player *player = prints ? &session->player : &other->player;
     Options options;
     char message[256];

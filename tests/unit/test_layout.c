@@ -19,12 +19,12 @@ static FrameContent content;
 /* The square with five cards, the last one closed, settings and chips. */
 static void show_all(void)
 {
-    static const char label[] = "............";
     frame_create(&simulation, &content);
     frame_fill_values(&content);
     for (int i = 0; i < 9; i++) {
         content.settings.item[i].min_letters = 4 + 2 * i;
-        content.chips.chip[i] = (Chip){"Tab", label + 8 - i, false};
+        content.chips.chip[i] = (Chip){"Tab", "", false};
+        memset(content.chips.chip[i].label, '.', (size_t)i + 4);
     }
     content.settings.count = content.chips.count = 9;
 }
@@ -115,7 +115,7 @@ TEST(small_windows_leave_parts_out)
     }
     /* shorter labels move the chips together */
     for (int i = 0; i < content.chips.count; i++)
-        content.chips.chip[i].label++;
+        content.chips.chip[i].label[i + 3] = '\0';
     CHECK(layout_create(&content, 900, 900).chips_left_out == 0);
     Layout small = layout_create(&content, 400, 300);
     CHECK(small.cards == 0 && small.settings == 0);
