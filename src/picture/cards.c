@@ -86,9 +86,8 @@ static void draw_list(Paper *paper, Box inside, const List *list)
     ListGrid grid = arrange_list(list, inside, paper->em);
     double em = paper->em, size = fmin(0.95, grid.row_height / (1.3 * em));
     double key = 0, wide = inside.width / (double)grid.columns;
-    const ListRow *end = list->row + list->rows;
-    for (const ListRow *row = list->row; row < end; row++)
-        key = fmax(key, paper_width(paper, FACE_BOLD, size, row->key));
+    for (int i = 0; i < list->rows; i++)
+        key = fmax(key, paper_width(paper, FACE_BOLD, size, list->row[i].key));
     key += 0.6 * size * em;
     for (int i = 0; i < list->rows; i++) {
         const ListRow *row = &list->row[i];

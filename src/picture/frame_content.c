@@ -20,8 +20,7 @@ const Picture *picture_of_scene(const struct Scene *scene)
 
 bool frame_has_card(const FrameContent *content, const char *name)
 {
-    const Picture *picture = active_picture(content);
-    int card = picture_find_card(picture, name);
+    int card = picture_find_card(active_picture(content), name);
     return card >= 0 && !(content->cards.hidden_cards >> card & 1);
 }
 
@@ -184,7 +183,6 @@ void stage_draw_handles(const Plot *stage)
     }
 }
 
-/* Returns the box of switch i of `count`. */
 static Box box_of_switch(const Plot *stage, int i, int count)
 {
     const Box *box = &stage->box;

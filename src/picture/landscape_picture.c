@@ -132,7 +132,6 @@ static Plot draw_map(const Plot *stage)
 {
     const Simulation *simulation = stage->simulation;
     const System *system = &simulation->system;
-    const Exhibit *exhibit = &simulation->exhibit;
     const double *x = simulation->run[0].x;
     Plot plot =
         plot_create_on_stage(stage, (Axis){.label = "x in m"}, (Axis){0});
@@ -143,7 +142,7 @@ static Plot draw_map(const Plot *stage)
     plot_springs(&plot, system, x, 3.5, curves ? COLOUR_GRID : COLOUR_REST);
     for (int i = 1; i < system->nodes; i++)
         plot_pin(&plot, x + 2 * i, 5);
-    plot_disc(&plot, exhibit->target, 6, COLOUR_X_TILDE);
+    plot_disc(&plot, simulation->exhibit.target, 6, COLOUR_X_TILDE);
     return plot;
 }
 

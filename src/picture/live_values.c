@@ -448,12 +448,11 @@ static void fill_text(const LiveValues *values, const char *text, char *string,
 
 void frame_fill_texts(FrameContent *content)
 {
-    const Scene *scene = active_pane(content)->simulation->scene;
     const LiveValues *values = &active_pane(content)->values;
     TitleBar *bar = &content->title_bar;
     frame_fill_values(content);
     if (!bar->topic)
-        bar->topic = scene->title;
+        bar->topic = active_pane(content)->simulation->scene->title;
     fill_text(values, text_sentences, bar->sentence, sizeof bar->sentence);
     fill_text(values, text_methods, bar->method, sizeof bar->method);
     fill_text(values, text_states, bar->state, sizeof bar->state);

@@ -124,12 +124,11 @@ static bool find_step_matrix(const IntegratorMethod *method, double t,
                              StepMatrix *step)
 {
     bool forward = strcmp(method->name, "forward-euler") == 0;
-    bool symplectic = strcmp(method->name, "symplectic-euler") == 0;
     double k = 1 / (1 + t * t), xx = forward ? 1 : 1 - t * t, xv = t, vv = 1;
     if (strcmp(method->name, "backward-euler") == 0) {
         xx = vv = k;
         xv = k * t;
-    } else if (!forward && !symplectic)
+    } else if (!forward && strcmp(method->name, "symplectic-euler") != 0)
         return false;
     double re = 0.5 * (xx + vv), square = re * re - xx * vv - xv * xv;
     double root = sqrt(fabs(square)), im = square < 0 ? root : 0;
@@ -392,7 +391,6 @@ static void draw_mass_step(Plot *stage)
  * page waits for a guess, velocity is the only arrow. */
 void mass_draw(Plot *stage)
 {
-    const FrameContent *content = stage->content;
     const Simulation *simulation = stage->simulation;
     const TimeIntegrator *run = simulation->run;
     double start[2], across[2]; /* conjugate half axes of the exact path */
@@ -410,7 +408,7 @@ void mass_draw(Plot *stage)
                    colour_of_mass(simulation, r));
         plot_ring(stage, step.new_x, 8, 2.2, colour_of_mass(simulation, r));
     }
-    if (simulation->runs == 1 && content->lecture.hides_answer)
+    if (simulation->runs == 1 && stage->content->lecture.hides_answer)
         plot_arrow(stage, run[0].x, run[0].v, 1, 2.6, COLOUR_VELOCITY);
     else if (simulation->runs == 1)
         draw_mass_step(stage);

@@ -155,7 +155,6 @@ void square_draw_obstacles(const SquarePen *pen)
 {
     const Plot *stage = pen->stage;
     const Contact *contact = pen->contact;
-    bool apart = pen->simulation->runs > 1;
     double scale = stage->camera.scale[0] / stage->paper->unit;
     double reach = contact ? contact->barrier.d_hat : 0;
     for (int i = 0; contact && i < contact->obstacles; i++) {
@@ -163,7 +162,7 @@ void square_draw_obstacles(const SquarePen *pen)
         const double *at = obstacle_origin(obstacle, pen->x);
         double radius = obstacle->radius * scale;
         if (obstacle->kind == OBSTACLE_WALL) {
-            draw_wall(stage, obstacle, reach, apart);
+            draw_wall(stage, obstacle, reach, pen->simulation->runs > 1);
             continue;
         }
         plot_disc(stage, at, radius, COLOUR_SOLID);

@@ -139,8 +139,7 @@ static void note_spring(Plot *stage, const Pane *pane, int s)
     const System *system = &pane->simulation->system;
     const int *e = system->e + 2 * s;
     Projection projection = pane->simulation->options.projection;
-    bool has_block = !neo_hookean_of(system);
-    double k = has_block ? system->k[s] : NAN;
+    double k = neo_hookean_of(system) ? NAN : system->k[s];
     double l2 = system->l2[s], d[2];
     double d2 = spring_vector(e, pane_positions(pane), d);
     const FlowLaw law = plasticity_get_law(system, s);

@@ -363,7 +363,6 @@ static void mark_tiny_square(const Plot *stage)
     plot_label(stage, 1, tail, COLOUR_TEXT, "the square was here");
 }
 
-/* Adds the meaning of the colours to the legend. */
 static void add_colour_legend(const SquarePen *pen)
 {
     double percent = 100 * pen->colour_range;
@@ -379,7 +378,6 @@ static void add_colour_legend(const SquarePen *pen)
                 format_number(percent).text);
 }
 
-/* Writes the number of each node beside the node. */
 static void draw_node_numbers(const SquarePen *pen)
 {
     double at[2], em = pen->stage->em, size = pen->spacing < 6 * em ? 1 : 1.3;
@@ -671,7 +669,6 @@ static void add_force_values(const Simulation *simulation, const double *x,
 void square_add_values(const Simulation *simulation, LiveValues *values)
 {
     const System *system = &simulation->system;
-    const SquareMesh *mesh = &simulation->mesh;
     const Options *options = &simulation->options;
     double start[2 * MAX_NUMBERED], mode[2 * SIMULATION_MODE_NODES];
     int n = (int)options->segments, nodes = system->nodes, shorter = 0;
@@ -688,7 +685,7 @@ void square_add_values(const Simulation *simulation, LiveValues *values)
     values_add(values, "places", 4 * (nodes + 2.0 * system->springs));
     values_add(values, "short", shorter);
     values_add(values, "segments", n);
-    values_add(values, "side", mesh->side);
+    values_add(values, "side", simulation->mesh.side);
     values_add(values, "rho", options->density);
     values_add(values, "k", options->stiffness);
     values_add(values, "stretch", options->stretch);

@@ -62,7 +62,6 @@ static Status obey(Player *player, CommandKind kind, long number)
     return obey_at(player, kind, number, (const double[2]){0, 0});
 }
 
-/* Changes a number by some notches. */
 static Status raise_number(Player *player, const OptionRow *row, int notches)
 {
     Status status = player_enqueue_notches(player, row, notches);

@@ -158,7 +158,6 @@ Status obey_hash(Player *player, const Command *command)
     if (status) {
         player_note(player, "%s: no script: %s", hash, output_reason(status));
     } else {
-        const char *where = commands ? name : "the terminal";
         bool fits = strlen(line) <= NOTE_LINE;
         player_note(player, "%s: %s%s", hash, fits ? "" : "its line is in ",
                     fits ? line : where);

@@ -32,13 +32,12 @@ Status player_draw(Player *player)
     if (!paper)
         return STATUS_OUT_OF_MEMORY;
     bool fresh = player->screen.drawn_step != player->past.step;
-    bool filmed = film_runs(&player->recording.film);
     player->screen.drawn_step = player->past.step;
     player_paint_frame(player, paper);
     Status status =
         player->screen.paper_size[0] ? STATUS_OK : window_show(&paper->canvas);
     int slow = player->time.log_speed < 0 ? -player->time.log_speed : 0;
-    if (!status && (fresh || filmed))
+    if (!status && (fresh || film_runs(&player->recording.film)))
         status = recording_write_frame(&player->recording, &paper->canvas,
                                        player->past.step, 1 << slow);
     return status;

@@ -105,7 +105,6 @@ void window_find_size(int size[2])
     size[1] = surface ? surface->h : 1;
 }
 
-/* Finds the number of pixels per point in each direction. */
 static void find_pixels_per_point(double scale[2])
 {
     int size[2], points[2] = {0, 0};
