@@ -5,7 +5,15 @@
 
 #include "play/view.h"
 
+/* The document has a title of its own, and the browser has keys for the full
+ * screen.  The page waits by itself: no input arrives while C runs. */
 /* clang-format off */
+EM_JS(bool, window_open, (const int *size, bool full), { return true; });
+EM_JS(void, window_close, (void), {});
+EM_JS(void, window_set_title, (const char *title), {});
+EM_JS(void, window_set_full, (bool full), {});
+EM_JS(bool, window_is_full_screen, (void), { return false; });
+EM_JS(void, window_wait_for_input, (int milliseconds), {});
 EM_JS(void, window_find_size, (int *size), {
     HEAP32[size >> 2] = Page.width();
     HEAP32[(size >> 2) + 1] = Page.height();
@@ -17,34 +25,6 @@ EM_JS(void, page_show, (const void *pixels, int width, int height, int card), {
     Page.show(HEAPU8, pixels, width, height, card);
 });
 /* clang-format on */
-
-bool window_open(const int size[2], bool full)
-{
-    (void)size;
-    (void)full;
-    return true;
-}
-
-/* The document has a title of its own. */
-void window_set_title(const char *title)
-{
-    (void)title;
-}
-
-void window_close(void)
-{
-}
-
-/* The browser has keys for the full screen. */
-void window_set_full(bool full)
-{
-    (void)full;
-}
-
-bool window_is_full_screen(void)
-{
-    return false;
-}
 
 const char *window_failure(void)
 {
@@ -126,10 +106,4 @@ Input window_read_input(void)
     first_input = (first_input + 1) % INPUTS;
     input_count--;
     return input;
-}
-
-/* The page waits by itself: no input arrives while C runs. */
-void window_wait_for_input(int milliseconds)
-{
-    (void)milliseconds;
 }
