@@ -1,6 +1,5 @@
 /* main.c - main() of elasto on a computer: streams, signals, window. */
 #include <signal.h>
-#include <stdlib.h>
 
 #include "base/clock.h"
 #include "play/player.h"

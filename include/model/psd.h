@@ -5,7 +5,6 @@
  * routine of the slide.  Springs use spring_hessian (spring_law.h). */
 #pragma once
 
-#include <math.h>
 #include <stdbool.h>
 
 #include "base/mathematics.h"

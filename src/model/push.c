@@ -1,6 +1,5 @@
 /* push.c - how far an obstacle held by a hand moves in a step. */
 #include <math.h>
-#include <string.h>
 
 #include "base/mathematics.h"
 #include "model/contact.h"

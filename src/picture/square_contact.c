@@ -1,6 +1,5 @@
 /* square_contact.c - walls, balls and contact forces around the square. */
 #include <math.h>
-#include <stdio.h>
 
 #include "model/friction.h"
 #include "model/self_contact.h"

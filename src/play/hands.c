@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "base/mathematics.h"
-#include "picture/picture.h"
 #include "play/playing.h"
 
 enum {

@@ -4,7 +4,6 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "picture/picture.h"
 #include "play/playing.h"
 
 enum { NOTE_LINE = 100 }; /* bytes, longest command line that the note shows */
@@ -159,6 +158,7 @@ Status obey_hash(Player *player, const Command *command)
         player_note(player, "%s: no script: %s", hash, output_reason(status));
     } else {
         bool fits = strlen(line) <= NOTE_LINE;
+        const char *where = commands ? name : "the terminal";
         player_note(player, "%s: %s%s", hash, fits ? "" : "its line is in ",
                     fits ? line : where);
         fprintf(stderr, "%s: %s\n", hash, line);

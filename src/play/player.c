@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "base/clock.h"
-#include "picture/picture.h"
 #include "play/playing.h"
 
 enum {

@@ -3,7 +3,6 @@
 #include <string.h>
 
 #include "base/clock.h"
-#include "picture/picture.h"
 #include "play/playing.h"
 
 /* Whether the session has edits, or a run of a minute, that could be lost. */
