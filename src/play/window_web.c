@@ -31,9 +31,8 @@ const char *window_failure(void)
     return "";
 }
 
-/* Shows pixels on a canvas of the page, as red, green, blue and alpha.
- *   card  index of the card that has the canvas; -1: the stage */
-static Status show_pixels(const Canvas *canvas, int card)
+/* The page reads red, green, blue and alpha of each pixel. */
+Status window_show_card(const Canvas *canvas, int card)
 {
     static uint32_t *rgba; /* [room] */
     static size_t room;
@@ -56,12 +55,7 @@ static Status show_pixels(const Canvas *canvas, int card)
 
 Status window_show(const Canvas *canvas)
 {
-    return show_pixels(canvas, -1);
-}
-
-void window_show_card(const Canvas *canvas, int card)
-{
-    show_pixels(canvas, card);
+    return window_show_card(canvas, -1);
 }
 
 enum { INPUTS = 256 };
