@@ -101,9 +101,8 @@ static int find_history_point(const History *history, double time)
     return at;
 }
 
-/* Returns the energy at the last point of the history that is not after this
- * time, J: 0 if below rounding, NaN without a point, infinity if the present
- * energies are not finite. */
+/* Returns the energy at the last point up to this time, J: 0 below rounding,
+ * NaN without a point, infinity if the present energies are not finite. */
 static double find_energy_at(const Simulation *simulation,
                              const History *history, int series, double time)
 {

@@ -51,8 +51,7 @@ static Box find_block_box(Box square, int n, int i, int j, int least)
 }
 
 /* Draws the matrix above the diagonal, and the factor with its fill below.
- * Marks the four blocks of one spring: the spring under the mouse, or on a page
- * the newest spring. */
+ * Marks the blocks of the spring under the mouse, or of a page's newest one. */
 static void draw_pattern(const Plot *card, Box square, bool natural,
                          int springs)
 {

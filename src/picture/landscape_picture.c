@@ -320,8 +320,7 @@ void landscape_add_values(const Simulation *simulation, LiveValues *values)
 }
 
 /* If H is positive definite, draws contours of the quadratic model around its
- * minimum x + p, two beside the curves g = 0, else three.  The largest one
- * passes through the iterate. */
+ * minimum x + p: three, beside the curves g = 0 two, the largest through x. */
 static void draw_model_ellipses(const Plot *plot, const LocalModel *E)
 {
     bool curves = shows_layer(plot, LAYER_CURVES);
@@ -412,7 +411,7 @@ void landscape_draw(Plot *stage)
         double size = 6 * plot.em / plot.camera.scale[0]; /* m */
         double far = size / vector_length(E.g);
         plot_arrow(&plot, descent->point, E.g, -far, 2.2, COLOUR_TEXT);
-        plot_label(&plot, 1, point_along(descent->point, -far, E.g).at,
+        plot_label(&plot, 1, point_along(descent->point, -far, E.g).xy,
                    COLOUR_TEXT, "\u2212\u2207E");
     }
     if (stage->revealed && plot.has_text && !shows_layer(&plot, LAYER_CURVES) &&

@@ -90,8 +90,7 @@ static void draw_scalar_model(const Plot *plot, const ScalarUpdate *update,
 }
 
 /* Draws the function (or its derivative), the model, a ring for each refused
- * trial, and a disc for each iterate, with its number if there is room.  The
- * disc of the last iterate is black. */
+ * trial, and a numbered disc for each iterate, the last one black. */
 static void draw_iteration(const Plot *plot, const ScalarUpdate *update,
                            bool model)
 {

@@ -36,9 +36,8 @@ typedef struct Extent {
     double middle[2], half_size[2];
 } Extent;
 
-/* Returns the view that the scene sets, or else the square at the start, at
- * most twice as wide as at rest.  A compressed square has room to spring out
- * and bulge. */
+/* Returns the view that the scene sets, else the square at the start, at most
+ * twice as wide as at rest; a compressed square has room to bulge. */
 static Extent find_first_view(const FrameContent *content,
                               const Simulation *simulation)
 {

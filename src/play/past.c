@@ -32,9 +32,8 @@ static int find_pane_below(const Branch *branch, int pane)
     return pane < last ? pane : last;
 }
 
-/* Returns the entry of a step in this branch or, for an earlier step, in a
- * branch below.  The step after the last one has the entry that is being made.
- * Returns NULL if the step has no entry. */
+/* Returns the entry of a step, from a branch below if the step is earlier.  The
+ * step after the last one has the entry being made.  NULL: no entry. */
 static Entry *find_branch_entry(const Branch *branch, int pane, long step)
 {
     for (; step < branch->first_step && !branch->from_options; branch--)

@@ -152,9 +152,8 @@ static void find_old_frames(Recording *recording)
         closedir(folder);
 }
 
-/* Opens a table if the options name its file.  The table of energies has a
- * column for each energy of any scene; with several panes the other tables have
- * a column for the number of the pane. */
+/* Opens a table if the options name its file.  Energies have a column for each
+ * energy of any scene; with several panes other tables have a column `pane`. */
 static Status open_table(const Options *options, Recording *recording, int t)
 {
     Table *table = &recording->table[t];

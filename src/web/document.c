@@ -386,7 +386,7 @@ void document_write(const Player *player, char *text)
         print(to, "\n");
     }
     for (int i = 0; i < picture->count && content->sheet.cells == 0; i++)
-        if (!(content->cards.hidden >> i & 1) &&
+        if (!(content->cards.hidden_cards >> i & 1) &&
             strcmp(picture->cards[i]->name, "page") != 0)
             put_card(to, content, i, picture->cards[i]);
     put_numbers(to, player);

@@ -20,8 +20,7 @@ enum { MOST_WORDS = 512, MOST_TEXT = 1 << 15 };
 static const size_t PAST_ROOM = 8 << 20;
 
 /* A player and its command line, into whose words the player's options point.
- * Two sessions exist: the next one begins beside the shown one, which stays if
- * the new command line is wrong. */
+ * The shown session stays until the next one's command line is right. */
 typedef struct Session {
     Player player;
     char text[MOST_TEXT];
