@@ -49,9 +49,10 @@ typedef struct TextExtent {
 TextExtent text_extent(Text *text, const TextStyle *style, const char *markup);
 
 /* Counts the bytes of a text, fewer than `room`, that fit into this width.  The
- * text is cut at a blank outside of braces; at least one word fits. */
-size_t text_count_fitting_bytes(Text *text, const TextStyle *style, int width,
-                                const char *markup, size_t room);
+ * text is cut at a blank outside of braces; at least one word fits.
+ *   extent  out, extent of the part that fits */
+size_t text_break_line(Text *text, const TextStyle *style, int width,
+                       const char *markup, size_t room, TextExtent *extent);
 
 /* Draws one line.  Words are below y; fractions and matrices reach higher.
  * Returns the width. */

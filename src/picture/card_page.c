@@ -87,12 +87,14 @@ static int lay_out_page(Paper *paper, Box inside, double size,
 static int measure_page(Paper *paper, Box inside, double size,
                         const FrameContent *content)
 {
+    int height = lay_out_page(paper, inside, size, content, false);
+    if (!content->lecture.hides_answer)
+        return height;
     FrameContent answered = *content;
     answered.lecture.hides_answer = false;
     values_add_flag(&answered.pane[content->active_pane].values, "told", true);
-    int question = lay_out_page(paper, inside, size, content, false),
-        answer = lay_out_page(paper, inside, size, &answered, false);
-    return question > answer ? question : answer;
+    int answer = lay_out_page(paper, inside, size, &answered, false);
+    return height > answer ? height : answer;
 }
 
 /* The letters are as large as all texts fit. */

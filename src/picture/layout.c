@@ -218,10 +218,9 @@ static double needed_height(const FrameContent *content, const Layout *layout,
 /* A row of the column, with one card or two. */
 typedef struct CardRow {
     int first_card, card_count;
-    bool is_closed;      /* only the title is seen */
-    double min_height;   /* ems */
-    double extra_height; /* ems, by which the row grows before other rows */
-    double weight;       /* weight with which the row shares free height */
+    bool is_closed;    /* only the title is seen */
+    double min_height; /* ems */
+    double weight;     /* weight with which the row shares free height */
 } CardRow;
 
 /* Returns the index of the page's main card; -1: no main card, or a closed one.
@@ -264,22 +263,9 @@ static int find_card_rows(const FrameContent *content, const Layout *layout,
             continue;
         }
         before = half && !bar ? i : -2;
-        rows[count++] = (CardRow){i, 1, bar, least, 0, bar ? 0 : card->weight};
-    }
-    if (content->lecture.page && count > 0 && !rows->is_closed &&
-        rows->first_card == 0) {
-        double least = page_least_height(content, wide, layout->em);
-        rows->extra_height = rows->min_height - least;
-        rows->min_height = least;
+        rows[count++] = (CardRow){i, 1, bar, least, bar ? 0 : card->weight};
     }
     return count;
-}
-
-/* Returns the margin around the cards in pixels, narrow in large type. */
-static int column_margin(const FrameContent *content, const Layout *layout)
-{
-    bool big = active_pane(content)->simulation->options.big;
-    return ems_to_pixels(layout, big ? 0.4 : GAP);
 }
 
 /* Gives each row its minimum height, lets the texts of a page grow to their
@@ -293,31 +279,39 @@ static bool place_cards(const FrameContent *content, Layout *layout)
     CardRow rows[LAYOUT_CARDS] = {{0}};
     int gap = ems_to_pixels(layout, GAP * 0.75),
         bar = ems_to_pixels(layout, TITLE_BAR);
-    Box rest = box_inset(layout->column, column_margin(content, layout));
     bool big = active_pane(content)->simulation->options.big;
+    Box rest = box_inset(layout->column, /* narrow margins in large type */
+                         ems_to_pixels(layout, big ? 0.4 : GAP));
     bool pairs = !big && layout->column.width >= MIN_PAIR * layout->em;
     double wide = card_inner_box(rest, layout->em).width / layout->em;
     int count = find_card_rows(content, layout, wide, pairs, rows), open = 0;
     double room = (rest.height + gap) / layout->em, bars = 0, least = 0;
-    double weights = 1e-9, ems = gap / layout->em;
+    double weights = 1e-9, extra = 0, ems = gap / layout->em;
     for (int i = 0; i < count; i++) {
         open += !rows[i].is_closed;
         bars += ems + (rows[i].is_closed ? TITLE_BAR : 0);
         least += rows[i].is_closed ? 0 : rows[i].min_height;
     }
+    if (content->lecture.page && bars + least > room && !rows->is_closed &&
+        rows->first_card == 0) { /* the page's texts can be smaller */
+        double smaller = page_least_height(content, wide, layout->em);
+        extra = rows->min_height - smaller;
+        rows->min_height = smaller;
+        least -= extra;
+    }
     for (int i = count - 1; i > 0 && open > 1 && !pairs; i--)
         if (!rows[i].is_closed && bars + least > room) {
             least -= rows[i].min_height;
             bars += TITLE_BAR;
-            rows[i] = (CardRow){rows[i].first_card, 1, true, TITLE_BAR, 0, 0};
+            rows[i] = (CardRow){rows[i].first_card, 1, true, TITLE_BAR, 0};
             open--;
         }
     for (int i = 0; i < count; i++)
         weights += rows[i].weight;
     room -= bars;
-    double growth = fmin(fmax(room - least, 0), rows->extra_height);
-    bool fits = growth == rows->extra_height || (big && least <= room);
-    double texts = rows->extra_height > 0 ? rows->min_height + growth : 0;
+    double growth = fmin(fmax(room - least, 0), extra);
+    bool fits = growth == extra || (big && least <= room);
+    double texts = extra > 0 ? rows->min_height + growth : 0;
     rows->min_height += growth;
     least += growth;
     double shrink = least > room ? (room - texts) / (least - texts) : 1;

@@ -102,10 +102,11 @@ void paper_shorten(Paper *paper, double size, int width, char *words,
     static const char end[] = " \u2026";
     TextStyle style = paper_style(paper, FACE_REGULAR, size, 0);
     int rest = width - paper_width(paper, FACE_REGULAR, size, end);
+    TextExtent extent;
     size_t fits =
-        text_count_fitting_bytes(paper->text, &style, width, words, room);
+        text_break_line(paper->text, &style, width, words, room, &extent);
     if (words[fits])
-        fits = text_count_fitting_bytes(paper->text, &style, rest, words, room);
+        fits = text_break_line(paper->text, &style, rest, words, room, &extent);
     if (words[fits])
         snprintf(words + fits, room - fits, "%s", end);
 }
@@ -117,20 +118,19 @@ int paper_write_paragraph(Paper *paper, Face face, double size, Colour colour,
     TextStyle style = paper_style(paper, face, size, colour);
     double y = box.y, above = text_extent(paper->text, &style, "").above;
     for (int line = 1; *markup && (line <= lines || lines == 0); line++) {
-        size_t count = text_count_fitting_bytes(paper->text, &style, box.width,
-                                                markup, sizeof part);
+        TextExtent extent;
+        size_t count = text_break_line(paper->text, &style, box.width, markup,
+                                       sizeof part, &extent);
         if (count == 0)
             break;
-        memcpy(part, markup, count);
-        part[count] = '\0';
-        markup += count;
-        markup += strspn(markup, " ");
-        if (*markup && line == lines && count + 4 < sizeof part)
-            strcat(part, "\u2026");
-        TextExtent extent = text_extent(paper->text, &style, part);
-        if (lines > 0)
+        const char *next = markup + count + strspn(markup + count, " ");
+        if (lines > 0) {
+            snprintf(part, sizeof part, "%.*s%s", (int)count, markup,
+                     *next && line == lines ? "\u2026" : "");
             text_draw(paper->text, &paper->canvas, &style, box.x,
                       y + extent.above - above, ALIGN_LEFT, part);
+        }
+        markup = next;
         y += extent.above + extent.below;
     }
     return (int)ceil(y - box.y);

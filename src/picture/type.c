@@ -344,29 +344,31 @@ double text_line_height(double size)
     return (LINE_ASCENT + LINE_DESCENT) * size;
 }
 
-static bool is_legible(const TextStyle *style)
+/* Returns the extent of what a pen has set, at least that of a line of words.
+ */
+static TextExtent extent_of_line(const Pen *pen)
 {
-    return style->size >= MIN_SIZE && style->size <= MAX_SIZE;
+    const TextStyle *style = &pen->style;
+    double above = LINE_ASCENT * style->size,
+           below = LINE_DESCENT * style->size;
+    double air = SPACE * style->size; /* space above and below fractions */
+    return (TextExtent){ceil(pen->x),
+                        -pen->top > above ? -pen->top + air : above,
+                        pen->bottom > below ? pen->bottom + air : below};
 }
 
 TextExtent text_extent(Text *text, const TextStyle *style, const char *markup)
 {
     Pen pen = {.text = text, .style = *style};
-    TextExtent ink = {0, 0, 0};
-    if (is_legible(style))
-        ink = measure_markup(&pen, whole_text(markup), 0);
-    double above = LINE_ASCENT * style->size,
-           below = LINE_DESCENT * style->size;
-    double air = SPACE * style->size; /* space above and below fractions */
-    return (TextExtent){ceil(ink.width),
-                        ink.above > above ? ink.above + air : above,
-                        ink.below > below ? ink.below + air : below};
+    if (style->size >= MIN_SIZE && style->size <= MAX_SIZE)
+        set_markup(&pen, whole_text(markup), 0);
+    return extent_of_line(&pen);
 }
 
-size_t text_count_fitting_bytes(Text *text, const TextStyle *style, int width,
-                                const char *markup, size_t room)
+size_t text_break_line(Text *text, const TextStyle *style, int width,
+                       const char *markup, size_t room, TextExtent *extent)
 {
-    Pen pen = {.text = is_legible(style) ? text : NULL, .style = *style};
+    Pen pen = {.text = text, .style = *style};
     MarkupPart rest = whole_text(markup);
     size_t fits = 0;
     for (int depth = 0;;) {
@@ -375,9 +377,10 @@ size_t text_count_fitting_bytes(Text *text, const TextStyle *style, int width,
         if (count >= room)
             return fits;
         if (count > 0 && (ends || (depth <= 0 && *rest.from == ' '))) {
-            if (fits > 0 && is_legible(style) && ceil(pen.x) > width)
+            if (fits > 0 && ceil(pen.x) > width)
                 return fits;
             fits = count;
+            *extent = extent_of_line(&pen);
         }
         if (ends)
             return fits;

@@ -59,24 +59,23 @@ all_checks() {
 # The longest begin first; some of them wait most of the time, for windows and
 # signals, so that two jobs more than there are processors run; one with LONG,
 # where windows have more to do.
-slow="$checks/check_scripts.sh
-$checks/check_window.sh
-$checks/check_pages.sh
-$checks/check_faults.sh"
+slow="test_session check_scripts check_window check_pages check_faults"
 more=2
 [ -z "${LONG:-}" ] || more=1
 jobs=${JOBS:-$(($(nproc 2>/dev/null || echo 2) + more))}
 
 # A worker goes through all of them and runs those that no other has taken.
 work() { # suites...
-    { echo "$slow" && all_checks; } | while IFS= read -r check; do
-        { [ -f "$check" ] && take "$(basename "$check")"; } || continue
-        run "$(basename "$check")" sh "$check" </dev/null
-    done
-    for suite in "$@"; do
-        take "$(basename "$suite")" || continue
-        run "$(basename "$suite")" "$suite" </dev/null
-    done
+    all=$(all_checks && printf '%s\n' "$@")
+    { for name in $slow; do echo "$all" | grep "/$name"; done; echo "$all"; } |
+        while IFS= read -r test; do
+            name=$(basename "$test")
+            take "$name" || continue
+            case $name in
+            *.sh) run "$name" sh "$test" ;;
+            *) run "$name" "$test" ;;
+            esac </dev/null
+        done
 }
 take() { # name
     mkdir "$outputs/$1.taken" 2>/dev/null

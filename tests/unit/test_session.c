@@ -40,9 +40,9 @@ static uint64_t hash_box(const Canvas *canvas, Box box)
 {
     uint64_t hash = STATE_HASH_SEED;
     for (int y = box.y; y < box.y + box.height; y++)
-        hash =
-            hash_bytes(hash, canvas->pixels + (long)y * canvas->width + box.x,
-                       (size_t)box.width * sizeof *canvas->pixels);
+        for (int x = box.x; x < box.x + box.width; x++)
+            hash = (hash ^ canvas->pixels[(long)y * canvas->width + x]) *
+                   1099511628211u;
     return hash;
 }
 
@@ -200,7 +200,7 @@ static void begin_session(const char *line)
     mouse[0] = mouse[1] = -1;
     player.screen.draws_frames = true;
     player.screen.paper_size[0] = player.screen.paper_size[1] = SIDE;
-    seen(""); /* a window shows the scene before anything is put in */
+    CHECK_OK(player_draw(&player)); /* as a window does before any input */
     heap_before = heap_in_use();
 }
 
