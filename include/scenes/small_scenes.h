@@ -10,7 +10,7 @@
  * dial: the minimiser of the same E for every h; at h = 0 it is x_tilde.
  * spring: P(d) = l2 k/2 (|d|^2/l2 - 1)^2, and for comparison the energy with a
  *   square root and the same stiffness at rest, P_root(d) = 2k (|d| - l)^2.
- * race: the stretched square, by seven methods with seven time steps; each run
+ * race: the stretched square, by four methods with seven time steps; each run
  *   is a point, its run time and its error.
  * envelope: the square for every time step and stiffness.
  *
@@ -142,10 +142,6 @@ Status create_race(Simulation *simulation);
 
 /* Makes the next run.  The methods take turns, with ever shorter time steps. */
 Status step_race(Simulation *simulation);
-
-/* Returns the longest time step so far with which a method was stable, s; NaN:
- * the method was never stable. */
-double race_find_stable_h(const Race *race, int method);
 
 /* Returns method i of the race, 0 ... RACE_METHODS - 1. */
 const IntegratorMethod *race_get_method(int i);

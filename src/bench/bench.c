@@ -156,8 +156,8 @@ static Status measure_motion(bool quick, const TimedMotion *motion,
     FastestRun best[2][TARGETS];
     for (int i = 0; i < 2 * TARGETS; i++)
         best[i / TARGETS][i % TARGETS] = (FastestRun){NULL, INFINITY};
-    for (int i = 0; i < RACE_METHODS; i++) {
-        const IntegratorMethod *method = race_get_method(i);
+    for (const IntegratorMethod *method = integrator_methods; method->name;
+         method++) {
         Status status = measure_method(quick, motion, simulation, method,
                                        best[method->implicit]);
         if (status)

@@ -1,4 +1,5 @@
 /* card_hessian_pattern.c - non-zero blocks of the Hessian and its factor. */
+#include <math.h>
 #include <stdlib.h>
 
 #include "picture/cards.h"
@@ -14,7 +15,8 @@ static int row_of_node(const System *system, int node, bool natural)
 }
 
 /* Computes the pattern of the first springs' matrix in natural order, else of
- * its factor (George and Liu 1981). Block [j n + i] is row i > j of column j.
+ * its factor (George and Liu 1981). Block [j n + i] is row i > j of column j;
+ * block [i n + i] is the number of the node's springs.
  * Each column of the factor adds its pattern to its parent's column; the parent
  * is the first non-zero row below the diagonal.  NULL: out of memory. */
 static unsigned char *compute_pattern(const System *system, bool natural,
@@ -26,6 +28,8 @@ static unsigned char *compute_pattern(const System *system, bool natural,
         size_t i = (size_t)row_of_node(system, system->e[2 * s], natural);
         size_t j = (size_t)row_of_node(system, system->e[2 * s + 1], natural);
         block[i < j ? i * n + j : j * n + i] = ENTRY;
+        block[i * n + i]++;
+        block[j * n + j]++;
     }
     for (size_t j = 0; block && j < n && !natural; j++) {
         size_t parent = j + 1;
@@ -50,6 +54,12 @@ static Box find_block_box(Box square, int n, int i, int j, int least)
                  high > least ? high : least};
 }
 
+/* Returns the colour of a block to which this number of springs has added. */
+static Colour darken_sum(Colour colour, int springs)
+{
+    return colour_mix(colour, 0xff000000u, fmax(springs - 1, 0) / 8);
+}
+
 /* Draws the matrix above the diagonal, and the factor with its fill below.
  * Marks the blocks of the spring under the mouse, or of a page's newest one. */
 static void draw_pattern(const Plot *card, Box square, bool natural,
@@ -59,29 +69,32 @@ static void draw_pattern(const Plot *card, Box square, bool natural,
     const Pick *hover = &card->content->view->hovered;
     unsigned char *block = compute_pattern(system, natural, springs);
     Canvas *canvas = &card->paper->canvas;
+    bool writes = card->simulation->options.next == NEXT_SPRING;
     int n = system->nodes, least = paper_pixels(card->paper, 0.35);
     int lit = hover->kind == PICK_SPRING    ? hover->index
               : card->content->lecture.page ? springs - 1
                                             : -1;
     for (int j = 0; block && j < n; j++)
         for (int i = j; i < n; i++) {
-            int what = i == j ? ENTRY : block[(size_t)j * (size_t)n + i];
+            int at = block[(size_t)j * (size_t)n + i];
+            int what = i == j ? ENTRY : at;
+            Colour blue = darken_sum(COLOUR_X, writes && i == j ? at : 1);
             if (what == ENTRY)
-                canvas_fill(canvas, find_block_box(square, n, j, i, 1),
-                            COLOUR_X);
+                canvas_fill(canvas, find_block_box(square, n, j, i, 1), blue);
             if (what != NOTHING)
                 canvas_fill(canvas, find_block_box(square, n, i, j, 1),
-                            what == ENTRY ? COLOUR_X : 0xffe0a060u);
+                            what == ENTRY ? blue : 0xffe0a060u);
         }
-    free(block);
-    for (int k = 0; k < 4 && lit >= 0 && lit < system->springs; k++) {
+    for (int k = 0; block && k < 4 && lit >= 0 && lit < system->springs; k++) {
         const int *e = system->e + 2 * lit;
         int i = row_of_node(system, e[k / 2], natural);
         int j = row_of_node(system, e[k % 2], natural);
         Box box = find_block_box(square, n, i, j, least);
-        canvas_framed_box(canvas, box_inset(box, -1), COLOUR_PROJECT,
-                          COLOUR_WHITE);
+        int sum = writes && i == j ? block[(size_t)i * (size_t)(n + 1)] : 1;
+        canvas_framed_box(canvas, box_inset(box, -1),
+                          darken_sum(COLOUR_PROJECT, sum), COLOUR_WHITE);
     }
+    free(block);
 }
 
 /* Draws the patterns in the nodes' order and in the order of elimination. */

@@ -211,15 +211,15 @@ static bool find_flow_path(const LawPoint *now, double from[2], double to[2])
     return ep != 0 && fabs(away) <= 1e-9 * most;
 }
 
-bool law_find_slide(const Simulation *simulation, double distance[2])
+bool law_find_slide(const Simulation *simulation, int body, double distance[2])
 {
     const SquareMesh *mesh = &simulation->mesh;
     const Options *options = &simulation->options;
-    int last = mesh->bodies - 1, nodes = mesh->nodes / mesh->bodies;
-    double v = options->body[last][3], sum = 0;
-    for (int i = last * nodes; i < mesh->nodes; i++)
+    int nodes = mesh->nodes / mesh->bodies;
+    double v = options->body[body][3], sum = 0;
+    for (int i = body * nodes; i < (body + 1) * nodes; i++)
         sum += simulation->run[0].x[2 * i];
-    distance[0] = sum / nodes - options->body[last][0];
+    distance[0] = sum / nodes - options->body[body][0];
     distance[0] = fabs(distance[0]) < 1e-9 ? 0 : distance[0];
     double mu =
         options->self_friction < 0 ? options->friction : options->self_friction;
@@ -236,13 +236,11 @@ void law_add_values(const Simulation *simulation, LiveValues *values)
     bool self = law->element_term == &self_contact_energy;
     bool flows = law->evaluate == flow_force_at;
     bool still = flows && now.spring.ep == 0;
-    double from[2], to[2], way[2];
-    bool has_path = find_flow_path(&now, from, to);
+    double way[2];
     values_add_flag(values, "law", true);
     values_add_flag(values, "unflowed", still);
     values_add_flag(values, "bodies apart", self);
     values_add_flag(values, law->name, !isnan(now.x) && !still);
-    values_add_words(values, "its way", has_path ? "; its path is violet" : "");
     if (law->evaluate == element_energy_at) {
         const System *system = now.eval.system;
         values_add(values, "c",
@@ -260,7 +258,7 @@ void law_add_values(const Simulation *simulation, LiveValues *values)
     Energies energies = simulation_energies(simulation, 0);
     for (int i = 0; i < energies.rows; i++)
         values_add(values, energies.row[i].name, energies.row[i].value);
-    if (law_find_slide(simulation, way))
+    if (law_find_slide(simulation, simulation->mesh.bodies - 1, way))
         values_add(values, "rigid", way[1]);
 }
 

@@ -116,7 +116,7 @@ bool residuals_fill_row(const FrameContent *content, int row,
                  format_number(trace->tolerance).text);
         return row == count + 1 && now->status == STATUS_OK;
     }
-    snprintf(cells->cell[0], CARD_CELL, "%d", row - 1);
+    snprintf(cells->cell[0], CARD_CELL, "%d", row);
     snprintf(cells->cell[1], CARD_CELL, "%s",
              format_digits(now->residual, 4).text);
     snprintf(cells->cell[2], CARD_CELL, "%s", format_number(now->alpha).text);

@@ -140,11 +140,9 @@ void residual_draw(const Plot *card)
             high = fmax(high, residual);
         }
     }
-    /* A page's main card counts iterations from 0, others updates from 1. */
     bool is_main = card->simulation->options.main_card;
-    double most = fmax(updates + pending, 4);
-    Axis x = {0.5 - is_main, most + 0.5 - 0.4 * is_main, false, true,
-              is_main ? "iteration" : "update"};
+    Axis x = {0.5, fmax(updates + pending, 4) + (is_main ? 0.9 : 0.5), false,
+              true, "update"};
     Axis y = {pow(10, floor(log10(low))), pow(10, ceil(log10(high))), true,
               false, is_main ? "residual, m/s" : NULL};
     Plot plot = plot_create(card, x, y);
@@ -153,7 +151,7 @@ void residual_draw(const Plot *card)
     double at[2] = {0, 0}, before[2];
     for (int i = 0; i < updates + pending; i++) {
         before[0] = at[0], before[1] = at[1];
-        at[0] = i + x.low + 0.5;
+        at[0] = i + 1;
         at[1] = i < updates ? trace->record[i].residual : now;
         if (i > 0)
             plot_line(&plot, before, at, 1.3, COLOUR_P);

@@ -90,9 +90,9 @@ typedef struct LawGap {
  * distances are above d_hat, or the law is of another kind. */
 bool law_find_gap(const Simulation *simulation, LawGap *gap);
 
-/* Finds how far the last body has slid, and how far a rigid body would slide,
- * m.  Returns false if the scene does not draw the law of friction. */
-bool law_find_slide(const Simulation *simulation, double distance[2]);
+/* Finds how far a body has slid, and how far a rigid body would slide, m.
+ * Returns false if the scene does not draw the law of friction. */
+bool law_find_slide(const Simulation *simulation, int body, double distance[2]);
 
 /* Whether the picture has a card of this name that is not hidden. */
 bool frame_has_card(const FrameContent *content, const char *name);

@@ -183,6 +183,10 @@ typedef struct NumberText {
 NumberText format_digits(double value, int digits);
 NumberText format_number(double value);
 
+/* Returns a value as options write it, with 1e-06 as 10^{-6}; a value that is
+ * being typed stays as it is. */
+NumberText format_power(const char *value);
+
 /* ---- stages (frame_content.c) ------------------------------------------- */
 
 /* Makes the stage of a pane; paper NULL: the stage only computes positions. */

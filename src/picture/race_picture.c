@@ -5,10 +5,9 @@
 
 #include "picture/cards.h"
 
-enum { HALVED = 4 }; /* number of the table's columns for halved time steps */
+enum { HALVED = 2 }; /* number of the table's columns for halved time steps */
 static const double NAMES_WIDTH = 45;    /* ems; a narrower plot has no names */
 static const double TARGET_ERROR = 0.01; /* m, largest error of a fast run */
-static const double REFERENCE_ERROR = 1e-8; /* m, error of the reference */
 
 /* Returns bounds in powers of ten: h or run time, and error. */
 void race_bounds(const Plot *stage, double bounds[4])
@@ -98,18 +97,16 @@ void race_add_values(const Simulation *simulation, LiveValues *values)
 }
 
 /* Writes a finite number into a cell of the table. */
-static void format_cell(char cell[CARD_CELL], const char *sign, double value,
-                        int digits, const char *unit)
+static void format_cell(char cell[CARD_CELL], const char *sign, double value)
 {
     if (isfinite(value))
-        snprintf(cell, CARD_CELL, "%s%.40s%s", sign,
-                 format_digits(value, digits).text, unit);
+        snprintf(cell, CARD_CELL, "%s%.40s", sign,
+                 format_digits(value, 2).text);
 }
 
 /* Fills a row: row 0 the heads; else of a method its error at h = 4 ms, m; the
- * factor by which halving h divides the error (an epsilon where the error is
- * below that of the reference); the factor of the energy after a second; the
- * longest stable h; the run time. */
+ * factor by which halving h divides the error; the factor of the energy after a
+ * second. */
 bool race_fill_row(const FrameContent *content, int row, CardTableRow *cells)
 {
     const Race *race = &active_pane(content)->simulation->exhibit.race;
@@ -123,39 +120,24 @@ bool race_fill_row(const FrameContent *content, int row, CardTableRow *cells)
     cells->colour = colour_of_name(shown->name);
     snprintf(cell[0], CARD_CELL, "%s", shown->label);
     if (race->count > point - race->point) {
-        format_cell(cell[1], "", point->error, 2, "");
+        format_cell(cell[1], "", point->error);
         if (isnan(point->energy_after_second))
-            snprintf(cell[6], CARD_CELL, "explodes");
-        format_cell(cell[6], "\u00d7 ", point->energy_after_second, 2, "");
-        format_cell(cell[8], "", 1e3 * point->seconds, 2, " ms");
+            snprintf(cell[2 + HALVED], CARD_CELL, "explodes");
+        format_cell(cell[2 + HALVED], "\u00d7 ", point->energy_after_second);
     }
     for (int k = 1; k <= HALVED; k++) {
         const RacePoint *half = point + RACE_METHODS;
         if (race->count <= half - race->point)
             break;
-        snprintf(cell[1 + k], CARD_CELL,
-                 half->error < REFERENCE_ERROR ? "\u03b5" : "\u2013");
-        format_cell(cell[1 + k], "\u00f7 ",
-                    half->error < REFERENCE_ERROR ? NAN
-                                                  : point->error / half->error,
-                    2, "");
+        snprintf(cell[1 + k], CARD_CELL, "\u2013");
+        format_cell(cell[1 + k], "\u00f7 ", point->error / half->error);
         point = half;
     }
-    if (shown->implicit) /* the race finds no limits of implicit methods */
-        snprintf(cell[7], CARD_CELL, shown->damps ? "(any h)" : "(if linear)");
-    else if (race->count == RACE_METHODS * RACE_STEP_SIZES)
-        snprintf(cell[7], CARD_CELL, "none");
-    format_cell(cell[7], "",
-                shown->implicit ? NAN : 1e3 * race_find_stable_h(race, method),
-                3, " ms");
     return true;
 }
 
-/* Draws the table.  Over h errors come first, else energy and stability. */
 void race_table_draw(const Plot *card)
 {
-    static const int order[2][CARD_COLUMNS] = {{0, 6, 7, 1, 2, 3, 4, 5, 8},
-                                               {0, 2, 3, 4, 5, 1, 6, 7, 8}};
-    bool over_h = card->simulation->exhibit.switches;
-    card_draw_table(card, &card_race_table, order[over_h]);
+    static const int order[CARD_COLUMNS] = {0, 1, 4, 2, 3};
+    card_draw_table(card, &card_race_table, order);
 }

@@ -34,6 +34,19 @@ static double root_energy_at_length(const void *system, double d)
     return evaluate_spring((double[2]){d, 0}, system).root_energy;
 }
 
+/* Returns minus the slope of the spring's energy at a signed length d. */
+static double force_at_length(const void *system, double d)
+{
+    return evaluate_spring((double[2]){d, 0}, system).force[0];
+}
+
+/* Returns minus the slope of P_root at a signed length d. */
+static double root_force_at_length(const void *data, double d)
+{
+    const System *system = data;
+    return -4 * system->k[0] * (d - copysign(sqrt(system->l2[0]), d));
+}
+
 /* Draws a dashed circle of this radius around the held end. */
 static void draw_length_circle(Plot *stage, double radius, Colour colour,
                                const char *word)
@@ -170,25 +183,49 @@ void spring_add_values(const Simulation *simulation, LiveValues *values)
     values_add(values, "root across", now.root_across);
 }
 
+typedef double SpringFunction(const void *system, double d);
+
+/* Draws a function of P, and the one of P_root if it is shown, with dots at the
+ * spring's length. */
+static Plot draw_profile(const Plot *card, Axis y, SpringFunction *of_p,
+                         SpringFunction *of_root)
+{
+    const System *system = &card->simulation->system;
+    double d = vector_length(card->simulation->run[0].x);
+    double reach = fmax(1.5, 1.1 * d) * sqrt(system->l2[0]);
+    Plot plot = plot_create(card, (Axis){-reach, reach, .label = "d in m"}, y);
+    plot_graph(&plot, of_p, system, 2.4, COLOUR_X);
+    if (card->simulation->exhibit.switches) {
+        plot_graph(&plot, of_root, system, 1.8, COLOUR_GHOST);
+        plot_disc(&plot, (double[2]){d, of_root(system, d)}, 5, COLOUR_GHOST);
+    }
+    plot_disc(&plot, (double[2]){d, of_p(system, d)}, 6, COLOUR_TEXT);
+    return plot;
+}
+
+/* Draws the energies, in a high card with the forces below. */
 void spring_profile_draw(const Plot *card)
 {
     const System *system = &card->simulation->system;
-    SpringValues now = evaluate_spring(card->simulation->run[0].x, system);
+    double d = vector_length(card->simulation->run[0].x);
     bool both = card->simulation->exhibit.switches;
-    double reach = fmax(1.5, 1.1 * now.length) * sqrt(system->l2[0]);
     double tip = (both ? root_energy_at_length : energy_at_length)(system, 0);
-    Axis y = {0, 1.12 * fmax(tip, now.energy), .label = NULL};
-    Plot plot = plot_create(card, (Axis){-reach, reach, .label = "d in m"}, y);
-    const double at[2] = {now.length, now.energy};
-    const double root[2] = {now.length, now.root_energy};
-    plot_graph(&plot, energy_at_length, system, 2.4, COLOUR_X);
+    double most = fmax(600, fabs(force_at_length(system, d)));
+    Plot upper = *card, lower = *card;
+    if (card->box.height > 20 * card->em) {
+        upper.box =
+            box_cut_off(&lower.box, EDGE_TOP, (int)(0.55 * card->box.height));
+        draw_profile(&lower, (Axis){-most, most, .label = "force in N"},
+                     force_at_length, root_force_at_length);
+    }
+    const Axis y = {0, 1.12 * fmax(tip, energy_at_length(system, d)),
+                    .label = NULL};
+    Plot plot =
+        draw_profile(&upper, y, energy_at_length, root_energy_at_length);
     if (both) {
-        plot_graph(&plot, root_energy_at_length, system, 1.8, COLOUR_GHOST);
-        plot_disc(&plot, root, 5, COLOUR_GHOST);
         plot_label(&plot, 1, (double[2]){0, root_energy_at_length(system, 0)},
                    COLOUR_GHOST, "P_{r} = 2k (|d| \u2212 l)\u00b2");
         plot_label(&plot, 1, (double[2]){0, energy_at_length(system, 0)},
                    COLOUR_X, "P");
     }
-    plot_disc(&plot, at, 6, COLOUR_TEXT);
 }

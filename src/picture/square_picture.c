@@ -339,11 +339,7 @@ static void add_warnings(const SquarePen *pen, int folded)
         lost += !isfinite(x[0]) || !isfinite(x[1]);
         seen = seen || box_contains(stage->box, at[0], at[1]);
     }
-    if (lost == nodes)
-        plot_legend(stage, COLOUR_WARNING,
-                    "no node has a place: beyond all "
-                    "numbers");
-    else if (lost > 0)
+    if (lost > 0)
         plot_legend(stage, COLOUR_WARNING,
                     "%d of %d nodes are beyond all numbers", lost, nodes);
     else if (!seen)
@@ -359,7 +355,7 @@ static void mark_tiny_square(const Plot *stage)
     double far = 4 * stage->em / stage->camera.scale[0];
     const double tail[2] = {0, -far}, up[2] = {0, far};
     plot_arrow(stage, tail, up, 1, 2, COLOUR_TEXT);
-    plot_label(stage, 1, tail, COLOUR_TEXT, "the square was here");
+    plot_label(stage, 1, tail, COLOUR_TEXT, "rest shape");
 }
 
 static void add_colour_legend(const SquarePen *pen)
@@ -442,8 +438,9 @@ static void draw_page_arrows(const SquarePen *pen)
     for (int i = 0; i < 2 * system->nodes; i++)
         arrow[i] *= system->m[i / 2];
     draw_node_arrows(pen, arrow, 0, COLOUR_FORCE, "force on each node");
-    plot_label(pen->stage, 1, pen->x + 2 * system->nodes - 2, COLOUR_TEXT,
-               "node %d", system->nodes - 1);
+    if (!(layers & LAYER_KINDS)) /* the page names the last node's force */
+        plot_label(pen->stage, 1, pen->x + 2 * system->nodes - 2, COLOUR_TEXT,
+                   "node %d", system->nodes - 1);
 }
 
 /* Draws the velocity of the centre of mass as its way in VELOCITY_TIME. */
@@ -533,16 +530,16 @@ static void draw_magnifier(const SquarePen *pen)
 }
 
 /* Draws how far a body has slid, and how far a rigid body would slide. */
-static void draw_slid_distances(const Plot *stage)
+static void draw_slid_distance(const Plot *stage, int body)
 {
     static const double ABOVE = 0.04; /* m, from the body up to the arrow */
     const SquareMesh *mesh = &stage->simulation->mesh;
     const double *x = stage->simulation->run[0].x;
     double gone[2], from[2] = {INFINITY, -INFINITY};
-    if (!stage->revealed || !law_find_slide(stage->simulation, gone))
+    int nodes = mesh->nodes / mesh->bodies;
+    if (!stage->revealed || !law_find_slide(stage->simulation, body, gone))
         return;
-    for (int i = mesh->nodes - mesh->nodes / mesh->bodies; i < mesh->nodes;
-         i++) {
+    for (int i = body * nodes; i < (body + 1) * nodes; i++) {
         from[0] = fmin(from[0], x[2 * i] - gone[0]);
         from[1] = fmax(from[1], x[2 * i + 1] + ABOVE);
     }
@@ -614,7 +611,8 @@ void square_draw(Plot *stage)
         add_colour_legend(pen);
     if (layers & LAYER_VELOCITY)
         draw_mean_velocity(pen);
-    draw_slid_distances(stage);
+    for (int body = 1; body < simulation->mesh.bodies; body++)
+        draw_slid_distance(stage, body);
     draw_magnifier(pen);
 }
 

@@ -69,26 +69,19 @@ static void draw_setting(Paper *paper, Box box, const Setting *setting,
 {
     double em = paper->em, below = floor(box.y + 0.5 * box.height + 0.6 * em);
     Colour colour = setting->is_off ? COLOUR_GREY : COLOUR_VALUE;
-    char value[VALUE_SIZE + 64], *rest;
-    double number = strtod(setting->value, &rest);
-    const char *power = strchr(setting->value, 'e');
     if (selected || over)
         canvas_framed_box(&paper->canvas,
                           box_inset(box, paper_pixels(paper, 0.1)),
                           selected ? COLOUR_LIT : COLOUR_CHIP,
                           selected ? COLOUR_BORDER : COLOUR_CHIP);
-    snprintf(value, sizeof value, "%s", setting->value);
-    if (power && power < rest && *rest != '_') /* writes 1e-06 as 10^-6 */
-        snprintf(value, sizeof value, "%s%s", format_digits(number, 6).text,
-                 rest);
     box_cut_off(&box, EDGE_LEFT, (int)(0.4 * em));
     int width = paper_write_in_box(paper, FACE_REGULAR, TEXT_SIZE, COLOUR_FAINT,
                                    box, ALIGN_LEFT, setting->name);
     box_cut_off(&box, EDGE_LEFT, (int)(0.5 * em + width));
     box.width += (int)(0.8 * em); /* the value may reach into the gap */
-    width = paper_write_in_box(paper,
-                               setting->is_changed ? FACE_BOLD : FACE_REGULAR,
-                               TEXT_SIZE, colour, box, ALIGN_LEFT, value);
+    width = paper_write_in_box(
+        paper, setting->is_changed ? FACE_BOLD : FACE_REGULAR, TEXT_SIZE, colour,
+        box, ALIGN_LEFT, format_power(setting->value).text);
     canvas_dashes(&paper->canvas, (double[2]){box.x, below + 0.5},
                   (double[2]){box.x + width, below + 0.5}, fmax(1, paper->unit),
                   paper->unit, NULL, colour);

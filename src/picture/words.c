@@ -57,6 +57,20 @@ NumberText format_number(double value)
     return format_digits(value, 3);
 }
 
+NumberText format_power(const char *value)
+{
+    char *rest;
+    double number = strtod(value, &rest);
+    const char *power = strchr(value, 'e');
+    NumberText out;
+    if (power && power < rest && *rest != '_')
+        snprintf(out.text, sizeof out.text, "%.30s%.16s",
+                 format_digits(number, 6).text, rest);
+    else
+        snprintf(out.text, sizeof out.text, "%.47s", value);
+    return out;
+}
+
 /* ---- scale and legend ---------------------------------------------------- */
 
 void plot_scale(const Plot *plot)

@@ -6,6 +6,7 @@
 
 #include "base/clock.h"
 #include "picture/picture.h"
+#include "picture/plot.h"
 #include "play/playing.h"
 
 static const double LONG_WORK = 0.3;  /* s, longer work is reported */
@@ -230,7 +231,7 @@ void player_label(const Player *player, int pane, char label[LABEL_SIZE])
             append(label, LABEL_SIZE, "%s", label[0] ? ", " : "");
             if (row->slot != OPTION_SLOT(integrator))
                 append(label, LABEL_SIZE, "%s ", row->label);
-            append(label, LABEL_SIZE, "%s", value);
+            append(label, LABEL_SIZE, "%s", format_power(value).text);
         }
     if (last == past->step)
         return;

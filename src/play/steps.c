@@ -249,11 +249,11 @@ static void stop_run_if_over(Player *player)
     if (ended) /* the sentence above the picture says how the run ended */
         player->note[0] = '\0';
     player->time.has_warned = player->time.has_warned || bad;
-    if (player->time.mode == MODE_REST)
-        report_rest(player);
     if (past->step == options->pause && options->pause > 0 &&
         options->page == player->tour.revealed)
         player->time.mode = MODE_PAUSE;
+    if (player->time.mode == MODE_REST)
+        report_rest(player);
 }
 
 /* ---- inside a step ------------------------------------------------------- */

@@ -35,8 +35,7 @@ enum { RACE_FIRST_STEPS = 8 }; /* steps of a run with the longest time step */
 const IntegratorMethod *race_get_method(int i)
 {
     static const char *const names[RACE_METHODS] = {
-        "forward-euler", "symplectic-euler", "verlet", "backward-euler",
-        "bdf2",          "midpoint",         "sdirk2"};
+        "symplectic-euler", "verlet", "backward-euler", "midpoint"};
     return integrator_find_method(names[i]);
 }
 
@@ -131,12 +130,10 @@ static double find_energy(const TimeIntegrator *run)
            system_kinetic_energy(run->system, run->v);
 }
 
-/* Whether the energy of a run stays bounded.  Implicit methods count as stable,
- * forward Euler as unstable: forward Euler adds energy with any time step. */
+/* Whether the energy of a run stays bounded.  Implicit methods count as stable.
+ */
 static bool is_stable(const Simulation *simulation, TimeIntegrator *run)
 {
-    if (strcmp(run->method->name, "forward-euler") == 0)
-        return false;
     for (int i = 0; i < RACE_EXTRA_STEPS && !run->method->implicit; i++)
         if (time_integrator_step(run))
             return false;
@@ -205,14 +202,6 @@ Status race_measure_method(Simulation *simulation,
             fmax(point->error, math_hypot(run->x[i] - exact[i],
                                           run->x[i + 1] - exact[i + 1]));
     return STATUS_OK;
-}
-
-double race_find_stable_h(const Race *race, int method)
-{
-    for (int i = method; i < race->count; i += RACE_METHODS)
-        if (race->point[i].stable)
-            return race->point[i].h;
-    return NAN;
 }
 
 Status step_race(Simulation *simulation)

@@ -154,8 +154,8 @@ static const Race *run_race(const char *options)
  * run succeeds, and every implicit one does. */
 TEST(the_race_measures_errors_and_energies)
 {
-    static const double factor[RACE_METHODS] = {2, 2, 4, 2, 4, 4, 4};
-    enum { VERLET = 2 }; /* h = 8 ms comes first, then 4 ms */
+    static const double factor[RACE_METHODS] = {2, 4, 2, 4};
+    enum { VERLET = 1 }; /* h = 8 ms comes first, then 4 ms */
     const Race *race = run_race("");
     for (int i = 0; i < RACE_METHODS; i++) {
         const RacePoint *point =
@@ -167,22 +167,17 @@ TEST(the_race_measures_errors_and_energies)
                    0.25 * factor[i]);
         point = &race->point[RACE_SHOWN_ROW * RACE_METHODS + i];
         CHECK_NEAR(point->h, 0.004, 1e-15);
-        /* forward Euler explodes */
-        CHECK(isnan(point->energy_after_second) == (i == 0));
         Simulation *again =
             simulate("square --stretch 1.1 --tolerance 1e-8 --timestep 0.004 "
                      "--gravity 9.81 --pin 4 --integrator %s",
                      point->method->name);
         double start = simulation_energies(again, 0).total;
-        if (i > 0) {
-            Energies end = simulation_energies(make_steps(again, 250), 0);
-            CHECK_NEAR(point->energy_after_second,
-                       (end.total - end.gravity) / start, 1e-6);
-        }
+        Energies end = simulation_energies(make_steps(again, 250), 0);
+        CHECK_NEAR(point->energy_after_second,
+                   (end.total - end.gravity) / start, 1e-6);
     }
     CHECK(!race->point[VERLET].stable);
-    CHECK_NEAR(race_find_stable_h(race, VERLET), 0.004, 1e-15);
-    CHECK(isnan(race_find_stable_h(race, 0)));
+    CHECK(race->point[RACE_METHODS + VERLET].stable);
     race = run_race("--stiffness 1e9 --stretch 1");
     for (int i = 0; i < race->count; i++) {
         const RacePoint *point = &race->point[i];
