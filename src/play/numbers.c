@@ -174,8 +174,7 @@ Status player_enqueue_notches(Player *player, const OptionRow *row, int notches)
 Status obey_raise(Player *player, const Command *command)
 {
     const OptionRow *number[OPTIONS_MAX_ROWS];
-    if (player_list_options(player, false, number) == 0)
-        return player_refuse(player, "there is no number to change here");
+    player_list_options(player, false, number); /* each scene has numbers */
     player->hands.selected =
         player->hands.selected ? player->hands.selected : number[0];
     return player_enqueue_notches(player, player->hands.selected,

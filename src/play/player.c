@@ -209,8 +209,10 @@ Status player_create(const Options *options, int count, char *const *words,
 {
     const Command begin = {.kind = COMMAND_RESTART};
     const Command pause = {.kind = COMMAND_PAUSE};
-    *player = (Player){.setup = {.arguments = words, .stop_signal = stop},
-                       .tour.last_page = options->page};
+    memset(player, 0, sizeof *player); /* too large for a value on the stack */
+    player->setup.arguments = words;
+    player->setup.stop_signal = stop;
+    player->tour.last_page = options->page;
     memcpy(player->setup.options, options, (size_t)count * sizeof *options);
     player->setup.start_time = clock_now();
     Status status = script_read(options->script, &player->setup.script,

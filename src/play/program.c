@@ -285,7 +285,7 @@ int program_begin(int argc, char **argv, const volatile sig_atomic_t *stop,
 {
     Options options[OPTIONS_MAX_PANES] = {{.panes = 1}};
     char message[OUTPUT_MESSAGE] = "";
-    *player = (Player){0};
+    memset(player, 0, sizeof *player);
     if (argc == 3 && strcmp(argv[1], "--help") == 0 &&
         strcmp(argv[2], "commands") == 0) {
         commands_print_help(stdout);

@@ -67,6 +67,9 @@ films() {
     grep -q '^film  *4 frames, in a.mp4$' out || cat out
     run 0 --speed 0.25 --size 97x64 --film slow.gif # each four times
     [ "$(frames slow.gif)" = 12 ] || echo "slow: $(frames slow.gif) frames"
+    printf '1 film\n3 film\n' >cut.script # each step four times
+    run 0 --steps 4 --size 96x64 --frames cut --script cut.script
+    [ "$(frames elasto_*.mp4)" = 8 ] || echo "cut: $(frames elasto_*.mp4) frames"
     run 1 --film a.gif --frames /dev/null/d
     for name in f.mp4 f.webm; do
         (
@@ -77,7 +80,7 @@ films() {
     done
     rm -f ./*.part
     no_parts films
-    rm -f ./*.gif a.mp4
+    rm -rf ./*.gif ./*.mp4 cut
 }
 # Whichever of its files a run fails in, all stay beside what stands there: a
 # picture after step 2, a step after many, a table at the end.

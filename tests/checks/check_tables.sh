@@ -180,6 +180,7 @@ s/,/;/g|its first line, 'step;.* has no column 'step'
 9d|line 9 has node 8 where node 7 is missing
 3s/,-[0-9.]*/,-/|line 3: x is '-', not a number
 d|it is empty
+2,$d|it has no row below
 END
     cp plain table
     refused '--state-springs plain' "springs 'plain': .* no column 'spring'"
@@ -189,6 +190,7 @@ END
     refused '--state-springs springs' 'has 42 springs, the body 72'
     run tear --steps 60 --states table --springs springs
     refused 'tear --state-springs springs --state-step 99' 'step 99 is not'
+    refused '--segments 24 --state-springs springs' 'is broken; --tear is missing'
 }
 verdict tables_are_read_or_the_line_is_named "$(other_programs)"
 

@@ -18,33 +18,22 @@
 # Random faults stand at any line of the rooms: a wrong sign, index, comparison,
 # order of arguments or constant, a statement or a reset that is dropped.  One
 # seed draws the same ones as long as the sources stay.  A fault that the
-# compiler notices, or that leaves the same machine code, is drawn again.  The
-# suites nearest to it run first, the quicker ones before the others.  Survivors need a
-# reader: some of them change nothing that anybody could notice.
+# compiler notices, or that leaves the same machine code, is drawn again.  Only
+# the suites and checks that run the line are tried, the quickest first; a line
+# that none of them runs has a survivor.  build/coverage keeps which ones run it.
+# Survivors need a reader: some of them change nothing that anybody could notice.
 use strict;
 use warnings;
 use Cwd 'abs_path';
+use Digest::MD5 'md5_hex';
+use Storable qw(nstore retrieve);
+use Time::HiRes 'time';
 
 $| = 1;
 delete @ENV{qw(MAKEFLAGS MFLAGS MAKELEVEL)}; # what is made below has its own
-my %near = (
-    base => 'base|terms|tables', model => 'terms|laws|mesh|reference|tables',
-    solve => 'newton|multigrid|reference|widths|terms|stress',
-    step => 'laws|reference|pure|player', lecture => 'lecture|reference',
-    run => 'scenes|options|mesh|past|tables|session',
-    scenes => 'scenes|options|session|tables', lesson => 'pages|session|scenes',
-    picture => 'layout|show|picture|session',
-    play => 'past|player|session|film|scripts');
-# From the quickest to the slowest.
-my @names = ((map { "test_$_" } qw(layout memory mesh widths base options reference scenes past
-                                   picture player multigrid document pure terms show
-                                   film newton laws stress pages session)),
-             (map { "check_$_.sh" } qw(log homework lines pages lecture faults scripts tables files window)));
-for my $suite (map { m{/(?:(test_\w+)\.c|(check_\w+\.sh))$} ? $1 // $2 : () }
-               glob 'tests/unit/test_*.c tests/checks/check_*.sh') {
-    die "$suite is not among the names of mutants.pl\n"
-        unless $suite =~ /sources|bench/ || grep { $_ eq $suite } @names;
-}
+my @all_rooms = qw(base model solve step run scenes lesson picture play lecture);
+my @suites = grep !/check_(?:sources|bench)/, map { m{/(test_\w+)\.c|(check_\w+\.sh)} ? $1 // $2 : () }
+             sort glob('tests/unit/*.c tests/checks/*.sh');
 
 sub read_file {
     open(my $file, '<', $_[0]) or die "$_[0]: $!\n";
@@ -198,29 +187,83 @@ sub lines_of {
     return @lines;
 }
 
-# ---- one fault after the other -----------------------------------------------------
-# Whether a suite or check passes; a check may fail by chance once.
+# ---- what each suite runs ------------------------------------------------------------
+# Runs a suite or check; returns whether it passed.
 sub passes {
-    my ($suite, $again) = @_;
+    my ($suite, $settings) = @_;
     my $run = $suite =~ /\.sh$/ ? "sh tests/checks/$suite" : "build/release/tests/unit/$suite";
-    return system('ulimit -S -t 60; ulimit -c 0; CMOCKA_TEST_ABORT=1 ' .
-        "exec timeout -k 5 3600 $run >log 2>&1 </dev/null") == 0 ||
-        ($suite =~ /\.sh$/ && !$again && passes($suite, 1));
+    return system("ulimit -c 0; $settings " .
+        "exec timeout -k 5 600 $run >log 2>&1 </dev/null") == 0;
 }
 
 sub build {
-    return system('make -s build/elasto build/lecture ' . join(' ',
-        map { "build/release/tests/unit/$_" } grep !/\.sh$/, @_) . ' >log 2>&1') == 0;
+    my ($settings, @suites) = @_;
+    return system("make -s $settings build/elasto build/lecture " . join(' ',
+        map { "build/release/tests/unit/$_" } grep !/\.sh$/, @suites) . ' >log 2>&1') == 0;
 }
 
-# The first suite that fails, or nothing.
+# $runs{FILE}[LINE]: the suites that run this line, the quickest first; undef: the
+# compiler has made no code of it alone.
+my %runs;
+
+# Builds a copy of the tree that counts what is run, and runs every suite there;
+# or reads what was counted before in the same sources.
+sub load_counts {
+    my $sources = md5_hex(map { read_file($_) } grep /\.(?:[ch]|inc|def|awk|sh|txt)$/,
+                          sort(glob('src/* src/*/* include/*/* tests/*/*')));
+    my $kept = eval { retrieve('../coverage') };
+    if ($kept && $kept->{sources} eq $sources) {
+        @suites = @{ $kept->{suites} };
+        %runs = %{ $kept->{runs} };
+        return;
+    }
+    print "counting which suite runs which line\n";
+    my %seconds;
+    system('mkdir -p counted/build && cp -pR Makefile README.md include src tests counted && ' .
+           'cp -p build/*.mk counted/build') == 0 or die;
+    chdir 'counted' or die;
+    build("CFLAGS='-Og -g --coverage'", @suites) or die read_file('log');
+    for my $suite (@suites) {
+        my $begin = time;
+        passes($suite, '');
+        $seconds{$suite} = time() - $begin;
+        my $file;
+        for (split(/\n/, `find build -name '*.gcda' | xargs gcov -t 2>/dev/null`)) {
+            $file = $1 if /^ *-: +0:Source:(.*)/;
+            $runs{$file}[$2]{$suite} += $1 eq '#####' ? 0 : 1
+                if $file =~ /^src/ && /^ *(\d+|#####)\*?: *(\d+):/;
+        }
+        system(q(find build -name '*.gcda' -delete));
+    }
+    @suites = sort { $seconds{$a} <=> $seconds{$b} } @suites;
+    for my $lines (values %runs) {
+        for my $line (grep defined, @$lines) {
+            my %seen = %$line;
+            $line = [grep $seen{$_}, @suites];
+        }
+    }
+    chdir '..';
+    nstore({ sources => $sources, suites => \@suites, runs => \%runs }, '../coverage');
+}
+
+# The suites that run a line of a file; all of them outside functions, for tables.
+# The counts do not see the checks that compile lecture.c themselves.
+sub suites_of {
+    my ($file, $number, $text) = @_;
+    my @lines = ('', split(/\n/, $text));
+    $number-- until $runs{$file}[$number] || $lines[$number] =~ /^[}\w]/ || !$number;
+    return ($runs{$file}[$number] ? @{ $runs{$file}[$number] } : @suites,
+            $file eq 'src/lecture.c' ? qw(check_lecture.sh check_homework.sh) : ());
+}
+
+# ---- one fault after the other -----------------------------------------------------
+# The first suite that fails, or nothing.  A check may fail by chance once.
+my $quick = 'ulimit -S -t 60; CMOCKA_TEST_ABORT=1';
 sub killer {
-    my ($room, $killer) = @_;
-    my $near = qr/^(?:test|check)_(?:$near{$room})\b/;
-    my @parts = $killer eq '?' ? ([grep /$near/, @names], [grep !/$near/, @names]) : [$killer];
-    for my $part (@parts) {
-        build(@$part) or return 'make';
-        passes($_) or return $_ for @$part;
+    return '' unless @_;
+    build('', @_) or return 'make';
+    for my $suite (@_) {
+        passes($suite, $quick) || ($suite =~ /\.sh$/ && passes($suite, $quick)) or return $suite;
     }
     return '';
 }
@@ -229,11 +272,10 @@ my %right; # suites that pass without a fault: those that found one are tried
 
 # Its killer, '' for none; undef: it is no fault.
 sub try_fault {
-    my ($file, $begin, $length, $new, $killer) = @_;
-    my ($room) = $file =~ m{^(?:src|include)/(\w+)/};
-    $room = 'lecture' unless $room && $near{$room};
+    my ($file, $begin, $length, $new, @suites) = @_;
     my ($object) = $file =~ m{^src/(.*)\.c$} ? "build/release/$1.o" : 'none';
-    my $again = $object =~ s{/\w+/(?=\w+\.o)}{/narrow/}r; # test_widths has it, too
+    my $again = $object =~ s{/\w+/(?=\w+\.o)}{/narrow/}r; # a suite has it, too
+    $again = 'build/release/tests/unit/test_reference.o' if $file eq 'src/lecture.c';
     my $text = read_file($file);
     my $wrong = $text;
     substr($wrong, $begin, $length) = $new;
@@ -244,7 +286,7 @@ sub try_fault {
     my $fault = $object eq 'none' || (system("make -s $object >log 2>&1") == 0 &&
         read_file('log') !~ /warning:/ &&
         system("strip -g -o a object && strip -g -o b $object && cmp -s a b") != 0);
-    my $found = $fault ? killer($room, $killer) : undef;
+    my $found = $fault ? killer(@suites) : undef;
     write_file($file, $text);
     utime undef, undef, $file if $object eq 'none';
     unlink $again;
@@ -252,12 +294,12 @@ sub try_fault {
     utime undef, undef, $object; # what was linked with the fault is older
     unlink 'build/release/libelasto.a', 'build/release/lecture';
     if ($found && $found ne 'make' && !$right{$found}++) {
-        build($found) && passes($found) or die "$found fails without a fault\n", `tail -n 20 log`;
+        build('', $found) && passes($found, $quick) or die "$found fails without a fault\n", `tail -n 20 log`;
     }
     return $found;
 }
 
-my ($how, $seed, $count, @rooms) = (@ARGV, '');
+my ($how, $seed, $count, @rooms) = @ARGV ? @ARGV : '';
 my @faults = $how eq '--random' ? () : listed('tests/data/mutants.txt', $how =~ s/^(?:--)?check$//r);
 exit 0 if $how =~ /^(?:--)?check$/;
 die "no fault contains '$how'\n" unless @faults || $how eq '--random';
@@ -285,13 +327,14 @@ for my $fault (@faults) {
 }
 if ($how eq '--random') {
     my %text;
-    @rooms = grep { $_ && $near{$_} } @rooms;
-    my @lines = lines_of(\%text, @rooms ? @rooms : sort keys %near);
+    load_counts();
+    my @lines = lines_of(\%text, @rooms ? @rooms : sort @all_rooms);
     srand($seed);
     while ($count > 0) {
         my ($file, $number, $at, $kinds) = @{ $lines[rand @lines] };
         my ($kind, $column, $length, $new) = @{ $kinds->[rand @$kinds] };
-        my $killer = try_fault($file, $at + $column, $length, $new, '?') // next;
+        my $killer = try_fault($file, $at + $column, $length, $new,
+                               suites_of($file, $number, $text{$file})) // next;
         my $old = substr($text{$file}, $at + $column, $length);
         report($file, $killer, "$file:$number $kind: $old -> $new");
         $count--;

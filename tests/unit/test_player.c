@@ -68,30 +68,60 @@ int __wrap_clock_gettime(clockid_t clock, struct timespec *now)
     return 0;
 }
 
+static void begin_window(const char *line)
+{
+    begin(line);
+    player.screen.draws_frames = player.screen.has_window = true;
+    player.screen.paper_size[0] = player.screen.paper_size[1] = 100;
+    wound = 100;
+}
+
+static void pass_time(int ticks)
+{
+    while (ticks-- > 0) {
+        wound += 1 / 240.0;
+        CHECK_OK(player_frame(&player));
+    }
+}
+
 /* At speed s time makes 60 2^s steps a second, and the window waits until the
  * next one is due. */
 TEST(steps_are_due_at_the_speed_that_was_asked_for)
 {
     for (int speed = -5; speed <= 3; speed++) {
-        begin("square --segments 1 --stretch 1 --velocity 3,4");
-        player.screen.draws_frames = player.screen.has_window = true;
-        player.screen.paper_size[0] = player.screen.paper_size[1] = 100;
-        wound = 100;
+        begin_window("square --segments 1 --stretch 1 --velocity 3,4");
         while (player.time.log_speed != speed)
             CHECK_OK(obey(player.time.log_speed < speed ? "faster" : "slower"));
         CHECK_OK(player_frame(&player)); /* the start is a frame, too */
         const double every = ldexp(1, speed < 0 ? -speed : 0) / 60;
         CHECK_NEAR(player_find_wait_time(&player), fmin(1e3 * every, 200), 1);
         const long before = player.past.step;
-        for (int tick = 0; tick < 3 * 240; tick++) {
-            wound += 1 / 240.0;
-            CHECK_OK(player_frame(&player));
-        }
+        pass_time(3 * 240);
         CHECK_NEAR(player.past.step - before, 180 * ldexp(1, speed),
                    fmax(1, ldexp(1, speed)));
         wound = -1;
         end();
     }
+}
+
+/* While the sheet is open its scenes make a step in each frame, and the run
+ * waits. */
+TEST(the_sheet_is_alive)
+{
+    const FrameContent *content = &player.screen.frame.content;
+    begin_window("square");
+    CHECK_OK(obey("sheet"));
+    pass_time(4 * 8);
+    for (int frames = 1; frames < 20; frames++, pass_time(4))
+        for (int i = 0; i < content->sheet.cells; i++) {
+            const Simulation *cell = content->sheet.cell[i].simulation;
+            const bool moves = cell->scene->needs & NEEDS_TIME;
+            if (i > 0) /* that shows a page, which may end */
+                assert_int_equal(cell->steps, moves ? frames + 2 : 0);
+        }
+    assert_int_equal(player.past.step, 0);
+    wound = -1;
+    end();
 }
 
 static const History *history_now(void)
