@@ -46,6 +46,7 @@ typedef struct Trace {
     bool given_up;              /* the step has ended without convergence */
     double slope;               /* grad E . p, J s^2 */
     int projected;              /* number of projected blocks; < 0: unknown */
+    const double *x_n;          /* [2n] m, x^n; or NULL */
     const double *x_tilde;      /* [2n] m, drawn as a ghost; or NULL */
     EnergyDifference energy_difference; /* change of E along p; or NULL */
     const void *difference_data; /* first argument of energy_difference */

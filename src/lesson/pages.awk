@@ -98,7 +98,8 @@ BEGIN {
     numbers["picture"] numbers["lines"] numbers["speed"] numbers["flips"]
     numbers["pause"]
     of_next["nearer"] of_next["spring"]
-    split("numbers forces modes kinds cuts downhill curves first_step velocity", layer)
+    split("numbers forces modes kinds cuts downhill curves first_step velocity eigenvalues",
+          layer)
     for (i in layer)
         layers[layer[i]]
 }

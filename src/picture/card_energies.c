@@ -140,8 +140,9 @@ static double find_energy_rounding(const Simulation *simulation)
 }
 
 /* Makes the axis of the energies.  The axis covers the whole run, unless the
- * energies so far would then be too small to see, and is logarithmic if the
- * energy has grown a millionfold and none is far below 0.
+ * energies so far would then be too small to see.  The axis is logarithmic if
+ * the energy has grown a millionfold and none is far below 0, and for the panes
+ * of a page.
  *   last  out, s, upper limit of the times of the curves */
 static Axis make_energies_axis(const Simulation *simulation, const Curves *all,
                                double *last)
@@ -175,9 +176,10 @@ static Axis make_energies_axis(const Simulation *simulation, const Curves *all,
     low = fmax(low, -1e300);
     if (!(first > rounding)) /* a start with E = 0, such as a fall from rest */
         first = -low;
-    bool modes = simulation->options.layers & LAYER_MODES;
+    bool panes =
+        simulation->options.page && all->count > 1 && all->curve[1].is_total;
     if (first > 0 && low >= -0.01 * high &&
-        (modes || high > LOG_GROWTH * first))
+        (panes || high > LOG_GROWTH * first))
         return (Axis){pow(10, floor(log10(fmax(least, LOG_LOW * first))) - 1),
                       pow(10, ceil(log10(fmin(high, LOG_HIGH * first)))), true,
                       false, "J"};

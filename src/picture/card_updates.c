@@ -14,29 +14,34 @@ static int count_added_updates(const Trace *trace)
     return before ? trace->iteration : trace->records;
 }
 
-/* Draws E and its parts along the line from x_tilde to x. */
+/* Draws E and its parts along the line from x^n to x_tilde, and E at x, beside
+ * the point of the line that is nearest to x. */
 static void draw_energy_parts(const Plot *card, const System *system,
                               const Trace *trace, const double *x)
 {
-    enum { POINTS = 39, START = 6, END = 26 }; /* points with t = 0 and 1 */
+    enum { POINTS = 31, START = 5, END = 25 }; /* points with t = 0 and 1 */
     static const struct {
         const char *name;
         Colour colour;
         int label_index;     /* index of the point with the label */
         double label_factor; /* height of the label, times the curve's value */
-    } parts[] = {{"inertia", COLOUR_X_TILDE, 18, 1},
-                 {"h\u00b2 P", COLOUR_SHADED, 15, 0.72},
-                 {"E", COLOUR_X, 34, 1}};
-    double t[POINTS], part[3][POINTS];
-    const double *aim = trace->x_tilde;
+    } parts[] = {{"inertia", COLOUR_X_TILDE, 10, 1},
+                 {"h\u00b2 P", COLOUR_SHADED, 20, 0.72},
+                 {"E", COLOUR_X, 3, 1}};
+    double t[POINTS + 1], part[3][POINTS + 1], along = 0, square = 0;
+    const double *aim = trace->x_tilde, *from = trace->x_n;
     size_t count = 2 * (size_t)system->nodes;
     double *at = malloc(count * sizeof *at);
     if (!at)
         return;
-    for (int i = 0; i < POINTS; i++) {
-        t[i] = 0.05 * (i - START);
+    for (size_t c = 0; c < count; c++) {
+        along += (x[c] - from[c]) * (aim[c] - from[c]);
+        square += (aim[c] - from[c]) * (aim[c] - from[c]);
+    }
+    for (int i = 0; i <= POINTS; i++) { /* at last x */
+        t[i] = i < POINTS ? 0.05 * (i - START) : along / fmax(square, 1e-300);
         for (size_t c = 0; c < count; c++)
-            at[c] = aim[c] + t[i] * (x[c] - aim[c]);
+            at[c] = i < POINTS ? from[c] + t[i] * (aim[c] - from[c]) : x[c];
         part[0][i] = inertia_energy_value(system->nodes, at, aim, system->m);
         part[1][i] = trace->h * trace->h * system_potential(system, at);
         part[2][i] = part[0][i] + part[1][i];
@@ -49,11 +54,14 @@ static void draw_energy_parts(const Plot *card, const System *system,
     for (int k = 0; k < 3; k++)
         plot_curve(&plot, POINTS, t, part[k], k < 2 ? 1.6 : 2.4,
                    parts[k].colour);
-    for (int i = START; i <= END; i += END - START) {
-        Colour colour = i == START ? COLOUR_X_TILDE : COLOUR_X;
-        plot_disc(&plot, (double[2]){t[i], E[i]}, 5, colour);
-        plot_label(&plot, 1, (double[2]){t[i], E[i]}, colour, "%s: %s",
-                   i == START ? "{xt}" : "{x}", format_digits(E[i], 4).text);
+    for (int k = 0; k < 3; k++) {
+        static const char *const names[] = {"{x}^{n}", "{xt}^{n}", "{x}"};
+        static const int index[] = {START, END, POINTS};
+        const double mark[2] = {t[index[k]], E[index[k]]};
+        Colour colour = k == 1 ? COLOUR_X_TILDE : COLOUR_X;
+        plot_disc(&plot, mark, 5, colour);
+        plot_label(&plot, 1, mark, colour, "%s: %s", names[k],
+                   format_digits(mark[1], 4).text);
     }
     for (int k = 0; k < 3; k++) {
         int i = parts[k].label_index;
@@ -63,8 +71,8 @@ static void draw_energy_parts(const Plot *card, const System *system,
     }
 }
 
-/* Draws E before each update minus E at the end, on a logarithmic axis.  The
- * difference is the sum of the decreases from this update on. */
+/* Draws E at each iterate minus E at the end, on a logarithmic axis.  The
+ * difference is the sum of the decreases from this iterate on. */
 static void draw_remaining_decrease(const Plot *card, const Trace *trace)
 {
     int made = count_added_updates(trace);
@@ -79,15 +87,15 @@ static void draw_remaining_decrease(const Plot *card, const Trace *trace)
         return;
     }
     Plot plot = plot_create(
-        card, (Axis){0.5, fmax(made, 3) + 0.7, false, true, "update"},
+        card, (Axis){-0.5, fmax(made, 3) - 0.3, false, true, "i"},
         (Axis){pow(10, floor(log10(low))), pow(10, ceil(log10(high))), true,
                false, "E({x}^{i}) \u2212 E({x}), J s\u00b2"});
     for (int words = 0; words < 2; words++) { /* curves, then words */
-        double at[2] = {made + 1, 0}, after[2];
-        for (int i = made; i > 0; i--) {
+        double at[2] = {made, 0}, after[2];
+        for (int i = made - 1; i >= 0; i--) {
             memcpy(after, at, sizeof at);
             at[0] = i;
-            at[1] -= trace->record[i - 1].change;
+            at[1] -= trace->record[i].change;
             if (words)
                 plot_label(&plot, 1, at, COLOUR_X, "%s",
                            format_number(at[1]).text);
@@ -99,14 +107,14 @@ static void draw_remaining_decrease(const Plot *card, const Trace *trace)
     }
 }
 
-/* Draws E from x_tilde to x; in a wide card also E before each update. */
+/* Draws E from x^n to x_tilde; in a wide card also E at each iterate. */
 void step_energy_draw(const Plot *card)
 {
     const Pane *pane = card->pane;
     const Trace *trace = pane->trace;
     bool wide = card->box.width > 36 * card->em;
     Plot left = *card, right = *card;
-    if (!trace || !trace->x_tilde) {
+    if (!trace || !trace->x_tilde || !trace->x_n) {
         card_write_hint(card, text_undrawn);
         return;
     }

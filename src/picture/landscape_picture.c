@@ -66,12 +66,6 @@ static void draw_contours(const Plot *plot, int i, int j, double value,
     }
 }
 
-/* Whether the answer of the page is shown and this layer is on. */
-static bool shows_layer(const Plot *plot, PictureLayer layer)
-{
-    return plot->revealed && plot->simulation->options.layers & layer;
-}
-
 /* Draws the region where E is not convex, contours, and g1 = 0 and g2 = 0. */
 static void draw_contour_map(const Plot *plot)
 {
@@ -80,7 +74,7 @@ static void draw_contour_map(const Plot *plot)
     double metre = 1 / plot->camera.scale[0],
            e = find_contour_scale(simulation);
     const Box *box = &plot->box;
-    bool curves = shows_layer(plot, LAYER_CURVES);
+    bool curves = simulation->options.layers & LAYER_CURVES;
     Colour contour = curves ? COLOUR_GRID : COLOUR_GREY;
     Box before = canvas_set_clip(canvas, *box);
     canvas_fill(canvas, *box, COLOUR_WHITE);
@@ -135,7 +129,7 @@ static Plot draw_map(const Plot *stage)
     const double *x = simulation->run[0].x;
     Plot plot =
         plot_create_on_stage(stage, (Axis){.label = "x in m"}, (Axis){0});
-    bool curves = shows_layer(stage, LAYER_CURVES);
+    bool curves = simulation->options.layers & LAYER_CURVES;
     draw_contour_map(&plot);
     if (plot.has_text && stage->content->lecture.page)
         write_levels(&plot);
@@ -161,7 +155,8 @@ static void mark_stationary_points(const Plot *plot)
             at[i][1] += p[1];
         }
         bool saddle = i == 2;
-        if (!(vector_length(p) <= 1e-9) ||
+        bool again = i == 1 && point_distance(at[0], at[1]) < 1e-6;
+        if (again || !(vector_length(p) <= 1e-9) ||
             descent_hessian_index(simulation, at[i][0], at[i][1]) != saddle)
             continue;
         plot_hollow_disc(plot, at[i], 4, 2, COLOUR_TEXT);
@@ -319,11 +314,10 @@ void landscape_add_values(const Simulation *simulation, LiveValues *values)
     values_add_flag(values, "went uphill", up);
 }
 
-/* If H is positive definite, draws contours of the quadratic model around its
- * minimum x + p: three, beside the curves g = 0 two, the largest through x. */
+/* If H is positive definite, draws three contours of the quadratic model around
+ * its minimum x + p, the largest through x. */
 static void draw_model_ellipses(const Plot *plot, const LocalModel *E)
 {
-    bool curves = shows_layer(plot, LAYER_CURVES);
     static const double levels[] = {1, 0.6, 0.25};
     const Descent *descent = &plot->simulation->descent;
     const double *x = descent->point, *p = descent->direction;
@@ -333,15 +327,15 @@ static void draw_model_ellipses(const Plot *plot, const LocalModel *E)
     double height = low * q * q + rest * p[1] * p[1];
     if (!(low > 0 && rest > 0))
         return;
-    for (int k = 0; k < 3; k += 1 + curves) {
+    for (int k = 0; k < 3; k++) {
         double radius = levels[k] * sqrt(height), up = radius / sqrt(rest);
         const double a[2] = {radius / sqrt(low), 0}, b[2] = {-lift * up, up};
-        plot_ellipse(plot, point_along(x, 1, p).xy, a, b, curves ? 1 : 1.6,
-                     false, COLOUR_P);
+        plot_ellipse(plot, point_along(x, 1, p).xy, a, b, 1.6, false, COLOUR_P);
     }
 }
 
-/* Draws lines where the linearised components of the gradient are 0. */
+/* Draws lines where the linearised components of the gradient are 0, and after
+ * the answer a ring where they meet. */
 static void draw_linearised_zeros(const Plot *plot, const LocalModel *E)
 {
     const double *x = plot->simulation->descent.point;
@@ -354,8 +348,10 @@ static void draw_linearised_zeros(const Plot *plot, const LocalModel *E)
                     point_along(foot.xy, far, across).xy, 2.4, NULL,
                     curve_colour[k]);
     }
-    plot_ring(plot, point_along(x, 1, plot->simulation->descent.direction).xy,
-              8, 2.4, COLOUR_P);
+    if (plot->revealed)
+        plot_ring(plot,
+                  point_along(x, 1, plot->simulation->descent.direction).xy, 8,
+                  2.4, COLOUR_P);
 }
 
 /* Draws the half plane g . p < 0 of the directions that point downhill. */
@@ -384,7 +380,8 @@ void landscape_draw(Plot *stage)
     const Descent *descent = &simulation->descent;
     const LocalModel E = evaluate_energy(simulation, descent->point);
     Plot plot = draw_map(stage);
-    bool halves = simulation->options.layers & LAYER_DOWNHILL;
+    unsigned layers = simulation->options.layers;
+    bool halves = layers & LAYER_DOWNHILL, curves = layers & LAYER_CURVES;
     if (halves)
         draw_downhill(&plot, &E);
     for (int i = 0; i < descent->count; i++) {
@@ -399,11 +396,11 @@ void landscape_draw(Plot *stage)
     }
     bool raw = simulation->options.projection == PROJECTION_NONE;
     bool both = !lecture->page || (raw && halves);
-    if (stage->revealed && raw && !simulation->done)
+    if (stage->revealed && raw && !curves && !simulation->done)
         draw_model_ellipses(&plot, &E);
-    if (shows_layer(&plot, LAYER_CURVES) && !simulation->done)
+    if (curves && !simulation->done)
         draw_linearised_zeros(&plot, &E);
-    if (shows_layer(stage, LAYER_FORCES))
+    if (stage->revealed && layers & LAYER_FORCES)
         draw_forces(&plot, &E);
     else if (!lecture->hides_answer)
         draw_directions(&plot, plot.has_text && both);
@@ -414,7 +411,7 @@ void landscape_draw(Plot *stage)
         plot_label(&plot, 1, point_along(descent->point, -far, E.g).xy,
                    COLOUR_TEXT, "\u2212\u2207E");
     }
-    if (stage->revealed && plot.has_text && !shows_layer(&plot, LAYER_CURVES) &&
+    if (stage->revealed && plot.has_text && !curves &&
         simulation->exhibit.switches != PART_INERTIA)
         mark_stationary_points(&plot);
     plot_disc(&plot, descent->point, 7, COLOUR_TEXT);

@@ -5,10 +5,8 @@
 #include "picture/cards.h"
 
 enum {
-    TRAIL = 256,              /* most steps of a drawn path */
-    FIXED_POINT_ITERATES = 6, /* number of fixed-point iterates drawn */
-    STEPS_AHEAD = 50,         /* symplectic steps drawn ahead if h >= 2 */
-    EIGEN_PIECES = 200        /* pieces of the eigenvalues' path over h */
+    TRAIL = 256,       /* most steps of a drawn path */
+    EIGEN_PIECES = 200 /* pieces of the eigenvalues' path over h */
 };
 
 static const double MASS_REACH = 1.9;    /* m, least half side of the view */
@@ -301,13 +299,10 @@ static void draw_step_error(const Plot *stage, const MassStep *step, double h,
 }
 
 /* Draws what a page explains: the exact end of the step; for forward Euler its
- * error; for backward Euler the fixed-point iterates; for symplectic Euler the
- * ellipse through the steps, or the next steps if h >= 2. */
+ * error; for symplectic Euler with h < 2 the ellipse through the steps. */
 static void draw_mass_lesson(Plot *stage, const MassStep *step)
 {
     double h = stage->simulation->run[0].h;
-    double near = 1.5 * stage->em / stage->camera.scale[0]; /* m */
-    bool implicit = stage->simulation->run[0].method->implicit;
     const Point end = find_exact_position(step, h);
     plot_hollow_disc(stage, end.xy, 6, 3.4, COLOUR_GREY);
     if (step->by_old_v) {
@@ -315,25 +310,8 @@ static void draw_mass_lesson(Plot *stage, const MassStep *step)
         draw_step_error(stage, step, h, "\u00bdh\u00b2 a^{n}");
     }
     plot_label(stage, 1, end.xy, COLOUR_FAINT, "exact");
-    Point x = {{step->x[0], step->x[1]}}, v = {{step->v[0], step->v[1]}};
-    for (int k = 0; k < FIXED_POINT_ITERATES && implicit; k++) {
-        const Point from = x,
-                    pulled = point_along(step->v, k > 0 ? -h : 0, from.xy);
-        x = point_along(step->x, h, pulled.xy);
-        if (k > 0)
-            plot_line(stage, from.xy, x.xy, 1.4, COLOUR_GREY);
-        plot_hollow_disc(stage, x.xy, 5, 3, COLOUR_GREY);
-        if (point_distance(step->new_x, x.xy) > near)
-            plot_label(stage, 1, x.xy, COLOUR_FAINT, "%d", k + 1);
-    }
-    bool symplectic = !step->by_old_v && !implicit;
-    for (int k = 0; k < STEPS_AHEAD && symplectic && h >= 2; k++) {
-        const Point from = x;
-        v = point_along(v.xy, -h, x.xy);
-        x = point_along(x.xy, h, v.xy);
-        plot_line(stage, from.xy, x.xy, 1, COLOUR_GREY);
-        plot_hollow_disc(stage, x.xy, 4, 2.4, COLOUR_GREY);
-    }
+    bool symplectic =
+        !step->by_old_v && !stage->simulation->run[0].method->implicit;
     double turn = 1 - 0.5 * h * h, reach = sqrt(1 - turn * turn);
     const Point side = point_along(step->new_x, -turn, step->x);
     const Point across = point_along(origin, 1 / reach, side.xy);

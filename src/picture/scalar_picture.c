@@ -10,7 +10,7 @@
 enum { ROOT_UPDATES = 60, ITERATE_TEXT = 48 };
 
 static const double TANGENT_REACH = 3;    /* m, least half width of the view */
-static const double ITERATES_WIDE = 11.5; /* ems */
+static const double ITERATES_WIDE = 12;   /* ems */
 
 /* An update with its model q(x) = f + f' (x - x0) + f'' (x - x0)^2 / 2, whose
  * minimum is at x1 = x0 + p. */
@@ -281,7 +281,7 @@ bool iterates_fill_row(const FrameContent *content, int row,
 /* Writes the newest iterates that fit.  Correct digits have a light ground. */
 static void draw_iterates(const Plot *card)
 {
-    const double size = 0.95, pitch = 1.38; /* ems */
+    const double size = 1.1, pitch = 1.6; /* ems */
     int count = card->simulation->descent.count + 1;
     Paper *paper = card->paper;
     int rows = (int)(card->box.height / (pitch * paper->em));
@@ -299,8 +299,8 @@ static void draw_iterates(const Plot *card)
                  cells.cell[1]);
         int end = paper_width(paper, FACE_REGULAR, size, words);
         canvas_fill(&paper->canvas,
-                    (Box){card->box.x + left, y + paper_pixels(paper, 0.15),
-                          end - left, paper_pixels(paper, 1.25)},
+                    (Box){card->box.x + left, y + paper_pixels(paper, 0.18),
+                          end - left, paper_pixels(paper, 1.45)},
                     right > 0 ? COLOUR_LIT : COLOUR_WHITE);
         paper_write(paper, FACE_REGULAR, size, COLOUR_TEXT, card->box.x, y,
                     ALIGN_LEFT, "%s  %s", cells.cell[0], cells.cell[1]);

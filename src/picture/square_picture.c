@@ -9,9 +9,10 @@
 #include "picture/square_pen.h"
 
 enum {
-    ARROW_SPACING = 16, /* pixels, least distance between two arrows */
-    MIN_CELL = 5,       /* pixels, least size of cells with drawn springs */
-    MAX_NUMBERED = 121  /* most nodes of a mesh with node numbers or forces */
+    ARROW_SPACING = 16,  /* pixels, least distance between two arrows */
+    MIN_CELL = 5,        /* pixels, least size of cells with drawn springs */
+    MAX_NUMBERED = 121,  /* most nodes of a mesh with node numbers or forces */
+    MAX_EIGENVALUES = 25 /* most nodes of a mesh with eigenvalues of H */
 };
 
 static const double MIN_ARROW = 1.5; /* ems; shorter arrows of p are scaled */
@@ -604,7 +605,7 @@ void square_draw(Plot *stage)
     mark_under_mouse(pen);
     draw_page_arrows(pen);
     add_warnings(pen, folded);
-    if (stage->revealed && layers & LAYER_NUMBERS &&
+    if (stage->revealed && layers & LAYER_NUMBERS && !folded &&
         system->nodes <= MAX_NUMBERED)
         draw_node_numbers(pen);
     if (pen->colour_range > 0)
@@ -662,6 +663,55 @@ static void add_force_values(const Simulation *simulation, const double *x,
     values_add(values, "elastic", system_potential(&simulation->system, x));
 }
 
+/* Adds the sums of (q . g)^2 / lambda over the negative and the positive
+ * eigenvalues of H at the start of the run, g . p, and the longest term of p.
+ */
+static void add_slope_values(const Simulation *simulation, LiveValues *values)
+{
+    enum { MOST = 2 * MAX_EIGENVALUES, SWEEPS = 10 };
+    const System *system = &simulation->system;
+    double A[MOST + 1][MOST + 1] = {{0}}; /* H, and g as its last column */
+    double x[MOST], a[MOST] = {0}, one[MOST] = {0}, sum[2] = {0};
+    double h2 = simulation->options.timestep * simulation->options.timestep;
+    int n = 2 * system->nodes, far = 0;
+    compute_rest_positions(simulation, x);
+    for (int i = 0; i < n; i += 2)
+        x[i] *= simulation->options.stretch;
+    EvalPoint at = eval_point_at(system, NULL, NULL, x);
+    system_acceleration(system, x, a);
+    for (int i = 0; i < n; i++) {
+        one[i] = h2;
+        for (const TermKind *kind; (kind = eval_point_next_term(&at));)
+            if (kind->hessian)
+                kind->hessian(&at, PROJECTION_NONE, NULL, one, A[i]);
+        one[i] = 0;
+        A[i][i] += system->m[i / 2];
+        A[i][n] = -h2 * system->m[i / 2] * a[i];
+    }
+    /* Jacobi's method: rotations make H diagonal, and g becomes Q^T g. */
+    for (int k = 0; k < SWEEPS * n * n; k++) {
+        int i = k / n % n, j = k % n;
+        double turn = i < j ? 0.5 * atan2(2 * A[i][j], A[j][j] - A[i][i]) : 0;
+        double c = cos(turn), s = sin(turn);
+        for (int r = 0; r < 2 * n + 2 && turn != 0; r++) {
+            double *u = r > n ? &A[i][r - n - 1] : &A[r][i], u_before = *u;
+            double *v = r > n ? &A[j][r - n - 1] : &A[r][j];
+            *u = c * u_before - s * *v;
+            *v = s * u_before + c * *v;
+        }
+    }
+    for (int i = 0; i < n; i++) {
+        sum[A[i][i] < 0] += A[i][n] * A[i][n] / A[i][i];
+        if (fabs(A[i][n] / A[i][i]) > fabs(A[far][n] / A[far][far]))
+            far = i;
+    }
+    values_add(values, "lower sum", sum[1]);
+    values_add(values, "upper sum", sum[0]);
+    values_add(values, "first slope", -sum[0] - sum[1]);
+    values_add(values, "longest", fabs(A[far][n] / A[far][far]));
+    values_add(values, "longest lambda", A[far][far]);
+}
+
 /* Adds the values of mesh, law, fastest mode and forces, which pages use. */
 void square_add_values(const Simulation *simulation, LiveValues *values)
 {
@@ -687,7 +737,6 @@ void square_add_values(const Simulation *simulation, LiveValues *values)
     values_add(values, "k", options->stiffness);
     values_add(values, "stretch", options->stretch);
     values_add(values, "h", options->timestep);
-    values_add(values, "epsilon", options->tolerance);
     const int *e = system->e + 2 * find_newest_spring(simulation);
     values_add(values, "newest", find_newest_spring(simulation));
     values_add(values, "from", e[0]);
@@ -706,6 +755,8 @@ void square_add_values(const Simulation *simulation, LiveValues *values)
     }
     if (options->layers & LAYER_FORCES && nodes <= MAX_NUMBERED)
         add_force_values(simulation, x, values);
+    if (options->layers & LAYER_EIGENVALUES && nodes <= MAX_EIGENVALUES)
+        add_slope_values(simulation, values);
 }
 
 /* Samples all energies of the first run, J. */

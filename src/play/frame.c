@@ -317,12 +317,12 @@ static void fill_time(const Player *player, FrameContent *content)
 }
 
 /* If options of the page are changed, writes a heading for Look with the page's
- * own ones: "As the page opened, with h 1 s:". */
+ * own ones: "The page's own answer, with h 1 s:". */
 static void fill_own_options(const Player *player, LectureContent *lecture)
 {
     const OptionRow *row[OPTIONS_MAX_ROWS];
     const Options *own = player->tour.own_options;
-    char text[SENTENCE_SIZE] = "As the page opened", value[VALUE_SIZE];
+    char text[SENTENCE_SIZE] = "The page's own answer", value[VALUE_SIZE];
     const char *before = ", with ";
     const Past *past = &player->past;
     const LecturePage *page = past_control(past, 0)->options.page;

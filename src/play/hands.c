@@ -209,7 +209,7 @@ static Status press_target(Player *player, const MouseTarget *target)
     case PICK_CELL:
         return open_cell(player, target->pick.index);
     case PICK_PLACE:
-        if (page_wants_click(page) && !player_simulation(player)->done)
+        if (page_wants_click(page) && player_hides_answer(player))
             return obey_at(player, COMMAND_PREDICT, 0, target->pick.point);
         mouse->drag = COMMAND_START;
         return obey_at(player, COMMAND_START, mouse->item, target->pick.point);

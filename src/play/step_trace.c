@@ -302,6 +302,7 @@ const double *step_trace_fill(const StepTrace *trace, int place, Trace *shown)
     shown->iteration = source.round;
     shown->records = at.round;
     shown->record = row;
+    shown->x_n = count > 0 ? trace->round[0].x : NULL;
     shown->x_tilde = trace->x_tilde;
     if (at.at_line != LINE_START && source.round < count)
         fill_round_values(trace, &source, shown);
