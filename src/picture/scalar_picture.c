@@ -299,8 +299,8 @@ static void draw_iterates(const Plot *card)
                  cells.cell[1]);
         int end = paper_width(paper, FACE_REGULAR, size, words);
         canvas_fill(&paper->canvas,
-                    (Box){card->box.x + left, y + paper_pixels(paper, 0.18),
-                          end - left, paper_pixels(paper, 1.45)},
+                    (Box){card->box.x + left, y + paper_pixels(paper, 0.28),
+                          end - left, paper_pixels(paper, 1.2)},
                     right > 0 ? COLOUR_LIT : COLOUR_WHITE);
         paper_write(paper, FACE_REGULAR, size, COLOUR_TEXT, card->box.x, y,
                     ALIGN_LEFT, "%s  %s", cells.cell[0], cells.cell[1]);

@@ -605,7 +605,8 @@ void square_draw(Plot *stage)
     mark_under_mouse(pen);
     draw_page_arrows(pen);
     add_warnings(pen, folded);
-    if (stage->revealed && layers & LAYER_NUMBERS && !folded &&
+    if (stage->revealed && layers & LAYER_NUMBERS &&
+        (simulation->steps == 0 || simulation->options.next == NEXT_SPRING) &&
         system->nodes <= MAX_NUMBERED)
         draw_node_numbers(pen);
     if (pen->colour_range > 0)
