@@ -1,5 +1,4 @@
 /* card_hessian_pattern.c - non-zero blocks of the Hessian and its factor. */
-#include <math.h>
 #include <stdlib.h>
 
 #include "picture/cards.h"
@@ -54,12 +53,6 @@ static Box find_block_box(Box square, int n, int i, int j, int least)
                  high > least ? high : least};
 }
 
-/* Returns the colour of a block to which this number of springs has added. */
-static Colour darken_sum(Colour colour, int springs)
-{
-    return colour_mix(colour, 0xff000000u, fmax(springs - 1, 0) / 8);
-}
-
 /* Draws the matrix above the diagonal, and the factor with its fill below.
  * Marks the blocks of the spring under the mouse, or of a page's newest one. */
 static void draw_pattern(const Plot *card, Box square, bool natural,
@@ -78,7 +71,8 @@ static void draw_pattern(const Plot *card, Box square, bool natural,
         for (int i = j; i < n; i++) {
             int at = block[(size_t)j * (size_t)n + i];
             int what = i == j ? ENTRY : at;
-            Colour blue = darken_sum(COLOUR_X, writes && i == j ? at : 1);
+            Colour blue = colour_mix(COLOUR_X, 0xff000000u,
+                                     writes && i == j ? at / 9.0 : 0);
             if (what == ENTRY)
                 canvas_fill(canvas, find_block_box(square, n, j, i, 1), blue);
             if (what != NOTHING)
@@ -90,9 +84,10 @@ static void draw_pattern(const Plot *card, Box square, bool natural,
         int i = row_of_node(system, e[k / 2], natural);
         int j = row_of_node(system, e[k % 2], natural);
         Box box = find_block_box(square, n, i, j, least);
-        int sum = writes && i == j ? block[(size_t)i * (size_t)(n + 1)] : 1;
+        int sum = writes && i == j ? block[(size_t)i * (size_t)(n + 1)] : 0;
         canvas_framed_box(canvas, box_inset(box, -1),
-                          darken_sum(COLOUR_PROJECT, sum), COLOUR_WHITE);
+                          colour_mix(COLOUR_PROJECT, 0xff000000u, sum / 9.0),
+                          COLOUR_WHITE);
     }
     free(block);
 }

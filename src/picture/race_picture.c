@@ -14,9 +14,9 @@ void race_bounds(const Plot *stage, double bounds[4])
 {
     bool over_h = stage->simulation->exhibit.switches;
     bounds[0] = over_h ? -4.8 : -7.6;
-    bounds[1] = over_h ? -9 : -10;
+    bounds[1] = -8.6;
     bounds[2] = over_h ? -1.9 : 0.3;
-    bounds[3] = over_h ? 2.5 : 3; /* room for the switch above */
+    bounds[3] = 2.5; /* room for the switch above */
 }
 
 /* Draws a curve through the points of each method; points of runs that explode
@@ -38,7 +38,6 @@ void race_draw(Plot *stage)
         plot_dashes(&plot, at[0], at[1], 1.4, NULL, COLOUR_TEXT);
     for (int method = 0; method < RACE_METHODS; method++) {
         Colour colour = colour_of_name(race_get_method(method)->name);
-        bool first = !over_h && !race_get_method(method)->implicit;
         double last[2] = {NAN, NAN};
         named[method][0] = named[method][1] = NAN;
         for (int i = method; i < race->count; i += RACE_METHODS) {
@@ -50,8 +49,7 @@ void race_draw(Plot *stage)
             plot_line(&plot, last, now, 2.2, colour);
             plot_hollow_disc(&plot, now, 5, point->stable ? 0 : 3, colour);
             memcpy(last, now, sizeof now);
-            if (!first || isnan(named[method][0]))
-                memcpy(named[method], now, sizeof now);
+            memcpy(named[method], now, sizeof now);
         }
     }
     for (int order = 1; over_h && wide && order <= 2; order++) {
