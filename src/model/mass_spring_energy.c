@@ -1,7 +1,6 @@
 /* mass_spring_energy.c - energy of all springs (slide MassSpringEnergy.py). */
 #include "model/mass_spring_energy.h"
 
-
 static double mass_spring_value(const EvalPoint *at)
 {
     const System *system = at->system;

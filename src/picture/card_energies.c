@@ -125,8 +125,7 @@ static double find_energy_at(const Simulation *simulation,
 double energies_needed_height(const FrameContent *content, double wide,
                               double em)
 {
-    (void)wide;
-    (void)em;
+    (void)wide, (void)em;
     int count = find_curves(content).count;
     return MIN_HEIGHT + ROW_HEIGHT * fmin(fmax(count - 4, 0), 3);
 }

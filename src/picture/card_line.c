@@ -120,12 +120,11 @@ void line_energy_draw(const Plot *card)
     if (!card->content->in_document)
         draw_legend(card, &rest.box);
     Plot plot = plot_create(&rest, x, y);
-    const double origin[2] = {0, 0};
     plot_curve(&plot, LINE_POINTS, curves.alpha, curves.model, 1.3, COLOUR_P);
     plot_curve(&plot, LINE_POINTS, curves.alpha, curves.projected, 2,
                COLOUR_PROJECT);
     plot_curve(&plot, LINE_POINTS, curves.alpha, curves.exact, 2, COLOUR_X);
-    plot_disc(&plot, origin, 3.5, COLOUR_TEXT);
+    plot_disc(&plot, (double[2]){0, 0}, 3.5, COLOUR_TEXT);
     double first = trace_step_length(trace, 1);
     double full = line_energy_at(trace, first);
     bool is_main = card->simulation->options.main_card;

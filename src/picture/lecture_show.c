@@ -20,8 +20,7 @@ const char *lecture_lit_code(const FrameContent *content)
 static void list_pages(const LecturePage *marked, FrameContent *content)
 {
     ListRow *row = content->list.row;
-    for (const LecturePage *page = lecture_pages;
-         page->name && row < content->list.row + LAYOUT_ROWS - 1; page++) {
+    for (const LecturePage *page = lecture_pages; page->name; page++) {
         if (page->section) {
             *row = (ListRow){.is_heading = true};
             snprintf((row++)->text, SENTENCE_SIZE, "%s", page->section);
@@ -38,23 +37,11 @@ static void list_pages(const LecturePage *marked, FrameContent *content)
 static void list_letters(FrameContent *content)
 {
     ListRow *row = content->list.row;
-    for (const Letter *letter = lecture_letters;
-         letter->letter && row < content->list.row + LAYOUT_ROWS;
-         letter++, row++) {
-        *row = (ListRow){.is_grey = false};
+    for (const Letter *letter = lecture_letters; letter->letter; letter++) {
         snprintf(row->key, VALUE_SIZE, "%s", letter->letter);
-        snprintf(row->text, SENTENCE_SIZE, "%s", letter->meaning);
+        snprintf((row++)->text, SENTENCE_SIZE, "%s", letter->meaning);
     }
     content->list.rows = (int)(row - content->list.row);
-}
-
-/* Whether a line of `length` bytes has a live value. */
-static bool line_is_live(const char *text, size_t length)
-{
-    for (const char *at = text; at < text + length; at++)
-        if (*at == '{' && !text_is_markup_brace(text, at))
-            return true;
-    return false;
 }
 
 /* Adds the lines of a text with live values, or those without. */
@@ -62,7 +49,10 @@ static void add_lines(const char *text, bool live, char *out, size_t size)
 {
     while (*text) {
         size_t length = strcspn(text, "\n");
-        if (line_is_live(text, length) == live)
+        bool has_value = false; /* the line has a live value */
+        for (const char *at = text; at < text + length; at++)
+            has_value |= *at == '{' && !text_is_markup_brace(text, at);
+        if (has_value == live)
             append(out, size, "%.*s\n", (int)length, text);
         text += length + (text[length] == '\n');
     }

@@ -59,22 +59,6 @@ void step_trace_begin(StepTrace *trace, const Simulation *simulation, bool all,
     trace->x_length = 2 * simulation->system.nodes;
 }
 
-/* Reserves memory for one more round.  Returns false if memory is missing. */
-static bool reserve_round(StepTrace *trace)
-{
-    int count = trace->records.count + 1;
-    if (count > trace->capacity) {
-        Round *round = realloc(trace->round, 2 * (size_t)count * sizeof *round);
-        if (!round)
-            return false;
-        memset(round + trace->capacity, 0,
-               (size_t)(2 * count - trace->capacity) * sizeof *round);
-        trace->round = round;
-        trace->capacity = 2 * count;
-    }
-    return records_reserve(&trace->records, count);
-}
-
 /* Stores E along p of the newest round; samples E unless it is polynomial. */
 static void store_line_energy(StepTrace *trace, const Iterate *at)
 {
@@ -171,7 +155,17 @@ static void store_iteration(StepTrace *trace, const Newton *newton)
 void step_trace_add_round(StepTrace *trace, const Newton *newton,
                           const NewtonRecord *record)
 {
-    if (!reserve_round(trace))
+    int count = trace->records.count + 1;
+    if (count > trace->capacity) {
+        Round *round = realloc(trace->round, 2 * (size_t)count * sizeof *round);
+        if (!round)
+            return;
+        memset(round + trace->capacity, 0,
+               (size_t)(2 * count - trace->capacity) * sizeof *round);
+        trace->round = round;
+        trace->capacity = 2 * count;
+    }
+    if (!records_reserve(&trace->records, count))
         return;
     trace->records.record[trace->records.count] = *record;
     store_iteration(trace, newton);
