@@ -366,7 +366,3 @@ double frame_find_number(FrameContent *content, const char *name);
 /* Whether an open card of the scene or page draws E along p.
  *   toggled  bit c: card c was opened or closed by hand */
 bool cards_need_line_energy(const Simulation *simulation, unsigned toggled);
-
-/* Samples what the picture plots over time.  Returns the number of values. */
-int picture_sample_energies(const Simulation *simulation,
-                            Energy row[HISTORY_SERIES]);

@@ -290,13 +290,6 @@ const double *pane_positions(const Pane *pane)
     return pane->x ? pane->x : pane->simulation->run[0].x;
 }
 
-int picture_sample_energies(const Simulation *simulation,
-                            Energy row[HISTORY_SERIES])
-{
-    const Picture *picture = picture_of_scene(simulation->scene);
-    return picture->sample ? picture->sample(simulation, row) : 0;
-}
-
 /* ---- history ------------------------------------------------------------ */
 
 void history_add_point(History *history, double time, int rows,

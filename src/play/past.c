@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "lesson/command_line.h"
+#include "picture/picture.h"
 
 /* ---- reading ------------------------------------------------------------- */
 
@@ -388,9 +389,12 @@ static Status pane_run_set_step(Past *past, int pane, long step)
         past->used_bytes += entry->sample ? sizeof *entry->sample : 0;
     }
     if (entry->sample) {
+        const Picture *picture = picture_of_scene(run->simulation.scene);
         entry->sample->time = simulation_time(&run->simulation);
-        entry->sample->rows =
-            picture_sample_energies(&run->simulation, entry->sample->row);
+        entry->sample->rows = 0;
+        if (picture->sample)
+            entry->sample->rows =
+                picture->sample(&run->simulation, entry->sample->row);
     }
     return STATUS_OK;
 }

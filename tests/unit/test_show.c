@@ -28,7 +28,8 @@ static void set_size(int width, int height)
 static void sample(void)
 {
     Energy row[HISTORY_SERIES];
-    int rows = picture_sample_energies(&simulation, row);
+    const Picture *picture = picture_of_scene(simulation.scene);
+    int rows = picture->sample ? picture->sample(&simulation, row) : 0;
     history_add_point(&history, simulation_time(&simulation), rows, row);
 }
 
