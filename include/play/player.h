@@ -113,7 +113,7 @@ typedef struct Frame {
     FrameContent content;
     History history[LAYOUT_PANES];
     Trace trace[LAYOUT_PANES];
-    char label[LAYOUT_PANES][LABEL_SIZE]; /* values that differ by pane */
+    char label[LAYOUT_PANES][LABEL_SIZE];   /* values that differ by pane */
     CommandKind chip_command[LAYOUT_CHIPS]; /* command of a click on it */
     int options;                            /* number of options in the row */
     const OptionRow *option[OPTIONS_MAX_ROWS];

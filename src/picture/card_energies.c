@@ -101,20 +101,20 @@ static int find_history_point(const History *history, double time)
     return at;
 }
 
-/* Returns the energy at the last point up to this time, J: 0 below rounding,
- * NaN without a point, infinity if the present energies are not finite. */
-static double find_energy_at(const Simulation *simulation,
-                             const History *history, int series, double time)
+/* Returns the present energy of a curve, J: 0 below rounding, NaN without a
+ * point, infinity if the energies are not finite. */
+static double find_present_energy(const Curve *curve)
 {
-    int point = find_history_point(history, time), last = history->count - 1;
-    bool runs = series_are_runs(simulation);
-    double now = simulation_time(simulation), size = 0, first = 0;
+    const History *history = curve->history;
+    double now = simulation_time(curve->simulation), size = 0, first = 0;
+    int point = find_history_point(history, now), last = history->count - 1;
+    bool runs = series_are_runs(curve->simulation);
     if (point < 0)
         return NAN;
-    if (!runs && time >= now && now > history->time[last] * (1 + 1e-12) &&
-        !isfinite(simulation_energies(simulation, 0).total))
+    if (!runs && now > history->time[last] * (1 + 1e-12) &&
+        !isfinite(simulation_energies(curve->simulation, 0).total))
         return INFINITY; /* the history leaves out infinite energies */
-    double value = history->value[series][point];
+    double value = history->value[curve->series][point];
     for (int s = 0; s < history->series && !runs; s++) {
         size = fmax(size, fabs(history->value[s][point]));
         first = fmax(first, fabs(history->value[s][0]));
@@ -198,10 +198,9 @@ static void draw_curves(const Plot *plot, const Curves *all)
 
 static NumberText format_present_value(const Curve *one)
 {
-    double value = find_energy_at(one->simulation, one->history, one->series,
-                                  simulation_time(one->simulation));
-    return format_number(
-        fabs(value) < find_energy_rounding(one->simulation) ? 0 : value);
+    double value = find_present_energy(one);
+    bool is_zero = fabs(value) < find_energy_rounding(one->simulation);
+    return format_number(is_zero ? 0 : value);
 }
 
 /* Fills a row with the name and the present value of a curve. */
