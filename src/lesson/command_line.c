@@ -157,18 +157,6 @@ static Status check_scene(const Options *options, const OptionRow *row,
                         scene->name, missing);
 }
 
-/* Checks a changed option together with the others: the integrator, and the
- * start of the body if the option changes the start. */
-static Status check_changed_option(const Options *options, const OptionRow *row,
-                                   Message message)
-{
-    bool is_start = row->effect == EFFECT_START &&
-                    (row->needs & NEEDS_SQUARE) &&
-                    (options->scene->needs & NEEDS_BODY);
-    Status status = body_check_method(options, message);
-    return status || !is_start ? status : body_check(options, message);
-}
-
 Status options_set(Options *options, const OptionRow *row, const char *text,
                    double value, Message message)
 {
@@ -183,7 +171,12 @@ Status options_set(Options *options, const OptionRow *row, const char *text,
         options->number[row->slot] = value;
     else if (apply_word(&line, &word))
         return STATUS_INVALID_INPUT;
-    return check_changed_option(options, row, message);
+    /* The integrator, and a body that the option starts anew, must fit. */
+    bool is_start = row->effect == EFFECT_START &&
+                    (row->needs & NEEDS_SQUARE) &&
+                    (options->scene->needs & NEEDS_BODY);
+    Status status = body_check_method(options, message);
+    return status || !is_start ? status : body_check(options, message);
 }
 
 /* ---- words -------------------------------------------------------------- */
@@ -409,23 +402,6 @@ static Status check_pins(const Options *options, Message message)
                             : suggest_name(name, "", pins_words()).text);
 }
 
-/* Refuses options that have no effect beside the others.  Several bodies touch
- * each other unless the line says otherwise. */
-static Status refuse_ineffective_options(ArgLine *line)
-{
-    Options *options = line->options;
-    if (options->bodies > 1 && !find_word(line, "self-contact"))
-        options->self_contact = 1;
-    for (int i = 0; i < line->words; i++) {
-        const OptionRow *row = line->word[i].row;
-        const char *reason =
-            row && row->idle_reason ? row->idle_reason(options) : NULL;
-        if (reason)
-            return refuse(line->message, "--%s: %s", row->name, reason);
-    }
-    return STATUS_OK;
-}
-
 /* Checks that the body can start.  Triangles do not turn over anyway, so with
  * triangles the term cells is left out.  With cells, triangles or self-contact
  * the default projection is on-demand. */
@@ -452,26 +428,35 @@ static Status check_body(ArgLine *line)
     return body_check(options, line->message);
 }
 
-/* Stores the words of a line in the options of a pane. */
+/* Stores the words of a line in the options of a pane.  Refuses options that
+ * have no effect beside the others. */
 static Status apply_line(ArgLine *line, int pane)
 {
-    *line->options = (Options){.panes = 1};
+    Options *options = line->options;
+    *options = (Options){.panes = 1};
     if (check_words(line) || fill_defaults(line) || pick_values(line, pane))
         return STATUS_INVALID_INPUT;
     for (int i = 0; i < line->words; i++) {
-        const ArgWord *word = &line->word[i];
-        if (word->row && line->options->page && word->row->needs)
+        const OptionRow *row = line->word[i].row;
+        if (row && options->page && row->needs)
             return refuse(line->message,
                           "--%s: a page of --lecture has its own value; change "
                           "it in the window, or leave --lecture out",
-                          word->row->name);
-        if (word->row &&
-            (check_scene(line->options, word->row, line->message) ||
-             apply_word(line, word)))
+                          row->name);
+        if (row && (check_scene(options, row, line->message) ||
+                    apply_word(line, &line->word[i])))
             return STATUS_INVALID_INPUT;
     }
-    return refuse_ineffective_options(line) ? STATUS_INVALID_INPUT
-                                            : check_body(line);
+    if (options->bodies > 1 && !find_word(line, "self-contact"))
+        options->self_contact = 1; /* bodies touch each other */
+    for (int i = 0; i < line->words; i++) {
+        const OptionRow *row = line->word[i].row;
+        const char *reason =
+            row && row->idle_reason ? row->idle_reason(options) : NULL;
+        if (reason)
+            return refuse(line->message, "--%s: %s", row->name, reason);
+    }
+    return check_body(line);
 }
 
 Status options_parse(int argc, char **argv, int pane, Options *options,
