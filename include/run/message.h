@@ -1,9 +1,22 @@
 /* message.h - buffers for messages of one line. */
 #pragma once
 
+#include <stdarg.h>
 #include <stddef.h>
+#include <stdio.h>
 
 #include "base/status.h"
+
+/* Writes the text of a call into a char array.  The calling function has the
+ * parameters (..., const char *format, ...) of printf.
+ *   text  [size] out */
+#define write_formatted(text, size, format)                                    \
+    do {                                                                       \
+        va_list arguments;                                                     \
+        va_start(arguments, format);                                           \
+        vsnprintf(text, size, format, arguments);                              \
+        va_end(arguments);                                                     \
+    } while (0)
 
 /* Replaces control characters by '?', so that a text stays one line. */
 void make_one_line(char *text);

@@ -2,11 +2,11 @@
 #include "picture/paper.h"
 
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "picture/colour_map.h"
+#include "run/message.h"
 
 enum { PAPER_TEXT = 768, PAPER_EM = 14 };
 
@@ -49,10 +49,7 @@ int paper_write(Paper *paper, Face face, double size, Colour colour, double x,
 {
     char words[PAPER_TEXT];
     TextStyle style = paper_style(paper, face, size, colour);
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(words, sizeof words, format, arguments);
-    va_end(arguments);
+    write_formatted(words, sizeof words, format);
     return text_draw(paper->text, &paper->canvas, &style, x, y, align, words);
 }
 

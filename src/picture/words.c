@@ -1,6 +1,5 @@
 /* words.c - words of a plot: legend, scale, numbers, labels on free ground. */
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -97,10 +96,7 @@ void plot_legend(Plot *plot, Colour colour, const char *format, ...)
     Plot room = *plot;
     TextLine line = {.colour = colour};
     double em = plot->paper->em;
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(line.text, sizeof line.text, format, arguments);
-    va_end(arguments);
+    write_formatted(line.text, sizeof line.text, format);
     room.box.x += (int)(0.9 * em);
     room.box.y += (int)(0.6 * em);
     room.box.width -= (int)(1.8 * em);
@@ -134,12 +130,9 @@ void plot_label(const Plot *plot, int points, const double *at, Colour colour,
 {
     Paper *paper = plot->paper;
     char words[WORDS_TEXT];
-    va_list arguments;
     if (!plot->has_text)
         return;
-    va_start(arguments, format);
-    vsnprintf(words, sizeof words, format, arguments);
-    va_end(arguments);
+    write_formatted(words, sizeof words, format);
     /* directions: right, left, below, above, then the corners */
     static const int side[8][2] = {{1, 0}, {-1, 0}, {0, 1},  {0, -1},
                                    {1, 1}, {1, -1}, {-1, 1}, {-1, -1}};

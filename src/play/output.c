@@ -2,7 +2,6 @@
 #include "play/output.h"
 
 #include <errno.h>
-#include <stdarg.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -23,10 +22,7 @@ const char *output_reason(Status status)
 void print_line(FILE *file, const char *format, ...)
 {
     char line[1024];
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(line, sizeof line, format, arguments);
-    va_end(arguments);
+    write_formatted(line, sizeof line, format);
     make_one_line(line);
     fprintf(file, "%s\n", line);
 }

@@ -1,6 +1,5 @@
 /* session.c - shared queries of a player, messages, the queue of commands. */
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -166,10 +165,7 @@ void player_format_value(const OptionRow *row, const Options *options,
 
 void player_note(Player *player, const char *format, ...)
 {
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(player->note, sizeof player->note, format, arguments);
-    va_end(arguments);
+    write_formatted(player->note, sizeof player->note, format);
     player->is_warning = player->must_explain = false;
     player->screen.must_redraw = true;
 }

@@ -1,8 +1,6 @@
 /* message.c - writes messages as one line. */
 #include "run/message.h"
 
-#include <stdarg.h>
-#include <stdio.h>
 #include <string.h>
 
 void make_one_line(char *text)
@@ -15,18 +13,12 @@ void make_one_line(char *text)
 void append(char *text, size_t size, const char *format, ...)
 {
     size_t used = strlen(text);
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(text + used, size - used, format, arguments);
-    va_end(arguments);
+    write_formatted(text + used, size - used, format);
 }
 
 Status refuse(Message message, const char *format, ...)
 {
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(message.text, message.size, format, arguments);
-    va_end(arguments);
+    write_formatted(message.text, message.size, format);
     if (message.size > 0)
         make_one_line(message.text);
     return STATUS_INVALID_INPUT;
