@@ -33,11 +33,9 @@ static int lay_out_text(Paper *paper, Box inside, int y, double size,
     double letters = size * words->letter_size, em = letters * paper->em;
     Box box = {inside.x, y, inside.width, 0};
     TextLine line = text_begin(&active_pane(content)->values, words->text);
-    if (words->heading) {
-        int width = paper_pixels(paper, room * fmax(size, paper->min_letter));
-        box.x += width;
-        box.width -= width;
-    }
+    if (words->heading)
+        box_cut_off(&box, EDGE_LEFT,
+                    paper_pixels(paper, room * fmax(size, paper->min_letter)));
     while (text_next_line(&line)) {
         int lines =
             (int)((inside.y + inside.height - box.y) / text_line_height(em));
