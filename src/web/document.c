@@ -32,7 +32,6 @@
 #include "web/document.h"
 
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -50,12 +49,9 @@ typedef struct Writer {
 __attribute__((format(printf, 2, 3))) static void print(Writer *to,
                                                         const char *format, ...)
 {
-    size_t room = DOCUMENT_SIZE - to->used;
-    va_list arguments;
-    va_start(arguments, format);
-    int count = vsnprintf(to->text + to->used, room, format, arguments);
-    va_end(arguments);
-    to->used += count < (int)room ? (size_t)count : room - 1;
+    char *end = to->text + to->used;
+    write_formatted(end, DOCUMENT_SIZE - to->used, format);
+    to->used += strlen(end);
 }
 
 /* Returns the relative luminance of a colour (WCAG 2.1), 0 ... 1. */
