@@ -41,13 +41,7 @@ in_style() {
 echo 'this is no C' >no.c
 cp "$root/src/lecture.c" slides.c
 in_style "$root/tests/data/homework/blocks.c" >blocks.c
-verdict right_solutions_pass "$(
-    right="${LONG:+slides.c }blocks.c"
-    # shellcheck disable=SC2086
-    check $right no.c >said # of several a table is written
-    [ "$(grep -c ',12,""$' said)" = "$(echo "$right" | wc -w)" ] || cat said
-    cmp -s slides.c blocks.c && echo 'blocks.c is lecture.c'
-)"
+right="${LONG:+slides.c }blocks.c"
 
 # One; with LONG all.
 mistakes() {
@@ -66,8 +60,12 @@ while IFS= read -r row; do
     ! cmp -s "$file" "$root/src/lecture.c" || echo "$row: changes nothing"
     echo "$file|$name: |${row##* | }" >>expected
 done <rows >unchanged
-# shellcheck disable=SC2046
-check $(ls wrong_*.c) no.c >table
+# shellcheck disable=SC2046,SC2086
+check $right $(ls wrong_*.c) no.c >table # of several a table is written
+verdict right_solutions_pass "$(
+    [ "$(grep -c ',12,""$' table)" = "$(echo "$right" | wc -w)" ] || cat table
+    cmp -s slides.c blocks.c && echo 'blocks.c is lecture.c'
+)"
 verdict each_mistake_is_named "$(
     cat unchanged
     while IFS='|' read -r file name words; do

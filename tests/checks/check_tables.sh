@@ -84,7 +84,7 @@ springs_go_on() { # STEPS LINE
 verdict springs_go_on_from_their_tables "$(
     springs_go_on 40 tear
     springs_go_on 60 dent
-    springs_go_on 100 bend
+    springs_go_on 60 bend
     springs_go_on 20 slope --yield 0.01
     # what broke in steps that were taken back is whole
     printf '%s\n' '60 goto 20' '20 set timestep 0.001' '20 play' >back
