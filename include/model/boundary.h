@@ -39,7 +39,7 @@ typedef struct Boundary {
     /* Motion for which the boxes were made: from x by alpha (p - mean). */
     bool boxes_valid; /* whether the boxes belong to the present boundary */
     bool has_motion;  /* false: the boxes are those of x alone */
-    double *x, *p;    /* [2n] m */
+    double *x, *p;    /* [2n] m; x is the start of the block of all arrays */
     double alpha;     /* part of p that the boxes cover */
     double mean[2];   /* m, mean of p over the points; a motion that all points
                          share brings none closer to an edge */
@@ -51,12 +51,9 @@ typedef struct Boundary {
     int *near_list_end; /* [nodes] end of each point's edges in `near` */
 } Boundary;
 
-/* Bytes that boundary_place_arrays needs for its arrays. */
-size_t boundary_bytes(const SquareMesh *mesh);
-
-/* Initialises the struct with arrays in `bytes`, which has boundary_bytes. */
-void boundary_place_arrays(const SquareMesh *mesh, void *bytes,
-                           Boundary *boundary);
+/* Allocates the arrays, which free(boundary->x) frees.  Returns OK or
+ * OUT_OF_MEMORY. */
+Status boundary_create(const SquareMesh *mesh, Boundary *boundary);
 
 /* Finds the boundary again if springs have changed, and the near edges of each
  * point on the way from x to x + alpha p.

@@ -26,8 +26,6 @@ typedef struct Motion {
     int phases;
     double phase_end[MOTION_MAX_PHASES]; /* s, end of the phase */
     double v[MOTION_MAX_PHASES][2];      /* m/s, velocity in the phase */
-    bool stops;     /* whether the obstacle stops at `stop` */
-    double stop[2]; /* m, last position of the obstacle's point o */
 } Motion;
 
 typedef struct Obstacle {

@@ -81,9 +81,6 @@ void square_mesh_get_triangle(const SquareMesh *shape, int t, int node[3],
 int square_mesh_find_cell(const SquareMesh *shape, const double *x,
                           const double *at, int cell, int end);
 
-/* Whether cell c is cut along bd, not ac: column + row is odd. */
-bool square_mesh_is_cut_along_bd(const SquareMesh *shape, int c);
-
 /* Writes the corners of the patch of cells x cells cells whose lower left cell
  * is c; patches at the right and upper side may be smaller.  The patches cover
  * the square once.  Returns whether a patch begins at c.

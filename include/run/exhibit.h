@@ -128,9 +128,6 @@ int exhibit_list_switches(const struct Simulation *simulation,
 /* Returns the switches that were turned since the start, bit s for switch s. */
 unsigned exhibit_find_flips(const struct Simulation *simulation);
 
-/* Whether the switches turn kinds of springs on and off (LAYER_KINDS). */
-bool exhibit_has_kind_switches(const struct Simulation *simulation);
-
 /* Returns the kind of a spring: 0 horizontal, 1 vertical, 2, 3 diagonal. */
 int exhibit_spring_kind(const struct Simulation *simulation, int spring);
 

@@ -8,18 +8,16 @@
 /* Boundary.near has room for this many edges for each node of the mesh. */
 enum { NEAR_PER_NODE = 8 };
 
-size_t boundary_bytes(const SquareMesh *mesh)
+Status boundary_create(const SquareMesh *mesh, Boundary *boundary)
 {
     size_t nodes = (size_t)mesh->nodes, springs = (size_t)mesh->springs;
-    return 4 * nodes * sizeof(double) + (nodes + springs) * sizeof(Box2) +
-           (2 + NEAR_PER_NODE) * nodes * sizeof(int) + springs + nodes;
-}
-
-void boundary_place_arrays(const SquareMesh *mesh, void *bytes,
-                           Boundary *boundary)
-{
-    size_t nodes = (size_t)mesh->nodes, springs = (size_t)mesh->springs;
-    *boundary = (Boundary){.shape = *mesh, .version = ~0u, .x = bytes};
+    size_t bytes = 4 * nodes * sizeof(double) +
+                   (nodes + springs) * sizeof(Box2) +
+                   (2 + NEAR_PER_NODE) * nodes * sizeof(int) + springs + nodes;
+    *boundary =
+        (Boundary){.shape = *mesh, .version = ~0u, .x = calloc(1, bytes)};
+    if (!boundary->x)
+        return STATUS_OUT_OF_MEMORY;
     boundary->p = boundary->x + 2 * nodes;
     boundary->edge_box = (Box2 *)(boundary->p + 2 * nodes);
     boundary->point_box = boundary->edge_box + springs;
@@ -28,6 +26,7 @@ void boundary_place_arrays(const SquareMesh *mesh, void *bytes,
     boundary->near = boundary->near_list_end + nodes;
     boundary->sides = (unsigned char *)(boundary->near + NEAR_PER_NODE * nodes);
     boundary->role = boundary->sides + springs;
+    return STATUS_OK;
 }
 
 /* ---- points and edges --------------------------------------------------- */

@@ -36,16 +36,6 @@ static void damping_end_step(const TermStep *step)
     system_book_loss(system, &damping, sum);
 }
 
-/* Returns the bound of the springs with k' and l2' of the last step. */
-static double damping_curvature_bound(const EvalPoint *at)
-{
-    const Damping *data = at->term->data;
-    EvalPoint damped = *at;
-    damped.k = data->k;
-    damped.l2 = data->l2;
-    return mass_spring_curvature_bound(&damped);
-}
-
 static Status damping_configure(System *system, const struct SquareMesh *mesh,
                                 const double *number)
 {
@@ -73,5 +63,4 @@ const TermKind damping = {
     .place = PLACE_DAMPING,
     .begin_step = damping_begin_step,
     .end_step = damping_end_step,
-    .curvature_bound = damping_curvature_bound,
 };

@@ -25,46 +25,22 @@ static double friction_curvature(double y, double e)
     return 2 / e * fmax(0, 1 - fabs(y) / e);
 }
 
-/* On [0, e] and on [-e, 0] f0'' is linear, so the remainder of the step t from
- * y to z is t^2 (2 f0''(y) + f0''(z))/6. */
-static double taylor_remainder_on_piece(double y, double t, double z, double e)
-{
-    return t * t * (2 * friction_curvature(y, e) + friction_curvature(z, e)) /
-           6;
-}
-
-/* Returns f0(z) - f0(y) - f0'(y) t for y, z = y + t >= 0; t may be negative. */
-static double taylor_remainder_on_side(double y, double t, double e)
-{
-    double z = y + t;
-    if (y <= e && z <= e)
-        return taylor_remainder_on_piece(y, t, z, e);
-    if (y > e && z > e)
-        return 0;
-    /* The step enters [0, e] from a part on which f0 is linear. */
-    if (y > e)
-        return taylor_remainder_on_piece(e, z - e, z, e);
-    /* The step leaves [0, e]: the slope is 1 - missing^2 at y, 1 beyond e */
-    double missing = 1 - y / e;
-    return taylor_remainder_on_piece(y, e - y, e, e) +
-           missing * missing * (z - e);
-}
-
-/* Returns f0(y + t) - f0(y) - f0'(y) t >= 0, m, with full relative accuracy.  A
- * step that passes 0 is split there, by
- * R(a -> c) = R(a -> b) + (f'(b) - f'(a)) (c - b) + R(b -> c). */
+/* Returns f0(y + t) - f0(y) - f0'(y) t >= 0, m, with full relative accuracy:
+ * the integral over s from 0 to t of (t - s) f0''(y + s), mirrored so that t >=
+ * 0. f0'' is linear from -e to 0 and from 0 to e. */
 static double friction_taylor_remainder(double y, double t, double e)
 {
-    double z = y + t;
-    if (y < 0) { /* f0 is even */
-        y = -y;
-        t = -t;
-        z = -z;
+    double way = fabs(t), start = copysign(1, t) * y, sum = 0;
+    for (int piece = -1; piece < 1; piece++) {
+        double from = fmax(piece * e - start, 0);
+        double to = fmin((piece + 1) * e - start, way), length = to - from;
+        double first = friction_curvature(start + from, e);
+        double last = friction_curvature(start + to, e);
+        if (length > 0)
+            sum += length * (0.5 * (first + last) * (way - to) +
+                             length * (2 * first + last) / 6);
     }
-    if (z >= 0)
-        return taylor_remainder_on_side(y, t, e);
-    return taylor_remainder_on_side(y, -y, e) - friction_slope(y, e) * z +
-           taylor_remainder_on_side(0, -z, e);
+    return sum;
 }
 
 /* Returns the component along t of vectors a and b, which are those of
@@ -77,11 +53,14 @@ static double tangential_component(const Element *row, const double vectors[4])
     return sum;
 }
 
-static double compute_slip(const SlidingContact *contact, const double *u)
+/* Returns the slip y, m, in the displacement h v.  v [2n] in. */
+static double compute_slip(const SlidingContact *contact, double h,
+                           const double *v)
 {
     double vectors[4];
-    element_vectors(&contact->element, u, vectors);
-    return tangential_component(&contact->element, vectors) - contact->travel;
+    element_vectors(&contact->element, v, vectors);
+    return h * tangential_component(&contact->element, vectors) -
+           contact->travel;
 }
 
 /* Returns the evaluation point for the contact term of this friction. */
@@ -134,10 +113,7 @@ static void friction_end_step(const TermStep *step)
     const Friction *friction = step->term->data;
     for (int i = 0; i < friction->contacts; i++) {
         const SlidingContact *contact = &friction->contact[i];
-        double vectors[4];
-        element_vectors(&contact->element, step->v, vectors);
-        double y = step->h * tangential_component(&contact->element, vectors) -
-                   contact->travel;
+        double y = compute_slip(contact, step->h, step->v);
         system_book_loss(step->system, step->term->kind,
                          contact->element.r * friction_slope(y, friction->e) *
                              y);
@@ -164,7 +140,7 @@ static bool slip_get_element(const EvalPoint *at, int i, double way,
     if (!at->u)
         return false;
     *element = contact->element;
-    element->s = compute_slip(contact, at->u);
+    element->s = compute_slip(contact, 1, at->u);
     return true;
 }
 
@@ -228,25 +204,15 @@ static const ElementKind slips = {
     .block_count = slip_block_count,
 };
 
-const TermKind friction_energy = {
-    ELEMENTS(slips),
-    .name = "friction",
-    .loss = "friction",
-    .place = PLACE_FRICTION,
-    .begin_step = friction_begin_step,
-    .end_step = friction_end_step,
-    .depends_on_start = true,
-    .external = true,
-};
+/* The TermKind of both terms begins with these functions. */
+#define FRICTION                                                               \
+    ELEMENTS(slips), .loss = "friction", .place = PLACE_FRICTION,              \
+                     .begin_step = friction_begin_step,                        \
+                     .end_step = friction_end_step, .depends_on_start = true
 
-const TermKind self_friction_energy = {
-    ELEMENTS(slips),
-    .loss = "friction",
-    .place = PLACE_FRICTION,
-    .begin_step = friction_begin_step,
-    .end_step = friction_end_step,
-    .depends_on_start = true,
-};
+const TermKind friction_energy = {FRICTION, .name = "friction",
+                                  .external = true};
+const TermKind self_friction_energy = {FRICTION};
 
 double friction_work_of_obstacles(const System *system, const double *u)
 {
@@ -254,7 +220,7 @@ double friction_work_of_obstacles(const System *system, const double *u)
     double sum = 0;
     for (int i = 0; friction && i < friction->contacts; i++) {
         const SlidingContact *contact = &friction->contact[i];
-        double y = compute_slip(contact, u);
+        double y = compute_slip(contact, 1, u);
         sum -= contact->element.r * friction_slope(y, friction->e) *
                contact->travel;
     }

@@ -369,7 +369,9 @@ static double pair_curvature_bound(const EvalPoint *at)
 
 static void self_contact_free(void *data)
 {
-    free(((SelfContact *)data)->pair);
+    SelfContact *self = data;
+    free(self->pair);
+    free(self->boundary.x);
 }
 
 const TermKind self_contact_energy = {
@@ -391,12 +393,10 @@ SelfContact *self_contact_of(const System *system)
 Status self_contact_configure(System *system, const SquareMesh *mesh,
                               const Barrier *barrier, double friction)
 {
-    SelfContact *self = system_add_term(system, &self_contact_energy,
-                                        sizeof *self + boundary_bytes(mesh));
-    if (!self)
+    SelfContact *self =
+        system_add_term(system, &self_contact_energy, sizeof *self);
+    if (!self || (!self->boundary.x && boundary_create(mesh, &self->boundary)))
         return STATUS_OUT_OF_MEMORY;
-    if (!self->boundary.edge_box)
-        boundary_place_arrays(mesh, self + 1, &self->boundary);
     self->d_hat = barrier->d_hat;
     self->c = barrier->c / 8;
     self->friction = friction;

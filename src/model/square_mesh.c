@@ -103,12 +103,6 @@ int square_mesh_find_cell(const SquareMesh *shape, const double *x,
     return -1;
 }
 
-bool square_mesh_is_cut_along_bd(const SquareMesh *shape, int c)
-{
-    locate_in_body(shape, shape->cells, &c);
-    return (c / shape->rows + c % shape->rows) % 2;
-}
-
 bool square_mesh_get_patch(const SquareMesh *shape, int c, int cells,
                            int node[4])
 {

@@ -232,7 +232,9 @@ void system_acceleration(const System *system, const double *x, double *a)
 
 double system_curvature_bound(const System *system)
 {
-    EvalPoint at = eval_point_at(system, NULL, NULL, NULL);
+    /* In a step, where u is not NULL, damping makes springs stiffer. */
+    const double u = 0;
+    EvalPoint at = eval_point_at(system, NULL, &u, NULL);
     double most = 0;
     for (const TermKind *kind; (kind = eval_point_next_term(&at));)
         if (kind->curvature_bound)

@@ -105,8 +105,9 @@ void highlight_draw(Paper *paper, const FrameContent *content)
     if (mouse->zone == ZONE_CARD || stage)
         colour = find_term_near(&paper->canvas, mouse->pixel,
                                 (int)(MOUSE_REACH * paper->em));
-    bool plain = content->view->hovered.kind == PICK_SWITCH &&
-                 !exhibit_has_kind_switches(active_pane(content)->simulation);
+    bool plain =
+        content->view->hovered.kind == PICK_SWITCH &&
+        !(active_pane(content)->simulation->options.layers & LAYER_KINDS);
     if (plain || (colour == COLOUR_X && stage))
         colour = 0; /* no term: a switch, or the springs of the square */
     if (!colour && trace && frame_has_card(content, "listing"))

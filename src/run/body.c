@@ -156,16 +156,12 @@ static int list_obstacles(const Options *options,
     if (options->ceiling[1] != 0) {
         const double *ceiling = options->ceiling;
         /* A blocked ceiling stops when an unblocked one would have arrived. */
-        double way = (ceiling[2] - ceiling[0]) / ceiling[1];
+        double end = (ceiling[2] - ceiling[0]) / ceiling[1];
         list[count++] = (Obstacle){.kind = OBSTACLE_WALL,
                                    .n = {0, -1},
                                    .o = {0, ceiling[0]},
                                    .node = -1,
-                                   .motion = {1,
-                                              {way + options->timestep},
-                                              {{0, ceiling[1]}},
-                                              true,
-                                              {0, ceiling[2]}}};
+                                   .motion = {1, {end}, {{0, ceiling[1]}}}};
     }
     if (options->scene->body.obstacle)
         list[count++] = options->scene->body.obstacle(options);

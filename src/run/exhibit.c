@@ -48,11 +48,6 @@ void exhibit_drag_handle(Simulation *simulation, int handle, double x, double y)
     }
 }
 
-bool exhibit_has_kind_switches(const Simulation *simulation)
-{
-    return simulation->options.layers & LAYER_KINDS;
-}
-
 /* The mesh lists its springs in this order: n (n + 1) horizontal springs, as
  * many vertical ones, and two diagonals for each cell. */
 int exhibit_spring_kind(const Simulation *simulation, int spring)
@@ -66,7 +61,7 @@ int exhibit_list_switches(const Simulation *simulation,
 {
     static const char *const kinds[SCENE_MAX_SWITCHES] = {
         "horizontal", "vertical", "diagonal /", "diagonal \\"};
-    bool has_kinds = exhibit_has_kind_switches(simulation);
+    bool has_kinds = simulation->options.layers & LAYER_KINDS;
     const char *const *label =
         has_kinds ? kinds : simulation->scene->switch_labels;
     const Options *options = &simulation->options;
@@ -94,7 +89,7 @@ void exhibit_flip_switch(Simulation *simulation, int number)
     const Scene *scene = simulation->scene;
     System *system = &simulation->system;
     unsigned switches = simulation->exhibit.switches ^ (1U << number);
-    if (exhibit_has_kind_switches(simulation)) {
+    if (simulation->options.layers & LAYER_KINDS) {
         double k = switches >> number & 1 ? 0 : simulation->options.stiffness;
         double before = simulation_energies(simulation, 0).total;
         simulation->exhibit.switches = switches;

@@ -13,18 +13,24 @@
 
 enum { MAX_COLUMNS = 7 };
 
-/* A table that is being read.  The first line has the names of the columns;
- * wanted columns are found by name, others are skipped. */
+/* The rows of a step and a run in a table that is being read.  The first line
+ * has the names of the columns; wanted columns are found by name, others are
+ * skipped.  The second wanted column numbers the rows of a step from 0. */
 typedef struct TableReader {
+    const char *option;             /* option with the table, for messages */
+    const char *path;               /* name of the file */
+    const char *element_name;       /* "node" or "spring" */
+    const char *names[MAX_COLUMNS]; /* names of wanted columns, up to NULL */
+    int rows;                       /* number of nodes or springs of a run */
+    int run;                        /* index of the run that is read */
     FILE *file;
     char *line_text;  /* line that was read last, then cut into fields */
     size_t capacity;  /* bytes that line_text has */
     long line_number; /* number of the line in line_text, from 1 */
     int columns;      /* number of columns of the table */
-    const char *const *names; /* names of wanted columns, up to NULL */
     int column_index[MAX_COLUMNS]; /* [wanted column]; -1: missing */
-    bool has_panes;           /* the table has a column "pane" */
-    char failure[200];        /* why the table cannot be read, or "" */
+    bool has_panes;                /* the table has a column "pane" */
+    char failure[200];             /* why the table cannot be read, or "" */
 } TableReader;
 
 /* Stores why the table cannot be read. */
@@ -32,9 +38,7 @@ typedef struct TableReader {
     snprintf((reader)->failure, sizeof(reader)->failure, __VA_ARGS__)
 
 /* Numbers of the wanted columns in one row. */
-typedef struct TableRow {
-    double value[MAX_COLUMNS];
-} TableRow;
+typedef double TableRow[MAX_COLUMNS];
 
 /* Reads the next line, without LF or CR LF, and without the byte order mark
  * that some programs write before UTF-8.  Returns false at the end. */
@@ -91,8 +95,8 @@ static void read_names(TableReader *reader)
                     shown, reader->names[k]);
 }
 
-/* Reads the next row.  Returns false at the end or after a `failure`. */
-static bool read_next_row(TableReader *reader, TableRow *row)
+/* Reads the next row.  Returns false at the end, or with a `failure`. */
+static bool read_next_row(TableReader *reader, TableRow row)
 {
     int fields = 0;
     do
@@ -104,8 +108,8 @@ static bool read_next_row(TableReader *reader, TableRow *row)
         for (int k = 0; reader->names[k]; k++) {
             if (reader->column_index[k] != fields)
                 continue;
-            row->value[k] = strtod(field, &end);
-            if (end == field || *end || !isfinite(row->value[k]))
+            row[k] = strtod(field, &end);
+            if (end == field || *end || !isfinite(row[k]))
                 explain(reader, "line %ld: %s is '%.40s', not a number",
                         reader->line_number, reader->names[k], field);
         }
@@ -118,92 +122,85 @@ static bool read_next_row(TableReader *reader, TableRow *row)
     return !reader->failure[0];
 }
 
-/* The rows of a step and a run, which the second column numbers from 0. */
-typedef struct TablePart {
-    const char *option;             /* option with the table, for messages */
-    const char *path;               /* name of the file */
-    const char *element_name;       /* "node" or "spring" */
-    const char *names[MAX_COLUMNS]; /* names of columns, up to NULL */
-    int rows;                       /* number of nodes or springs of a run */
-    int run;  /* index of the run that is read */
-} TablePart;
-
 /* Reads the rows of one run at the step options->state_step; -1: at the last
  * step.  If the user went back, the last rows of a step count.
- *   row  [part->size] out */
+ *   row  [reader->rows] out */
 static void read_rows(TableReader *reader, const Options *options,
-                      const TablePart *part, TableRow *row)
+                      TableRow *row)
 {
     const double step = options->state_step;
-    const char *element = part->element_name;
+    const char *element = reader->element_name;
     double last = -1;
-    int count = 0, runs = (int)fmax(options->scene->body.runs, 1);
-    TableRow next = {{0}};
-    while (read_next_row(reader, &next)) {
-        bool goes_on = next.value[0] == last && next.value[1] != 0;
-        last = next.value[0];
+    int count = 0, rows = reader->rows;
+    int runs = (int)fmax(options->scene->body.runs, 1);
+    TableRow next = {0};
+    while (read_next_row(reader, next)) {
+        bool goes_on = next[0] == last && next[1] != 0;
+        last = next[0];
         if (step >= 0 && last != step)
             continue;
         count = goes_on ? count : 0;
-        int i = count - part->run * part->rows;
-        if (next.value[1] != count)
+        int i = count - reader->run * rows;
+        if (next[1] != count)
             explain(reader, "line %ld has %s %g where %s %d is missing",
-                    reader->line_number, element, next.value[1], element,
-                    count);
-        if (i >= 0 && i < part->rows)
-            row[i] = next;
+                    reader->line_number, element, next[1], element, count);
+        if (i >= 0 && i < rows)
+            memcpy(row[i], next, sizeof next);
         count++;
     }
-    int bodies = count / part->rows;
     if (reader->failure[0])
         return;
     if (step >= 0 && count == 0)
         explain(reader, "step %.0f is not in it", step);
     else if (count == 0)
         explain(reader, "it has no row below the names of its columns");
-    else if (count % part->rows != 0 || (!reader->has_panes && bodies > runs))
+    else if (count % rows != 0 || (!reader->has_panes && count > runs * rows))
         explain(reader,
                 "its %sstep has %d %ss, the body %d; --segments may differ",
-                step < 0 ? "last " : "", count, element, part->rows);
-    else if (part->run >= bodies)
-        explain(reader, "body %d of the scene is not in it", part->run + 1);
+                step < 0 ? "last " : "", count, element, rows);
+    else if (reader->run >= count / rows)
+        explain(reader, "body %d of the scene is not in it", reader->run + 1);
 }
 
-/* Reads a part of a table.
- *   row  out, [part->size], to be freed by the caller in any case
+/* Reads the rows of a run.
+ *   reader  in/out, with the members up to `run`
+ *   row     out, [reader->rows], to be freed by the caller in any case
  * Returns OK, INVALID_INPUT, OUT_OF_MEMORY. */
-static Status read_table_part(const Options *options, const TablePart *part,
-                              TableRow **row, Message message)
+static Status read_table(TableReader *reader, const Options *options,
+                         TableRow **row, Message message)
 {
-    TableReader reader = {.file = fopen(part->path, "r"), .names = part->names};
-    errno = reader.file ? 0 : errno;
-    *row = malloc((size_t)part->rows * sizeof **row);
-    if (reader.file && *row) {
-        read_names(&reader);
-        read_rows(&reader, options, part, *row);
+    reader->file = fopen(reader->path, "r");
+    errno = reader->file ? 0 : errno;
+    *row = malloc((size_t)reader->rows * sizeof **row);
+    if (reader->file && *row) {
+        read_names(reader);
+        read_rows(reader, options, *row);
     }
-    if (!reader.file || ferror(reader.file))
-        explain(&reader, "%s", strerror(errno));
-    free(reader.line_text);
-    if (reader.file)
-        fclose(reader.file);
-    if (reader.failure[0])
-        return refuse(message, "--%s '%.60s': %s", part->option, part->path,
-                      reader.failure);
+    if (!reader->file || ferror(reader->file))
+        explain(reader, "%s", strerror(errno));
+    free(reader->line_text);
+    if (reader->file)
+        fclose(reader->file);
+    if (reader->failure[0])
+        return refuse(message, "--%s '%.60s': %s", reader->option, reader->path,
+                      reader->failure);
     return *row ? STATUS_OK : STATUS_OUT_OF_MEMORY;
 }
 
 Status start_table_read(const Options *options, int run, int nodes, double *x,
                         double *v, Message message)
 {
-    const TablePart part = {"state", options->state,
-                            "node",  {"step", "node", "x", "y", "vx", "vy"},
-                            nodes,   run};
+    TableReader reader = {.option = "state",
+                          .path = options->state,
+                          .element_name = "node",
+                          .names = {"step", "node", "x", "y", "vx", "vy"},
+                          .rows = nodes,
+                          .run = run};
     TableRow *row;
-    Status status = read_table_part(options, &part, &row, message);
+    Status status = read_table(&reader, options, &row, message);
     for (int i = 0; i < nodes && !status; i++) {
-        memcpy(x + 2 * i, row[i].value + 2, 2 * sizeof *x);
-        memcpy(v + 2 * i, row[i].value + 4, 2 * sizeof *v);
+        memcpy(x + 2 * i, row[i] + 2, 2 * sizeof *x);
+        memcpy(v + 2 * i, row[i] + 4, 2 * sizeof *v);
     }
     free(row);
     return status;
@@ -233,14 +230,17 @@ static const char *restore_spring(const Options *options, System *system,
 Status start_springs_read(const Options *options, int run, System *system,
                           Message message)
 {
-    const TablePart part = {
-        "state-springs", options->state_springs,
-        "spring",        {"step", "spring", "whole", "plastic", "flowed"},
-        system->springs, run};
+    TableReader reader = {
+        .option = "state-springs",
+        .path = options->state_springs,
+        .element_name = "spring",
+        .names = {"step", "spring", "whole", "plastic", "flowed"},
+        .rows = system->springs,
+        .run = run};
     TableRow *row;
-    Status status = read_table_part(options, &part, &row, message);
+    Status status = read_table(&reader, options, &row, message);
     for (int s = 0; s < system->springs && !status; s++) {
-        const char *why = restore_spring(options, system, s, row[s].value);
+        const char *why = restore_spring(options, system, s, row[s]);
         if (why)
             status = refuse(message, "--state-springs '%.60s': spring %d %s",
                             options->state_springs, s, why);

@@ -52,7 +52,7 @@ static void visit_exhibit(Cursor *cursor, Simulation *simulation)
 {
     const Scene *scene = simulation->scene;
     TimeIntegrator *run = &simulation->run[0];
-    bool kinds = exhibit_has_kind_switches(simulation);
+    bool kinds = simulation->options.layers & LAYER_KINDS;
     if (kinds)
         VISIT(simulation->exhibit.switches);
     if (kinds || scene->step)

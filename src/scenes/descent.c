@@ -22,13 +22,11 @@ static const double LANDSCAPE_TARGET[2] = {0.2, 0.3};
 /* s, time steps of the dial: from 1e-3 to 10, ten for each factor of 10. */
 static const double DIAL_FIRST = 1e-3, DIAL_LAST = 10, DIAL_PER_TEN = 10;
 
-/* m; a shorter p changes E by less than rounding and needs no line search. */
-static const double DIAL_SHORT_P = 1e-6;
+/* m; a shorter p ends the search for a minimiser. */
+static const double DIAL_SHORT_P = 1e-14;
 
 /* m, smallest distance of a start from the line through the pins. */
 static const double DIAL_OFF_LINE = 1e-9;
-
-enum { DIAL_MAX_UPDATES = 100 };
 
 /* ---- the functions ------------------------------------------------------- */
 
@@ -58,19 +56,19 @@ static LocalModel evaluate_tangent_energy(const Simulation *simulation,
     return (LocalModel){.value = E, .g = {g}, .H = {H}};
 }
 
-/* Returns parts of E with their derivatives, for a time step h, in landscape
- * and dial; in overshoot and tangent the function of one unknown.
+/* Returns parts of E with their derivatives in landscape and dial; in overshoot
+ * and tangent the function of one unknown.
  *   parts  enum LandscapePart */
 static LocalModel evaluate_landscape(const Simulation *simulation,
-                                     unsigned parts, double h,
-                                     Projection projection, const double at[2])
+                                     unsigned parts, Projection projection,
+                                     double x, double y)
 {
     if (simulation->descent.scalar)
-        return simulation->descent.scalar(simulation, at[0]);
+        return simulation->descent.scalar(simulation, x);
     const System *system = &simulation->system;
     const double *pins = simulation->run[0].x, *o = simulation->exhibit.target;
-    double m = system->m[0], w = h * h, P = 0;
-    const double u[2] = {at[0] - o[0], at[1] - o[1]};
+    double m = system->m[0], h = simulation->run[0].h, w = h * h, P = 0;
+    const double u[2] = {x - o[0], y - o[1]};
     LocalModel E = {.value = 0};
     if (parts & PART_INERTIA)
         E = (LocalModel){0.5 * m * (u[0] * u[0] + u[1] * u[1]),
@@ -79,7 +77,7 @@ static LocalModel evaluate_landscape(const Simulation *simulation,
                          0};
     for (int s = 0; s < system->springs && (parts & PART_ELASTICITY); s++) {
         const double *pin = pins + 2 * system->e[2 * s + 1];
-        const double d[2] = {at[0] - pin[0], at[1] - pin[1]};
+        const double d[2] = {x - pin[0], y - pin[1]};
         double l2 = system->l2[s], k = system->k[s], H[3];
         double d2 = d[0] * d[0] + d[1] * d[1];
         double pull = spring_gradient_factor(
@@ -98,16 +96,14 @@ static LocalModel evaluate_landscape(const Simulation *simulation,
 LocalModel descent_evaluate(const Simulation *simulation, Projection projection,
                             double x, double y)
 {
-    const double at[2] = {x, y};
     return evaluate_landscape(simulation, simulation->exhibit.switches,
-                              simulation->run[0].h, projection, at);
+                              projection, x, y);
 }
 
 double landscape_evaluate_parts(const Simulation *simulation, unsigned parts,
                                 double x, double y)
 {
-    const double at[2] = {x, y}, h = simulation->run[0].h;
-    return evaluate_landscape(simulation, parts, h, PROJECTION_NONE, at).value;
+    return evaluate_landscape(simulation, parts, PROJECTION_NONE, x, y).value;
 }
 
 int descent_hessian_index(const Simulation *simulation, double x, double y)
@@ -151,24 +147,16 @@ double descent_direction(const Simulation *simulation, Projection projection,
     return newton_direction(&E, simulation->descent.scalar, p);
 }
 
-/* The line x + alpha p of a line search. */
-typedef struct SearchLine {
-    const Simulation *simulation;
-    unsigned energy_parts; /* enum LandscapePart */
-    double h;              /* s */
-    const double *x, *p;
-    double start_energy; /* E(x) */
-} SearchLine;
-
-/* Returns E(x + alpha p) - E(x), for line_search_backtrack. */
+/* Returns the change of E along alpha p, for line_search_backtrack. */
 static double descent_energy_difference(const void *function, double alpha)
 {
-    const SearchLine *line = function;
-    const double to[2] = {line->x[0] + alpha * line->p[0],
-                          line->x[1] + alpha * line->p[1]};
-    LocalModel E = evaluate_landscape(line->simulation, line->energy_parts,
-                                      line->h, PROJECTION_NONE, to);
-    return E.value - line->start_energy;
+    const Simulation *simulation = function;
+    const Descent *descent = &simulation->descent;
+    const double *x = descent->point, *p = descent->direction;
+    return descent_evaluate(simulation, PROJECTION_NONE, x[0] + alpha * p[0],
+                            x[1] + alpha * p[1])
+               .value -
+           descent->value;
 }
 
 /* Returns E and its derivatives at the iterate, with the options' projection.
@@ -254,16 +242,11 @@ Status step_descent(Simulation *simulation)
                            .from = {descent->point[0], descent->point[1]}};
     const double *p = descent->direction;
     double *x = simulation->run[0].x;
-    const SearchLine line = {simulation,
-                             simulation->exhibit.switches,
-                             simulation->run[0].h,
-                             descent->point,
-                             p,
-                             descent->value};
     Status status = STATUS_RUNNING;
     if (simulation->options.line_search == LINE_SEARCH_BACKTRACK) {
-        Status found = line_search_backtrack(descent_energy_difference, &line,
-                                             &record.alpha, &record.trials);
+        Status found =
+            line_search_backtrack(descent_energy_difference, simulation,
+                                  &record.alpha, &record.trials);
         /* Uphill E grows by about slope (alpha - alpha^2/2), so that a very
          * short step lowers E only by rounding. */
         bool rounding = record.slope > 0 && record.alpha < 1e-3;
@@ -273,7 +256,7 @@ Status step_descent(Simulation *simulation)
             record.alpha = 0;
         }
     }
-    record.change = descent_energy_difference(&line, record.alpha);
+    record.change = descent_energy_difference(simulation, record.alpha);
     for (int i = 0; i < 2; i++)
         x[i] += record.alpha * p[i];
     record.status = evaluate_iterate(simulation, status);
@@ -343,31 +326,26 @@ Status create_landscape(Simulation *simulation)
 
 /* ---- the dial ------------------------------------------------------------ */
 
-/* Finds the minimiser for a time step h, up to rounding, by Algorithm 3 for two
- * unknowns.  The gradient is 0 also at a saddle on the line through the pins,
- * so the search begins beside this line.
+/* Finds the minimiser for a time step h, up to rounding, by Newton's method of
+ * the run.  The gradient is 0 also at a saddle on the line through the pins, so
+ * the search begins beside this line.
  *   point  [2] m, in/out */
 static void minimise_landscape(const Simulation *simulation, double h,
                                double point[2])
 {
-    double p[2], length = INFINITY;
+    const TimeIntegrator *run = &simulation->run[0];
+    Newton *newton = run->newton;
     if (fabs(point[1]) < DIAL_OFF_LINE)
         point[1] = copysign(DIAL_OFF_LINE, point[1]);
-    for (int update = 0; update < DIAL_MAX_UPDATES && length > 1e-14;
-         update++) {
-        LocalModel E = evaluate_landscape(simulation, PART_BOTH, h,
-                                          PROJECTION_CLAMP, point);
-        const SearchLine line = {simulation, PART_BOTH, h, point, p, E.value};
-        double alpha = 1;
-        int trials;
-        newton_direction(&E, false, p);
-        length = math_hypot(p[0], p[1]);
-        if (length > DIAL_SHORT_P)
-            line_search_backtrack(descent_energy_difference, &line, &alpha,
-                                  &trials);
-        for (int i = 0; i < 2; i++)
-            point[i] += alpha * p[i];
+    for (int i = 0; i < 2; i++) {
+        run->x[i] = point[i];
+        newton->u_tilde[i] = simulation->exhibit.target[i] - point[i];
     }
+    newton_start(newton, run->x, NULL, h * h,
+                 DIAL_SHORT_P / newton->settings.h);
+    newton_minimise(newton);
+    newton->counters = (NewtonCounters){0}; /* the dial counts no updates */
+    memcpy(point, newton->at.x, 2 * sizeof *point);
 }
 
 /* Each search begins at the previous minimiser, so that the curve is
@@ -387,10 +365,9 @@ void dial_restart(Simulation *simulation)
     }
     minimise_landscape(simulation, h, simulation->descent.point);
     memcpy(simulation->run[0].x, simulation->descent.point, sizeof point);
-    simulation->descent.value =
-        evaluate_landscape(simulation, PART_BOTH, h, PROJECTION_NONE,
-                           simulation->descent.point)
-            .value;
+    simulation->descent.value = landscape_evaluate_parts(
+        simulation, PART_BOTH, simulation->descent.point[0],
+        simulation->descent.point[1]);
 }
 
 Status create_dial(Simulation *simulation)
@@ -398,6 +375,7 @@ Status create_dial(Simulation *simulation)
     Status status = create_landscape(simulation);
     if (status)
         return status;
+    simulation->run[0].newton->settings.observer = NULL; /* shows no updates */
     dial_restart(simulation);
     simulation->done = simulation->options.timestep >= DIAL_LAST;
     simulation->status = STATUS_OK;

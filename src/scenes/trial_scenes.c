@@ -91,13 +91,11 @@ Status race_make_reference(Simulation *simulation, double time)
     const double max_intervals = 1 << 14; /* bounds the run time */
     const TimeIntegrator *start = &simulation->run[0];
     TimeIntegrator *run = &simulation->run[1];
-    NewtonSettings settings = {0};
     double bound = find_frequency_bound(&simulation->system, start->x);
     double intervals = floor(1 + time * bound);
-    options_fill_newton_settings(&simulation->options, &settings);
-    Status status = time_integrator_create(integrator_find_method("verlet"),
-                                           &simulation->system, &settings,
-                                           start->x, start->v, run);
+    Status status =
+        simulation_start_run(simulation, 1, integrator_find_method("verlet"),
+                             &simulation->system, start->x, start->v);
     if (!status && !(intervals <= max_intervals))
         status = STATUS_NOT_FINITE;
     double *scratch = malloc(4 * start->size * sizeof *scratch);

@@ -37,25 +37,10 @@ static bool obstacle_moves(const Contact *contact, int k)
     return !stopped && (v[0] != 0 || v[1] != 0);
 }
 
-/* Shortens the way of an obstacle that would pass its stop, to end there. */
-static void stop_obstacle(Obstacle *obstacle, double h)
-{
-    double *v = obstacle->v, square = v[0] * v[0] + v[1] * v[1], left = 0;
-    double way[2];
-    for (int c = 0; c < 2; c++) {
-        way[c] = obstacle->motion.stop[c] - obstacle->o[c];
-        left += way[c] * v[c]; /* time to the stop, times |v|^2 */
-    }
-    bool here = left <= 1e-9 * h * square; /* at the stop, up to rounding */
-    for (int c = 0; c < 2; c++)
-        v[c] = here ? 0 : left < h * square ? way[c] / h : v[c];
-}
-
 bool prescribed_begin(TimeIntegrator *run)
 {
     Contact *contact = contact_of(run->system);
     bool any = run->system->pin_v != NULL;
-    double half_way = run->clock.now + 0.5 * run->h;
     run->moved_part = 0;
     run->remaining_part = 1;
     run->parts_made = 0;
@@ -64,12 +49,15 @@ bool prescribed_begin(TimeIntegrator *run)
     for (int k = 0; contact && k < contact->obstacles; k++) {
         Obstacle *obstacle = &contact->obstacle[k];
         const Motion *motion = &obstacle->motion;
+        double from = 0; /* part of the step, as `to` */
         obstacle->v[0] = obstacle->v[1] = 0;
-        for (int i = motion->phases - 1; i >= 0; i--)
-            if (half_way < motion->phase_end[i])
-                memcpy(obstacle->v, motion->v[i], sizeof obstacle->v);
-        if (motion->stops)
-            stop_obstacle(obstacle, run->h);
+        for (int i = 0; i < motion->phases; i++) {
+            double left = motion->phase_end[i] - run->clock.now;
+            double to = fmin(fmax(left / run->h, from), 1);
+            for (int c = 0; c < 2; c++)
+                obstacle->v[c] += (to - from) * motion->v[i][c];
+            from = to;
+        }
     }
     if (contact)
         push_begin_step(contact, run->system, run->x, run->h);

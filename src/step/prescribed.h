@@ -7,8 +7,8 @@
 
 #include "step/time_integrator.h"
 
-/* Gives each obstacle the velocity that its motion has in this step.  Returns
- * whether anything moves. */
+/* Gives each obstacle the mean velocity that its motion has in this step.
+ * Returns whether anything moves. */
 bool prescribed_begin(TimeIntegrator *run);
 
 /* Moves walls and pins as far as there is room, and starts to minimise E from
