@@ -18,16 +18,16 @@ const char *pins_read(const char *text, const SquareMesh *shape,
 /* Returns the table of PINS_WORDS. */
 NameTable pins_words(void);
 
-/* Creates the mesh, the system with all its terms, and the run at its start.
- * The centre of a scene's ball is the last node.
- * Returns OK, INVALID_INPUT, TOO_LARGE, OUT_OF_MEMORY. */
-Status body_create(Simulation *simulation, int run);
+/* Returns what the scene adds to the heights of a run's body and grounds, m. */
+double body_find_lift(const Options *options, int run);
 
 /* Gives the terms and springs of a run the present numbers of the simulation's
  * options.  Returns OK, TOO_LARGE, OUT_OF_MEMORY. */
 Status body_update(Simulation *simulation, int run);
 
-/* Creates a scene with one run of the body of the options. */
+/* Creates the mesh, and for each run of the scene the system with all its terms
+ * and the start.  The centre of a scene's ball is the last node.
+ * Returns OK, INVALID_INPUT, TOO_LARGE, OUT_OF_MEMORY. */
 Status create_square(Simulation *simulation);
 
 /* Checks that the integrator works with all terms of the body.  Most terms need

@@ -25,7 +25,7 @@ Control *control_copy(const Control *from);
 /* Whether the mouse holds a node or an obstacle. */
 bool control_hand_holds(const Control *control);
 
-/* Finds the place of an obstacle in a run before RunVariant.lift raises it.
+/* Finds the place of an obstacle in a run before its lift (body_find_lift).
  *   at  [2] out, m */
 void simulation_find_obstacle(const Simulation *simulation, int run, int number,
                               double at[2]);
@@ -54,8 +54,8 @@ Status control_apply(Simulation *simulation, const Control *control);
 /* Writes the state as bytes, unless `bytes` is NULL.  Returns their number. */
 size_t state_save(const Simulation *simulation, void *bytes);
 
-/* Restores a saved state.  The stiffness of unbroken springs and the values of
- * obstacles are those of the simulation's options.
+/* Restores a saved state.  Springs and obstacles get the values with which they
+ * were saved, not those of the simulation's options.
  *   bytes  in, from a simulation with the same system */
 void state_restore(const void *bytes, Simulation *simulation);
 

@@ -52,8 +52,12 @@ typedef struct Switch {
 typedef struct SceneBody {
     double aspect;         /* height over width; 0: a square */
     double cell_stiffness; /* k_c over k; 0: one half */
-    bool moving_pins;      /* pinned nodes move at a given velocity */
+    double pin_speed; /* speed of pinned nodes to the left and right, sides/s */
+    double notch[2]; /* the middle is cut between these heights, over the height
+                        of the body and from its centre; 0, 0: nowhere */
     int runs;              /* number of runs with a body each; 0: one run */
+    double lift; /* height of run 0 above run 1, and so on, over the side */
+    double friction_factor[3]; /* factor on the friction of each run; 0: 1 */
     /* Returns an obstacle, at its start, that is added to those of the options.
      * NULL: none. */
     struct Obstacle (*obstacle)(const struct Options *options);

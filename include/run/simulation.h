@@ -25,12 +25,6 @@ typedef struct Ledger {
     EnergyGain gain;
 } Ledger;
 
-/* Difference of a run from the options, in scenes that compare runs. */
-typedef struct RunVariant {
-    double friction_factor; /* times the friction of the options; 0: 1 */
-    double lift;            /* m, added to the heights of body and grounds */
-} RunVariant;
-
 struct Simulation {
     const Scene *scene;
     Options options;
@@ -39,7 +33,6 @@ struct Simulation {
     System more[SIMULATION_MAX_RUNS]; /* systems of runs 1, 2 if not shared */
     int runs;
     TimeIntegrator run[SIMULATION_MAX_RUNS];
-    RunVariant variant[SIMULATION_MAX_RUNS];
     Ledger ledger[SIMULATION_MAX_RUNS];
     int stepping; /* run whose step is being computed */
     Status worst; /* OK, or the last other status of a run in this step */

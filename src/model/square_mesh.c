@@ -123,13 +123,11 @@ bool square_mesh_get_patch(const SquareMesh *shape, int c, int cells,
 static int outline_node(const SquareMesh *shape, int k)
 {
     int columns = shape->segments, rows = shape->rows;
-    if (k < columns)
-        return grid_node(shape, k, 0);
-    if (k < columns + rows)
-        return grid_node(shape, columns, k - columns);
-    if (k < 2 * columns + rows)
-        return grid_node(shape, 2 * columns + rows - k, rows);
-    return 2 * (columns + rows) - k;
+    if (k >= columns + rows) /* from the upper right back to the lower left */
+        return grid_node(shape, columns, rows) -
+               outline_node(shape, k - columns - rows);
+    return k < columns ? grid_node(shape, k, 0)
+                       : grid_node(shape, columns, k - columns);
 }
 
 void square_mesh_get_outline_edge(const SquareMesh *shape, int k, int node[2])

@@ -97,12 +97,10 @@ static Status create_system(const Options *options, System *system)
         system_create(shape.nodes + (ball >= 0), shape.springs, system);
     if (status)
         return status;
-    if (options->scene->body.moving_pins) {
-        system->pin_v =
-            calloc(2 * (size_t)system->nodes, sizeof *system->pin_v);
-        if (!system->pin_v)
-            return STATUS_OUT_OF_MEMORY;
-    }
+    double pin_speed = options->scene->body.pin_speed * shape.side;
+    size_t numbers = pin_speed > 0 ? 2 * (size_t)system->nodes : 0;
+    if (numbers && !(system->pin_v = calloc(numbers, sizeof(double))))
+        return STATUS_OUT_OF_MEMORY;
     double m = options->density * shape.side * shape.side / nodes;
     m *= (double)shape.rows / shape.segments;
     for (int i = 0; i < system->nodes; i++)
@@ -120,9 +118,15 @@ static Status create_system(const Options *options, System *system)
         system->segments = shape.segments;
     system->gravity[1] = -options->gravity;
     square_mesh_order_nodes(&shape, system->order);
-    return options->pin && pins_read(options->pin, &shape, system->pinned)
-               ? STATUS_INVALID_INPUT
-               : STATUS_OK;
+    if (options->pin && pins_read(options->pin, &shape, system->pinned))
+        return STATUS_INVALID_INPUT;
+    for (int i = 0; i < shape.nodes && numbers; i++) {
+        double rest[2];
+        square_mesh_rest_position(&shape, i, rest);
+        if (system->pinned[i]) /* pins that a user sets later stand still */
+            system->pin_v[2 * i] = copysign(pin_speed, rest[0]);
+    }
+    return STATUS_OK;
 }
 
 _Static_assert(OPTIONS_MAX_GROUNDS + OPTIONS_MAX_BALLS + 2 <=
@@ -280,17 +284,20 @@ static Status place_body(const Options *options, int run, double *x, double *v,
     return STATUS_OK;
 }
 
-/* Returns the options of one run, changed by its variant. */
-static Options make_run_options(const Simulation *simulation, int run,
-                                const Options *options)
+double body_find_lift(const Options *options, int run)
 {
-    const RunVariant *variant = &simulation->variant[run];
+    return options->scene->body.lift * options->side * (1 - run);
+}
+
+/* Returns the options of one run: with its own friction and height. */
+static Options make_run_options(const Options *options, int run)
+{
+    const double factor = options->scene->body.friction_factor[run];
     Options own = *options;
-    if (variant->friction_factor > 0)
-        own.friction *= variant->friction_factor;
-    own.at[1] += variant->lift;
+    own.friction *= factor > 0 ? factor : 1;
+    own.at[1] += body_find_lift(options, run);
     for (int i = 0; i < own.grounds; i++)
-        own.ground[i][3] += variant->lift;
+        own.ground[i][3] += body_find_lift(options, run);
     return own;
 }
 
@@ -313,17 +320,33 @@ static Status build_body(const Options *options, int run, System *system,
                : start_springs_read(options, run, system, message);
 }
 
-/* Pinned nodes start with velocity 0. */
-Status body_create(Simulation *simulation, int run)
+/* Cuts the scene's notch beside the middle line, if springs can break. */
+static void cut_notch(const Options *options, const SquareMesh *mesh,
+                      System *system)
 {
-    const Options options =
-        make_run_options(simulation, run, &simulation->options);
+    const double *notch = options->scene->body.notch, x = 0.5 * mesh->spacing;
+    for (int s = 0; s < system->springs && options->tear > 0; s++) {
+        double a[2], b[2];
+        square_mesh_rest_position(mesh, system->e[2 * s], a);
+        square_mesh_rest_position(mesh, system->e[2 * s + 1], b);
+        double height = 0.5 * (a[1] + b[1]) / (mesh->rows * mesh->spacing);
+        if ((a[0] < x) != (b[0] < x) && height > notch[0] && height < notch[1])
+            system->k[s] = 0;
+    }
+    system_mark_changed(system, false);
+}
+
+/* Creates one run.  Pinned nodes start with velocity 0. */
+static Status create_body(Simulation *simulation, int run)
+{
+    const Options options = make_run_options(&simulation->options, run);
     System *system = run ? &simulation->more[run] : &simulation->system;
     double *x;
     Status status = build_body(&options, run, system, &x, (Message){0});
     simulation->mesh = body_make_mesh(&options);
     if (!status) {
         double *v = x + 2 * (size_t)system->nodes;
+        cut_notch(&options, &simulation->mesh, system);
         for (int i = 0; i < 2 * system->nodes; i++)
             v[i] = system->pinned[i / 2] ? 0 : v[i];
         status = simulation_start_run(simulation, run, options_method(&options),
@@ -336,7 +359,7 @@ Status body_create(Simulation *simulation, int run)
 Status body_update(Simulation *simulation, int run)
 {
     System *system = simulation->run[run].system;
-    Options options = make_run_options(simulation, run, &simulation->options);
+    Options options = make_run_options(&simulation->options, run);
     system->gravity[1] = -options.gravity;
     for (int s = 0; s < system->springs; s++)
         if (!spring_is_broken(system, s))
@@ -347,14 +370,18 @@ Status body_update(Simulation *simulation, int run)
 
 Status create_square(Simulation *simulation)
 {
-    simulation->runs = 1;
-    return body_create(simulation, 0);
+    Status status = STATUS_OK;
+    simulation->runs = (int)fmax(simulation->scene->body.runs, 1);
+    for (int run = 0; run < simulation->runs && !status; run++)
+        status = create_body(simulation, run);
+    return status;
 }
 
 Status body_check_method(const Options *options, Message message)
 {
     const IntegratorMethod *method = options_method(options);
-    const char *term = options->scene->body.moving_pins ? "moving pins" : NULL;
+    const char *term =
+        options->scene->body.pin_speed > 0 ? "moving pins" : NULL;
     for (const OptionRow *row = option_rows; row->name; row++)
         if (!term && row->term && !row->term->any_integrator &&
             option_is_on(row, options))
@@ -370,14 +397,14 @@ Status body_check_method(const Options *options, Message message)
 static void name_obstacle(const Options *options, int number, char *name,
                           size_t size)
 {
-    Obstacle list[CONTACT_MAX_OBSTACLES];
-    list_obstacles(options, list);
-    const Obstacle *obstacle = &list[number];
-    int ball = number - (int)options->grounds;
-    const char *kind = obstacle->node >= 0               ? "falling ball"
-                       : obstacle->motion.phases > 0     ? "ceiling"
-                       : obstacle->kind == OBSTACLE_BALL ? "ball"
-                                                         : "ground";
+    int ball = number - (int)options->grounds,
+        other = ball - (int)options->balls;
+    const char *kind =
+        ball < 0    ? "ground"
+        : other < 0 ? "ball"
+        : other < (options->ceiling[1] != 0) || find_ball_node(options) < 0
+            ? "ceiling"
+            : "falling ball";
     if (ball < 0 ? options->grounds > 1
                  : ball < options->balls && options->balls > 1)
         snprintf(name, size, "%s %d", kind, (ball < 0 ? number : ball) + 1);
@@ -476,7 +503,7 @@ static Status check_clearance(const Simulation *simulation,
 {
     Status status = check_obstacles(options, message);
     for (int run = 0; run < simulation->runs && !status; run++) {
-        const Options own = make_run_options(simulation, run, options);
+        const Options own = make_run_options(options, run);
         System system = *simulation->run[run].system;
         Contact contact = {.barrier = make_barrier(&own), .ball = -1};
         int count = list_obstacles(&own, contact.obstacle);

@@ -43,12 +43,13 @@ bool control_hand_holds(const Control *control)
     return control->held_node >= 0 || control->held_obstacle >= 0;
 }
 
-/* Returns the height, m, that RunVariant.lift adds to an obstacle of a run.
- * Only grounds are lifted, not balls. */
+/* Returns the lift of an obstacle of a run, m.  Balls are not lifted. */
 static double get_lift(const Simulation *simulation, int run,
                        const Obstacle *obstacle)
 {
-    return obstacle->kind == OBSTACLE_WALL ? simulation->variant[run].lift : 0;
+    return obstacle->kind == OBSTACLE_WALL
+               ? body_find_lift(&simulation->options, run)
+               : 0;
 }
 
 void simulation_find_obstacle(const Simulation *simulation, int run, int number,
@@ -121,7 +122,6 @@ static Status update_run_options(Simulation *simulation, int r,
         status = simulation_start_run(simulation, r, options_method(options),
                                       old.system, old.x, old.v);
         run->steps = old.steps;
-        run->status = old.status;
         run->clock = old.clock;
         run->moved_part = old.moved_part;
         run->work = old.work;

@@ -51,7 +51,7 @@ REASON(why_start_is_given, options->bodies == 0 && !options->state,
        options->state ? "the table of --state gives the start"
                       : "each --body has its own; add it there")
 REASON(why_own_bodies,
-       !options->scene->body.obstacle && !options->scene->body.moving_pins &&
+       !options->scene->body.obstacle && options->scene->body.pin_speed == 0 &&
            options->scene->body.runs == 0,
        "this scene has its own bodies; --body works in square")
 REASON(why_no_springs, options->material == 0,

@@ -6,7 +6,6 @@
 #include "model/contact.h"
 #include "model/fracture.h"
 #include "model/plasticity.h"
-#include "run/body.h"
 
 /* Position in the bytes of a state.  Saving, restoring and counting visit the
  * pieces of a state by the same functions. */
@@ -109,9 +108,6 @@ void state_restore(const void *bytes, Simulation *simulation)
     Cursor cursor = {(unsigned char *)bytes, true, 0};
     simulation->prediction = (Prediction){0}; /* a guess is not saved */
     visit_state(&cursor, simulation);
-    for (int r = 0; r < simulation->runs; r++)
-        if (simulation->scene->needs & NEEDS_BODY)
-            body_update(simulation, r);
 }
 
 /* FNV-1a hash of bytes. */

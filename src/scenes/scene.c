@@ -9,22 +9,6 @@
 
 /* ---- scenes of the square that no options describe ----------------------- */
 
-/* Three blocks on slopes, each lower than the one before, with 0.5, 0.9 and 1.1
- * times the friction with which a block just stays at rest. */
-static Status create_slope(Simulation *simulation)
-{
-    static const double factor[SIMULATION_MAX_RUNS] = {0.5, 0.9, 1.1};
-    Status status = STATUS_OK;
-    simulation->runs = SIMULATION_MAX_RUNS;
-    for (int run = 0; run < SIMULATION_MAX_RUNS && !status; run++) {
-        simulation->variant[run].friction_factor = factor[run];
-        simulation->variant[run].lift =
-            1.3 * simulation->options.side / 0.5 * (1 - run);
-        status = body_create(simulation, run);
-    }
-    return status;
-}
-
 /* Returns the ceiling of `squeeze`.  The ceiling starts as far above the square
  * as the floor is below, presses the square by 0.55 of the height, and goes
  * back at twice the speed. */
@@ -54,41 +38,6 @@ static Status create_squeeze(Simulation *simulation)
     return status;
 }
 
-/* Cuts the springs across a vertical line at x between two heights, in the rest
- * positions, if springs can break. */
-static void cut_springs(Simulation *simulation, double x, double low,
-                        double high)
-{
-    System *system = &simulation->system;
-    for (int s = 0; s < system->springs && simulation->options.tear > 0; s++) {
-        double a[2], b[2];
-        square_mesh_rest_position(&simulation->mesh, system->e[2 * s], a);
-        square_mesh_rest_position(&simulation->mesh, system->e[2 * s + 1], b);
-        double middle = 0.5 * (a[1] + b[1]);
-        if ((a[0] < x) != (b[0] < x) && middle > low && middle < high)
-            system->k[s] = 0;
-    }
-    system_mark_changed(system, false);
-}
-
-/* Pins of the left half move left, others right, by 0.2 sides a second. */
-static Status create_tear(Simulation *simulation)
-{
-    const SquareMesh *mesh = &simulation->mesh;
-    System *system = &simulation->system;
-    Status status = create_square(simulation);
-    double rest[2];
-    for (int i = 0; i < mesh->nodes && !status; i++) {
-        square_mesh_rest_position(mesh, i, rest);
-        if (system->pinned[i]) /* pins that a user sets later stand still */
-            system->pin_v[2 * i] = copysign(0.2 * mesh->side, rest[0]);
-    }
-    if (!status)
-        cut_springs(simulation, 0.5 * mesh->spacing, -0.12 * mesh->side,
-                    0.12 * mesh->side);
-    return status;
-}
-
 /* Returns the heavy third ball of `bend`, 0.05 m above the beam. */
 static Obstacle make_bend_ball(const Options *options)
 {
@@ -101,18 +50,16 @@ static Obstacle make_bend_ball(const Options *options)
                       .node = shape.nodes};
 }
 
-/* The beam has a notch in its lower side, where it breaks. */
+/* The ball weighs 60 kg and falls. */
 static Status create_bend(Simulation *simulation)
 {
     const SquareMesh *mesh = &simulation->mesh;
     Status status = create_square(simulation);
     if (status)
         return status;
-    double a = mesh->spacing, half = 0.5 * mesh->rows * a;
     simulation->system.m[mesh->nodes] = 60;
     if (!simulation->options.state) /* --state has velocities */
         simulation->run[0].v[2 * mesh->nodes + 1] = -3;
-    cut_springs(simulation, 0.5 * a, -2 * half, -half + 0.6 * a);
     return STATUS_OK;
 }
 
@@ -172,8 +119,9 @@ const Scene scenes[] = {
           "--at -0.08636008618973134,0.2372723867484419 "
           "--friction 0.36397023426620234 "
           "--ground -0.3420201433256687,0.9396926207859084,0,0",
-     create_slope, .body.runs = SIMULATION_MAX_RUNS,
-     .view = {-2.3, -2.75, 0.9, 2.0}},
+     /* A block just stays at rest with the friction of this line. */
+     create_square, .view = {-2.3, -2.75, 0.9, 2.0}, .body.runs = 3,
+     .body.lift = 2.6, .body.friction_factor = {0.5, 0.9, 1.1}},
     {"squeeze", "Contact: pressed flat",
      "a ceiling comes down and lets go: all of it returns", SQUARE,
      FALL "--segments 16 --timestep 0.01 --friction 0.8 "
@@ -214,8 +162,9 @@ const Scene scenes[] = {
      "pulled apart, springs break: a crack runs from a slit", SQUARE,
      FALL "--segments 24 --timestep 0.002 --gravity 0 --tear 0.12 "
           "--self-contact on",
-     create_tear, .view = {-0.78, -0.65, 0.78, 0.65}, .strain_colour_max = 0.05,
-     .pin = "left,right", .body.moving_pins = true, .body.cell_stiffness = 0.3},
+     create_square, .view = {-0.78, -0.65, 0.78, 0.65},
+     .strain_colour_max = 0.05, .pin = "left,right", .body.pin_speed = 0.2,
+     .body.notch = {-0.12, 0.12}, .body.cell_stiffness = 0.3},
     {"bend", "Fracture: a beam breaks",
      "struck from above it cracks from below, at a notch", SQUARE,
      FALL "--segments 32 --stiffness 2e5 --timestep 0.002 --side 2 "
@@ -224,7 +173,7 @@ const Scene scenes[] = {
           "--ground 0,1,0,-1",
      create_bend, .view = {-1.25, -1.1, 1.25, 0.75}, .strain_colour_max = 0.05,
      .body.aspect = 0.1875, .body.cell_stiffness = 0.3,
-     .body.obstacle = make_bend_ball},
+     .body.notch = {-1, -0.4}, .body.obstacle = make_bend_ball},
     {"race", "Run time and error", "run time against error, measured now",
      PICTURE_RACE, NEEDS_MESH | NEEDS_SPRINGS | NEEDS_MINIMUM | NEEDS_BODY,
      /* motion without chaos; a tolerance below the error of every time step */
