@@ -181,13 +181,11 @@ static Status evaluate_iterate(Simulation *simulation, Status status)
     TimeIntegrator *run = &simulation->run[0];
     Descent *descent = &simulation->descent;
     double *p = descent->direction;
-    descent->value =
-        descent_evaluate(simulation, PROJECTION_NONE, run->x[0], run->x[1])
-            .value;
-    if (descent->scalar)
-        run->x[1] = descent->value;
     memcpy(descent->point, run->x, sizeof descent->point);
     LocalModel E = evaluate_local_model(simulation);
+    descent->value = E.value;
+    if (descent->scalar)
+        descent->point[1] = run->x[1] = E.value;
     descent->slope = newton_direction(&E, descent->scalar, p);
     descent->residual = descent->by_gradient
                             ? math_hypot(E.g[0], E.g[1])
