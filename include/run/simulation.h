@@ -22,6 +22,7 @@ typedef struct EnergyGain {
 typedef struct Ledger {
     double start; /* J, total energy at the start */
     double work;  /* J, work that the mouse and changed options have done */
+    double kept;  /* J, total energy minus work at the end of the last step */
     EnergyGain gain;
 } Ledger;
 
@@ -36,7 +37,6 @@ struct Simulation {
     Ledger ledger[SIMULATION_MAX_RUNS];
     int stepping; /* run whose step is being computed */
     Status worst; /* OK, or the last other status of a run in this step */
-    double energy_before; /* J, energy minus work of the run before this step */
     Descent descent;      /* minimisation; zero in scenes that move in time */
     Exhibit exhibit;      /* data of small scenes, and of switches */
     Prediction prediction;   /* guess where the next step leads */

@@ -45,8 +45,8 @@ Status simulation_create(const Options *options, NewtonObserver observer,
         if ((unsigned)options->flips >> i & 1)
             exhibit_flip_switch(simulation, i);
     for (int r = 0; r < simulation->runs && !status; r++)
-        simulation->ledger[r].start = /* dissipated energy begins at 0 */
-            -simulation_energies(simulation, r).dissipated;
+        simulation->ledger[r].start = simulation->ledger[r].kept =
+            -simulation_energies(simulation, r).dissipated; /* begins at 0 */
     return status;
 }
 
@@ -95,16 +95,18 @@ static Status finish_step(Simulation *simulation, Status status)
 static void book_gain(Simulation *simulation)
 {
     int run = simulation->stepping;
+    Ledger *ledger = &simulation->ledger[run];
     const Energies now = simulation_energies(simulation, run);
-    double gained = now.total - now.work - simulation->energy_before;
+    double kept = now.total - now.work, gained = kept - ledger->kept;
     double abs_sum = fabs(now.work);
     bool backward_euler = simulation->run[run].method->ends_at_minimiser;
+    ledger->kept = kept;
     for (int i = 1; i < now.rows; i++)
         abs_sum += fabs(now.row[i].value);
     if (!backward_euler || !(gained > 1e-8 * abs_sum))
         return;
-    simulation->ledger[run].gain.steps++;
-    simulation->ledger[run].gain.energy += gained;
+    ledger->gain.steps++;
+    ledger->gain.energy += gained;
 }
 
 /* Runs step one after another.  Returns their last status that is not OK. */
@@ -113,12 +115,8 @@ Status simulation_advance(Simulation *simulation)
     while (simulation->stepping < simulation->runs) {
         TimeIntegrator *run = &simulation->run[simulation->stepping];
         Status status = run->status;
-        if (status != STATUS_RUNNING) {
-            const Energies now =
-                simulation_energies(simulation, simulation->stepping);
-            simulation->energy_before = now.total - now.work;
+        if (status != STATUS_RUNNING)
             status = time_integrator_begin(run);
-        }
         if (status == STATUS_RUNNING)
             status = time_integrator_advance(run);
         if (status == STATUS_RUNNING)

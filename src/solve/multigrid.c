@@ -25,7 +25,8 @@ static const double STALLS = 0.3, PACE = 0.06;
 enum { HANDED_ITERATIONS = 200 };
 
 /* A change of E that is at most this part of the step's largest change may be
- * rounding, and is compared with the rounding of E. */
+ * rounding.  If p_bound has not fallen, the change is compared with the
+ * rounding of E. */
 static const double SMALL_CHANGE = 1e-9;
 
 struct Multigrid {
@@ -48,7 +49,8 @@ struct Multigrid {
     double weight;           /* s^2, weight of P in the grid */
     bool is_slow;            /* a direction of this step was poor */
     bool has_relaxed;        /* tiles relaxed in the last update */
-    bool change_was_hidden;  /* rounding hid the last iteration's change of E */
+    bool change_was_hidden;  /* rounding hid the last iteration's change of E,
+                                and p_bound did not fall */
 };
 
 Status multigrid_create(int segments, Multigrid **multigrid)
@@ -298,7 +300,8 @@ static Status multigrid_test_iterate(Newton *newton, Status status)
         record->change += turn_free_body(newton);
     if (ends && status != STATUS_NOT_FINITE)
         return STATUS_OK;
-    bool hidden = small && is_below_roundoff(newton, record->change);
+    bool hidden = small && !(mg->p_bound < mg->last_p_bound) &&
+                  is_below_roundoff(newton, record->change);
     if (stuck || (hidden && mg->change_was_hidden)) {
         newton->active_solver = SOLVER_NEWTON;
         newton->rounding.E = NAN;

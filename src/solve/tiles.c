@@ -4,6 +4,7 @@
 
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
 #include "solve/grid_spring.h"
 
@@ -35,8 +36,9 @@ void tiles_lay_out(const Grid *grid, Memory *memory, Tiles *tiles)
         memory_take_piece(memory, count * sizeof *tiles->activity);
     tiles->change = memory_take_piece(memory, count * sizeof *tiles->change);
     tiles->chosen = memory_take_piece(memory, count * sizeof *tiles->chosen);
-    tiles->from_target = memory_take_piece(
-        memory, 2 * (size_t)grid->rows.plane * sizeof *tiles->from_target);
+    size_t both = 2 * (size_t)grid->rows.plane * sizeof(float);
+    tiles->u = memory_take_piece(memory, both);
+    tiles->start_g = memory_take_piece(memory, both);
 }
 
 /* Returns the longest of three step lengths a that lower E, or 0; E changes by
@@ -62,24 +64,39 @@ enum { GX, GY, XX, XY, YY, CX, CY, CC, NEGATIVE, SUMS };
 typedef float NodeSums[SUMS][LANES];
 
 /* Computes the sums of LANES nodes of a row, in a loop of its own, since steps
- * that do not wait for each other are faster. */
-INLINE void gather_springs(const Tiles *tiles, NodeRun at, NodeSums of)
+ * that do not wait for each other are faster.
+ *   is_fine  Tiles.is_fine: a spring's force has changed since the start by
+ *            c (s d - s0 d0) = c (s w + (s - s0) d0), d = d0 + w */
+INLINE void gather_springs(const Tiles *tiles, NodeRun at, bool is_fine,
+                           NodeSums of)
 {
     const Grid *grid = tiles->grid;
-    const float *const ax = tiles->from_target, *const ay =
-                                                    ax + grid->rows.plane;
+    const int plane = grid->rows.plane;
+    const float *const ux = tiles->u, *const uy = ux + plane;
     EACH_FEW (NEXT(at, LANES)) {
         const int q = at.first + e;
         Few mass = FEW(grid->single_m, q), iso = mass;
-        Few gx = mass * FEW(ax, q), gy = mass * FEW(ay, q);
+        Few gx = FEW(tiles->start_g, q) + mass * FEW(ux, q);
+        Few gy = FEW(tiles->start_g, q + plane) + mass * FEW(uy, q);
         Few xx = {0}, xy = {0}, yy = {0};
         Few cx = {0}, cy = {0}, c = {0}, negative = {0};
 #define ADD(kind, to, numbers)                                                 \
     {                                                                          \
         SingleSpring s = evaluate_single_spring(grid, kind, q, to, numbers);   \
+        Few wx = s.dx, wy = s.dy;                                              \
+        if (is_fine) {                                                         \
+            wx = FEW(ux, q) - FEW(ux, q + (to));                               \
+            wy = FEW(uy, q) - FEW(uy, q + (to));                               \
+            Few more = (2 * s.dx + wx) * wx + (2 * s.dy + wy) * wy;            \
+            gx += s.c * more * s.dx;                                           \
+            gy += s.c * more * s.dy;                                           \
+            s.dx += wx;                                                        \
+            s.dy += wy;                                                        \
+            s.s += more;                                                       \
+        }                                                                      \
         Few fx = s.c * s.dx, fy = s.c * s.dy, f = s.c * s.s;                   \
-        gx += f * s.dx;                                                        \
-        gy += f * s.dy;                                                        \
+        gx += f * wx;                                                          \
+        gy += f * wy;                                                          \
         IN_ORDER(gx, gy);                                                      \
         iso += f;                                                              \
         negative += WHERE(f < 0, f);                                           \
@@ -121,14 +138,15 @@ INLINE void node_line_polynomial(const NodeSums of, int e, float px, float py,
 }
 
 /* Moves LANES nodes of a row that share no spring; adds E's changes to sum. */
-INLINE void relax_nodes(const Tiles *tiles, NodeRun at, double *sum)
+INLINE void relax_nodes(const Tiles *tiles, NodeRun at, bool is_fine,
+                        double *sum)
 {
     const Grid *grid = tiles->grid;
     const int plane = grid->rows.plane;
     float *const x = grid->single_x, *const y = x + plane;
-    float *const ax = tiles->from_target, *const ay = ax + plane;
+    float *const ux = tiles->u, *const uy = ux + plane;
     NodeSums of;
-    gather_springs(tiles, at, of);
+    gather_springs(tiles, at, is_fine, of);
     EACH_OF (NEXT(at, LANES)) {
         const int q = at.first + e;
         float gx = of[GX][e], gy = of[GY][e], negative = of[NEGATIVE][e];
@@ -142,17 +160,19 @@ INLINE void relax_nodes(const Tiles *tiles, NodeRun at, double *sum)
         float along[4], lower;
         node_line_polynomial(of, e, px, py, along);
         float go = find_lowering_step(along, &lower);
-        ax[q] += go * px;
-        ay[q] += go * py;
-        x[q] += go * px;
-        y[q] += go * py;
+        ux[q] += go * px;
+        uy[q] += go * py;
+        if (!is_fine) {
+            x[q] += go * px;
+            y[q] += go * py;
+        }
         sum[e] += (double)lower;
     }
 }
 
 /* Moves each node of a tile once: even rows first, then odd rows, in each of
  * them the even columns first.  Returns the change of E. */
-INLINE double relax_tile(const Tiles *tiles, int tile)
+INLINE double relax_tile(const Tiles *tiles, int tile, bool is_fine)
 {
     const Grid grid = *tiles->grid;
     int top = tile / tiles->columns * TILE_ROWS, column = tile % tiles->columns;
@@ -164,7 +184,7 @@ INLINE double relax_tile(const Tiles *tiles, int tile)
             NodeRun at = grid_nodes(&grid, i, colour % 2);
             at.first += column * LANES;
             if (at.first < at.end)
-                relax_nodes(tiles, at, sum);
+                relax_nodes(tiles, at, is_fine, sum);
         }
     return sum_lanes(sum);
 }
@@ -184,9 +204,12 @@ FAST static double relax_active(Tiles *tiles, double activity, int *visits)
             for (int j = colour % 2; j < wide; j += 2)
                 if (tiles->activity[i * wide + j] <= activity)
                     tiles->chosen[count++] = i * wide + j;
-        for (int t = 0; t < count; t++)
-            tiles->change[tiles->chosen[t]] =
-                relax_tile(tiles, tiles->chosen[t]);
+        for (int t = 0; t < count; t++) {
+            int tile = tiles->chosen[t]; /* is_fine is constant in each copy */
+            tiles->change[tile] = tiles->is_fine
+                                      ? relax_tile(tiles, tile, true)
+                                      : relax_tile(tiles, tile, false);
+        }
         for (int t = 0; t < count; t++) { /* neighbours become active */
             int tile = tiles->chosen[t], i = tile / wide, j = tile % wide;
             for (int a = i > 0 ? i - 1 : 0; a <= i + 1 && a < high; a++)
@@ -202,29 +225,30 @@ FAST static double relax_active(Tiles *tiles, double activity, int *visits)
     return change;
 }
 
-/* Copies x and x - x_tilde from the grid. */
-FAST static void read_state(const Tiles *tiles)
+/* Starts a relaxation at the grid's x.
+ *   g  [2 planes] out, grad E, only if is_fine */
+INLINE void begin_relaxation(const Tiles *tiles, double *g)
 {
     const Grid *grid = tiles->grid;
+    const int plane = grid->rows.plane;
+    float *const start_g = tiles->start_g;
     grid_narrow_x(grid);
-    narrow_numbers(grid->from_target, 1, 0, 2 * grid->rows.plane,
-                   tiles->from_target);
+    memset(tiles->u, 0, 2 * (size_t)plane * sizeof(float));
+    if (tiles->is_fine)
+        grid_gradient(grid, g);
+    narrow_numbers(tiles->is_fine ? g : grid->from_target, 1, 0, 2 * plane,
+                   start_g);
+    for (int c = 0; c < 2 && !tiles->is_fine; c++)
+        EACH_OF (plane)
+            start_g[c * plane + e] *= grid->single_m[e];
 }
 
-/* Writes the nodes' displacements since read_state to p. */
-FAST static void find_displacements(const Tiles *tiles, double *p)
-{
-    const double *const before = tiles->grid->from_target;
-    EACH_OF (2 * tiles->grid->rows.plane)
-        p[e] = (double)tiles->from_target[e] - (double)(float)before[e];
-}
-
-void tiles_relax(Tiles *tiles, double pace, double *p)
+FAST void tiles_relax(Tiles *tiles, double pace, double *p)
 {
     int count = tiles->rows * tiles->columns, visits;
     double rounding = tiles->grid->segments * FLT_EPSILON; /* error of x */
-    pace = fmin(pace, -tiles->grid->stiffest * rounding * rounding);
-    read_state(tiles);
+    tiles->is_fine = pace > -tiles->grid->stiffest * rounding * rounding;
+    begin_relaxation(tiles, p);
     for (int t = 0; t < count; t++)
         tiles->activity[t] = 0;
     double lowered = relax_active(tiles, 0, &visits);
@@ -242,5 +266,6 @@ void tiles_relax(Tiles *tiles, double pace, double *p)
         if (!(lowered < pace * visits))
             break;
     }
-    find_displacements(tiles, p);
+    EACH_OF (2 * tiles->grid->rows.plane)
+        p[e] = (double)tiles->u[e];
 }

@@ -10,8 +10,11 @@
  * be longer by a factor without a rise of E, and the decrease of E in each tile
  * is known.
  *
- * Tiles work in single precision on a copy of x.  Their result is a direction,
- * along which the caller minimises E in double precision. */
+ * Tiles work in single precision on a copy of x.  Near the minimum, where the
+ * nodes move by less than the rounding of this copy, it stays as it is, and the
+ * changes of the springs' forces follow from the nodes' displacements alone.
+ * The result is a direction, along which the caller minimises E in double
+ * precision. */
 #pragma once
 
 #include "solve/grid.h"
@@ -22,7 +25,11 @@ typedef struct Tiles {
     double *activity;  /* [tiles] change of E that a sweep may bring, < 0 */
     double *change;    /* [tiles] change of E by the tile's last sweep */
     int *chosen;       /* [tiles] numbers of the tiles that are swept next */
-    float *from_target; /* [2 planes] x - x_tilde */
+    bool is_fine;      /* nodes move by less than the rounding of
+                          Grid.single_x, which stays as at the start */
+    float *u;          /* [2 planes] displacements since the start */
+    float *start_g;    /* [2 planes] grad E at the start if is_fine, otherwise
+                          only the gradient of the masses' energy */
     long sweeps;       /* sweeps of tiles since the object was made */
 } Tiles;
 
