@@ -16,8 +16,7 @@ static int count_added_updates(const Trace *trace)
 
 /* Draws E and its parts along the line from x^n to x_tilde, and E at x, beside
  * the point of the line that is nearest to x. */
-static void draw_energy_parts(const Plot *card, const System *system,
-                              const Trace *trace, const double *x)
+void step_energy_draw(const Plot *card)
 {
     enum { POINTS = 31, START = 5, END = 25 }; /* points with t = 0 and 1 */
     static const struct {
@@ -29,7 +28,14 @@ static void draw_energy_parts(const Plot *card, const System *system,
                  {"h\u00b2 P", COLOUR_SHADED, 20, 0.72},
                  {"E", COLOUR_X, 3, 1}};
     double t[POINTS + 1], part[3][POINTS + 1], along = 0, square = 0;
+    const Trace *trace = card->pane->trace;
+    if (!trace || !trace->x_tilde || !trace->x_n) {
+        card_write_hint(card, text_undrawn);
+        return;
+    }
+    const System *system = &card->simulation->system;
     const double *aim = trace->x_tilde, *from = trace->x_n;
+    const double *x = pane_positions(card->pane);
     size_t count = 2 * (size_t)system->nodes;
     double *at = malloc(count * sizeof *at);
     if (!at)
@@ -69,62 +75,6 @@ static void draw_energy_parts(const Plot *card, const System *system,
                    (double[2]){t[i], parts[k].label_factor * part[k][i]},
                    parts[k].colour, "%s", parts[k].name);
     }
-}
-
-/* Draws E at each iterate minus E at the end, on a logarithmic axis.  The
- * difference is the sum of the decreases from this iterate on. */
-static void draw_remaining_decrease(const Plot *card, const Trace *trace)
-{
-    int made = count_added_updates(trace);
-    double excess = 0, low = INFINITY, high = 0;
-    for (int i = made - 1; i >= 0; i--) {
-        excess -= trace->record[i].change;
-        low = excess > 0 ? fmin(low, excess) : low;
-        high = fmax(high, excess);
-    }
-    if (!(high > 0 && isfinite(high))) {
-        card_write_hint(card, text_undrawn);
-        return;
-    }
-    Plot plot = plot_create(
-        card, (Axis){-0.5, fmax(made, 3) - 0.3, false, true, "i"},
-        (Axis){pow(10, floor(log10(low))), pow(10, ceil(log10(high))), true,
-               false, "E({x}^{i}) \u2212 E({x}), J s\u00b2"});
-    for (int words = 0; words < 2; words++) { /* curves, then words */
-        double at[2] = {made, 0}, after[2];
-        for (int i = made - 1; i >= 0; i--) {
-            memcpy(after, at, sizeof at);
-            at[0] = i;
-            at[1] -= trace->record[i].change;
-            if (words)
-                plot_label(&plot, 1, at, COLOUR_X, "%s",
-                           format_number(at[1]).text);
-            else if (at[1] > 0)
-                plot_disc(&plot, at, 4.5, COLOUR_X);
-            if (!words && at[1] > 0 && after[1] > 0)
-                plot_line(&plot, at, after, 1.6, COLOUR_X);
-        }
-    }
-}
-
-/* Draws E from x^n to x_tilde; in a wide card also E at each iterate. */
-void step_energy_draw(const Plot *card)
-{
-    const Pane *pane = card->pane;
-    const Trace *trace = pane->trace;
-    bool wide = card->box.width > 36 * card->em;
-    Plot left = *card, right = *card;
-    if (!trace || !trace->x_tilde || !trace->x_n) {
-        card_write_hint(card, text_undrawn);
-        return;
-    }
-    int width = (int)((wide ? 0.52 : 1) * card->box.width);
-    left.box = box_cut_off(&right.box, EDGE_LEFT, width);
-    box_cut_off(&right.box, EDGE_LEFT, paper_pixels(card->paper, 1));
-    draw_energy_parts(&left, &card->simulation->system, trace,
-                      pane_positions(pane));
-    if (wide)
-        draw_remaining_decrease(&right, trace);
 }
 
 /* Draws the residuals of the updates, and of the next update if p is known. */
