@@ -115,9 +115,19 @@ verdict without_a_screen_it_draws_pictures "$(
         echo "$(ls lecture_pictures | wc -l) pictures"
     [ "$(cksum lecture_pictures/*.bmp | cut -d ' ' -f 1 | sort -u |
         wc -l)" -gt 50 ] || echo 'they are all alike'
-    # the middle node, a disc: blue, green, red of a BMP
-    [ "$(od -An -tx1 -v lecture_pictures/step_000.bmp | tr -d ' \n' |
-        grep -o ff0000 | wc -l)" -gt 500 ] || echo 'nothing blue'
+    # blue pixels of step 0: discs of radius 5 around 300 by 214 pixels, springs
+    od -An -tx1 -v -j54 -w1800 lecture_pictures/step_000.bmp | awk '
+        { for (i = 1; i < 1800; i += 3)
+              if ($i $(i + 1) $(i + 2) == "ff0000") {
+                  blue++
+                  left = !left || i < left ? i : left
+                  right = i > right ? i : right
+                  low = low ? low : NR
+                  high = NR
+              } }
+        END { size = (right - left) / 3 " by " (high - low)
+              if (blue < 7000 || blue > 7300 || size !~ /^30[78] by 22[12]$/)
+                  print blue " blue pixels, " size }'
     [ "$(wc -l <drawn)" = 2526 ] || echo "drawn has $(wc -l <drawn) lines"
 )"
 verdict pictures_that_cannot_be_written_fail "$(

@@ -193,7 +193,7 @@ sub passes {
     my ($suite, $settings) = @_;
     my $run = $suite =~ /\.sh$/ ? "sh tests/checks/$suite" : "build/release/tests/unit/$suite";
     return system("ulimit -c 0; $settings " .
-        "exec timeout -k 5 600 $run >log 2>&1 </dev/null") == 0;
+        "exec timeout -k 5 3600 $run >log 2>&1 </dev/null") == 0;
 }
 
 sub build {
