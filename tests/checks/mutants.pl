@@ -1,6 +1,6 @@
 #!/usr/bin/perl
 # Tests of the tests: puts faults into a copy of the sources, one at a time, and
-# runs the suites and checks until one fails.
+# runs tests until one fails.
 #
 #   make mutants                        the faults of tests/data/mutants.txt
 #   make mutants ARGS=WORD              those of its lines with this word
@@ -19,8 +19,8 @@
 # order of arguments or constant, a statement or a reset that is dropped.  One
 # seed draws the same ones as long as the sources stay.  A fault that the
 # compiler notices, or that leaves the same machine code, is drawn again.  Only
-# the suites and checks that run the line are tried, the quickest first; a line
-# that none of them runs has a survivor.  build/coverage keeps which ones run it.
+# the tests that run the line are tried, the quickest first; a line that none of
+# them runs has a survivor.  build/coverage keeps which tests run which line.
 # Survivors need a reader: some of them change nothing that anybody could notice.
 use strict;
 use warnings;
@@ -187,92 +187,106 @@ sub lines_of {
     return @lines;
 }
 
-# ---- what each suite runs ------------------------------------------------------------
-# Runs a suite or check; returns whether it passed.
+# ---- what each test runs -------------------------------------------------------------
+# Runs a check, a suite, or one test of a suite ("SUITE NAME"); returns whether it
+# passed.
 sub passes {
-    my ($suite, $settings) = @_;
+    my ($test, $settings) = @_;
+    my ($suite, $name) = split(/ /, $test, 2);
     my $run = $suite =~ /\.sh$/ ? "sh tests/checks/$suite" : "build/release/tests/unit/$suite";
+    $run .= " '" . $name =~ s/'/'\\''/gr . "'" if defined $name;
     return system("ulimit -c 0; $settings " .
         "exec timeout -k 5 3600 $run >log 2>&1 </dev/null") == 0;
 }
 
 sub build {
-    my ($settings, @suites) = @_;
-    return system("make -s $settings build/elasto build/lecture " . join(' ',
-        map { "build/release/tests/unit/$_" } grep !/\.sh$/, @suites) . ' >log 2>&1') == 0;
+    my ($settings, @tests) = @_;
+    my %suites = map { s/ .*//r => 1 } grep !/^check/, @tests;
+    return system("make -s $settings build/elasto build/lecture " .
+        join(' ', map { "build/release/tests/unit/$_" } sort keys %suites) . ' >log 2>&1') == 0;
 }
 
-# $runs{FILE}[LINE]: the suites that run this line, the quickest first; undef: the
-# compiler has made no code of it alone.
-my %runs;
+# The checks, the suites, and the single tests of slow suites, with their run times
+# in s.  $runs{FILE}[LINE]: a bit for each of them, 1 if it runs this line; undef:
+# the compiler has made no code of this line alone.
+my (@tests, @seconds, %runs);
 
-# Builds a copy of the tree that counts what is run, and runs every suite there;
-# or reads what was counted before in the same sources.
+# Runs a test in the tree that counts, and keeps what it ran.  Returns the names of
+# its parts.
+sub count_lines {
+    my ($test) = @_;
+    my $begin = time;
+    passes($test, '') || $test !~ / / or print "$test: fails alone\n";
+    push @tests, $test;
+    push @seconds, time() - $begin;
+    my @parts = read_file('log') =~ /^\[ RUN      \] (.*)$/mg;
+    my $file = '';
+    for (split(/\n/, `find build -name '*.gcda' | xargs gcov -t 2>/dev/null`)) {
+        $file = $1 if /^ *-: +0:Source:(.*)/;
+        next unless $file =~ /^src/ && /^ *(\d+|#####)\*?: *(\d+):/;
+        $runs{$file}[$2] //= '';
+        vec($runs{$file}[$2], $#tests, 1) = $1 ne '#####';
+    }
+    system(q(find build -name '*.gcda' -delete));
+    return @parts;
+}
+
+# Builds a copy of the tree that counts, and runs every test there; or reads what
+# was counted before in the same sources.
 sub load_counts {
     my $sources = md5_hex(map { read_file($_) } grep /\.(?:[ch]|inc|def|awk|sh|txt)$/,
                           sort(glob('src/* src/*/* include/*/* tests/*/*')));
     my $kept = eval { retrieve('../coverage') };
-    if ($kept && $kept->{sources} eq $sources) {
-        @suites = @{ $kept->{suites} };
-        %runs = %{ $kept->{runs} };
-        return;
-    }
-    print "counting which suite runs which line\n";
-    my %seconds;
-    system('mkdir -p counted/build && cp -pR Makefile README.md include src tests counted && ' .
-           'cp -p build/*.mk counted/build') == 0 or die;
-    chdir 'counted' or die;
-    build("CFLAGS='-Og -g --coverage'", @suites) or die read_file('log');
-    for my $suite (@suites) {
-        my $begin = time;
-        passes($suite, '');
-        $seconds{$suite} = time() - $begin;
-        my $file;
-        for (split(/\n/, `find build -name '*.gcda' | xargs gcov -t 2>/dev/null`)) {
-            $file = $1 if /^ *-: +0:Source:(.*)/;
-            $runs{$file}[$2]{$suite} += $1 eq '#####' ? 0 : 1
-                if $file =~ /^src/ && /^ *(\d+|#####)\*?: *(\d+):/;
+    if (!$kept || $kept->[0] ne $sources) {
+        print "counting which test runs which line\n";
+        system('mkdir -p counted/build && cp -pR Makefile README.md include src tests counted && ' .
+               'cp -p build/*.mk counted/build') == 0 or die;
+        chdir 'counted' or die;
+        build("CFLAGS='-Og -g --coverage'", @suites) or die read_file('log');
+        for my $suite (@suites) {
+            my @parts = count_lines($suite);
+            next unless @parts && $seconds[-1] > 2;
+            $seconds[-1] = 1e9; # its tests run one by one instead
+            count_lines("$suite $_") for @parts;
         }
-        system(q(find build -name '*.gcda' -delete));
+        chdir '..';
+        $kept = [$sources, \@tests, \@seconds, \%runs];
+        nstore($kept, '../coverage');
     }
-    @suites = sort { $seconds{$a} <=> $seconds{$b} } @suites;
-    for my $lines (values %runs) {
-        for my $line (grep defined, @$lines) {
-            my %seen = %$line;
-            $line = [grep $seen{$_}, @suites];
-        }
-    }
-    chdir '..';
-    nstore({ sources => $sources, suites => \@suites, runs => \%runs }, '../coverage');
+    @tests = @{ $kept->[1] };
+    @seconds = @{ $kept->[2] };
+    %runs = %{ $kept->[3] };
 }
 
-# The suites that run a line of a file; all of them outside functions, for tables.
+# The tests that run a line of a file; all of them outside functions, for tables.
 # The counts do not see the checks that compile lecture.c themselves.
-sub suites_of {
+sub tests_of {
     my ($file, $number, $text) = @_;
     my @lines = ('', split(/\n/, $text));
-    $number-- until $runs{$file}[$number] || $lines[$number] =~ /^[}\w]/ || !$number;
-    return ($runs{$file}[$number] ? @{ $runs{$file}[$number] } : @suites,
+    $number-- until defined $runs{$file}[$number] || $lines[$number] =~ /^[}\w]/ || !$number;
+    my $bits = $runs{$file}[$number];
+    my @found = grep { $seconds[$_] < 1e9 && (!defined $bits || vec($bits, $_, 1)) } 0 .. $#tests;
+    return ((map { $tests[$_] } sort { $seconds[$a] <=> $seconds[$b] } @found),
             $file eq 'src/lecture.c' ? qw(check_lecture.sh check_homework.sh) : ());
 }
 
 # ---- one fault after the other -----------------------------------------------------
-# The first suite that fails, or nothing.  A check may fail by chance once.
+# The first test that fails, or nothing.  A check may fail by chance once.
 my $quick = 'ulimit -S -t 60; CMOCKA_TEST_ABORT=1';
 sub killer {
     return '' unless @_;
     build('', @_) or return 'make';
-    for my $suite (@_) {
-        passes($suite, $quick) || ($suite =~ /\.sh$/ && passes($suite, $quick)) or return $suite;
+    for my $test (@_) {
+        passes($test, $quick) || ($test =~ /\.sh$/ && passes($test, $quick)) or return $test;
     }
     return '';
 }
 
-my %right; # suites that pass without a fault: those that found one are tried
+my %right; # tests that pass without a fault: those that found one are tried
 
 # Its killer, '' for none; undef: it is no fault.
 sub try_fault {
-    my ($file, $begin, $length, $new, @suites) = @_;
+    my ($file, $begin, $length, $new, @tests) = @_;
     my ($object) = $file =~ m{^src/(.*)\.c$} ? "build/release/$1.o" : 'none';
     my $again = $object =~ s{/\w+/(?=\w+\.o)}{/narrow/}r; # a suite has it, too
     $again = 'build/release/tests/unit/test_reference.o' if $file eq 'src/lecture.c';
@@ -286,7 +300,7 @@ sub try_fault {
     my $fault = $object eq 'none' || (system("make -s $object >log 2>&1") == 0 &&
         read_file('log') !~ /warning:/ &&
         system("strip -g -o a object && strip -g -o b $object && cmp -s a b") != 0);
-    my $found = $fault ? killer(@suites) : undef;
+    my $found = $fault ? killer(@tests) : undef;
     write_file($file, $text);
     utime undef, undef, $file if $object eq 'none';
     unlink $again;
@@ -334,7 +348,7 @@ if ($how eq '--random') {
         my ($file, $number, $at, $kinds) = @{ $lines[rand @lines] };
         my ($kind, $column, $length, $new) = @{ $kinds->[rand @$kinds] };
         my $killer = try_fault($file, $at + $column, $length, $new,
-                               suites_of($file, $number, $text{$file})) // next;
+                               tests_of($file, $number, $text{$file})) // next;
         my $old = substr($text{$file}, $at + $column, $length);
         report($file, $killer, "$file:$number $kind: $old -> $new");
         $count--;
