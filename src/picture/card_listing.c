@@ -111,9 +111,8 @@ bool residuals_fill_row(const FrameContent *content, int row,
     const NewtonRecord *now =
         &trace->record[row <= count ? row - 1 : count - 1];
     if (row > count) {
-        snprintf(cells->cell[1], CARD_CELL, "%s\u2264 %s: the loop ends",
-                 now->residual > trace->tolerance ? "the next is " : "",
-                 format_number(trace->tolerance).text);
+        snprintf(cells->cell[1], CARD_CELL, "%s\u2264 \u03b5: the loop ends",
+                 now->residual > trace->tolerance ? "next " : "");
         return row == count + 1 && now->status == STATUS_OK;
     }
     snprintf(cells->cell[0], CARD_CELL, "%d", row);

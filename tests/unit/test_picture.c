@@ -406,7 +406,7 @@ TEST(readme_shows_what_is_drawn)
         different += far > 0;
     }
     fclose(list);
-    CHECK(count == 20 && different == 0);
+    CHECK(count == 30 && different == 0);
 }
 
 /* ---- files (what runs leave: check_files.sh) ---------------------------- */
