@@ -69,7 +69,7 @@ extern const CommandRow command_rows[COMMAND_KINDS];
 /* Returns the command of a key such as "Shift+N", with the key as its text, or
  * COMMAND_NONE.
  *   repeats  in, the key is held down */
-Command command_from_key(const char *key, bool repeats, KeyScope keyboard);
+Command command_from_key(const char *key, bool repeats, KeyScope scope);
 
 /* Prints the text of --help commands. */
 void commands_print_help(FILE *file);

@@ -165,7 +165,7 @@ Status past_begin_runs(Past *past, const Options *options, int panes,
 Status past_edit(Past *past, const Command *edit, int from, int to, bool again,
                  int gesture);
 
-/* Sets the step to be shown, 0 ... newest + 1, and abandons the present work.
+/* Sets the shown step, cut to 0 ... newest + 1; abandons the present work.
  *   again  the step is made once more, with samples of E in each iteration */
 void past_choose_step(Past *past, long step, bool again);
 

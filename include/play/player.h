@@ -3,7 +3,7 @@
  *
  *   keys, mouse, chips, scripts, pages -> Command    (hands.c, command.h)
  *   player_obey: calls the command's function        (obey.c)
- *   this function: edits the past, or chooses the step to be shown
+ *   that function: edits the past, or chooses the step to be shown
  *   player_work: past_iterate until that step is shown (steps.c)
  *
  * From a key to Newton's method: player_obey_input, player_obey, player_work,

@@ -8,13 +8,13 @@
 /* Kinds of events, and the fields of Input that each has. */
 typedef enum InputKind {
     INPUT_NONE,
-    INPUT_KEY,     /* a key is pressed: key, repeats */
+    INPUT_KEY,     /* a key is down: key, is_repeat */
     INPUT_CLOSE,   /* the user closes the window */
     INPUT_REDRAW,  /* the window was uncovered or resized */
     INPUT_MOVE,    /* the mouse moves: x, y */
     INPUT_PRESS,   /* a button is pressed: button, clicks, x, y */
     INPUT_RELEASE, /* a button is released: button, x, y */
-    INPUT_WHEEL,   /* the wheel turns: amount, x, y */
+    INPUT_WHEEL,   /* turned: wheel_notches, x, y */
     INPUT_LEAVE    /* the mouse has left the window */
 } InputKind;
 

@@ -1,7 +1,7 @@
 /* scene.h - what a scene is: a row of the table in scenes.h.
  *
- * A new scene is a row in scene.c and a function that fills the system and the
- * start, such as create_square.  Keys, files, options and --list read the row.
+ * A new scene is a row in scene.c; its function, such as create_square, fills
+ * the system and the start.  Keys, files, options and --list read the row.
  */
 #pragma once
 

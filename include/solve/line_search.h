@@ -21,7 +21,7 @@ typedef double (*EnergyDifference)(const void *function, double alpha);
 enum { LINE_SEARCH_MAX_HALVINGS = 64 };
 
 /* Algorithm 2: while E(x + alpha p) > E(x), alpha = alpha/2.
- *   alpha   in: the first trial, 1 or as much as contact allows; out: the first
+ *   alpha   in: the first trial, 1 or as much as terms allow; out: the first
  *           trial, or 1/2, 1/4, ... of it; 0 after a failure
  *   trials  out, number of energies compared
  * Returns OK, LINE_SEARCH_LIMIT. */

@@ -1,4 +1,4 @@
-/* paper.c - texts in a size that fits the window. */
+/* paper.c - a canvas, and texts that fit on it. */
 #include "picture/paper.h"
 
 #include <math.h>

@@ -43,13 +43,13 @@ static bool has_key(const char *keys, const char *key)
     return false;
 }
 
-Command command_from_key(const char *key, bool repeats, KeyScope keyboard)
+Command command_from_key(const char *key, bool repeats, KeyScope scope)
 {
     Command command = {.kind = COMMAND_NONE};
     for (int i = COMMAND_KINDS - 1; i > 0 && !command.kind; i--) {
         const CommandRow *row = &command_rows[i];
         unsigned listens = row->key_scope ? row->key_scope : AT_PLAY;
-        if (!(listens & keyboard) || !has_key(row->keys, key))
+        if (!(listens & scope) || !has_key(row->keys, key))
             continue;
         if (repeats && !(row->flags & REPEATS))
             break;

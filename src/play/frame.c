@@ -1,4 +1,4 @@
-/* frame.c - fills the contents of a frame, and draws it on the paper. */
+/* frame.c - fills the contents of a frame; frame_draw draws them. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

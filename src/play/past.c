@@ -407,8 +407,8 @@ static Status pane_run_load_state(PaneRun *run, const State *state)
     return status;
 }
 
-/* Brings a pane's run to the last step up to `goal` whose state is stored.  If
- * states are not stored, the run is at that step already. */
+/* Brings a pane's run near `goal`, if need be to the last stored state before
+ * it.  If states are not stored, the run is at that step already. */
 static Status pane_run_seek(Past *past, int pane, long goal)
 {
     PaneRun *run = &past->pane[pane];

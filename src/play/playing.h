@@ -103,7 +103,7 @@ Status player_edit(Player *player, const Command *change, int from, int to,
 /* Iterates until the chosen step is shown; in a window at most for SLICE. */
 Status player_work(Player *player);
 
-/* Chooses the step to be shown, 0 ... newest + 1.  player_work makes it;
+/* Sets the shown step, cut to 0 ... newest + 1.  player_work makes it;
  * player_obey calls player_work after each command. */
 Status player_seek(Player *player, long step, AfterWork after);
 
@@ -167,7 +167,7 @@ Paper *player_prepare_paper(Player *player);
 /* Fills the frame, and draws it on a paper. */
 void player_paint_frame(Player *player, Paper *paper);
 
-/* ---- panes.c, bodies.c, screen.c, keepsakes.c: functions of commands ----- */
+/* ---- sheet.c, steps.c to keepsakes.c: functions of commands -------------- */
 
 /* A function that obeys a command.  Returns as player_obey. */
 typedef Status CommandFunction(Player *player, const Command *command);

@@ -109,7 +109,7 @@ static void book_gain(Simulation *simulation)
     ledger->gain.energy += gained;
 }
 
-/* Runs step one after another.  Returns their last status that is not OK. */
+/* Each run steps in turn.  Returns their last status that is not OK. */
 Status simulation_advance(Simulation *simulation)
 {
     while (simulation->stepping < simulation->runs) {

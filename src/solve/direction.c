@@ -341,7 +341,7 @@ static double bound_largest_movement(const Newton *newton, double norm)
 
 /* Computes the residual of p, and tests it.
  *   exact  whether p solves H p = -g up to rounding.  Otherwise the bound of
- *          its error, without rounding of g, must pass the test, too. */
+ *          its error, without rounding of g, is added to it. */
 static Status find_residual(Newton *newton, bool exact)
 {
     NewtonRecord *record = &newton->record;

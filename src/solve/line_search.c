@@ -51,12 +51,12 @@ Status find_step_length(Newton *newton)
     NewtonRecord *record = &newton->record;
     SearchContext search = {newton,
                             incremental_potential_prepare_line(&newton->at)};
-    int looks;
+    int tries;
     record->alpha = incremental_potential_max_step(&newton->at);
     record->slope = search.line.polynomial.q[0];
     record->trials = 0;
     Status status =
-        line_search_backtrack(step_difference, &search, &record->alpha, &looks);
+        line_search_backtrack(step_difference, &search, &record->alpha, &tries);
     if (!status)
         return STATUS_OK;
     record->change = 0;

@@ -73,8 +73,8 @@ int newton_most_iterations(const Newton *newton)
                : newton->settings.max_iterations;
 }
 
-/* Decides whether the loop ends: by the test of Algorithm 3, a failure,
- * rounding, or the number of iterations.  If p passes the test and rounding
+/* Decides whether the loop ends: p or a bound of the next p has passed the test
+ * of Algorithm 3, a failure, rounding, or too many iterations.  If p passes the test and rounding
  * hides the decrease of E, the step has converged without p.  Without a line
  * search an end above the start is DIVERGED.
  *   status  in, result of direction, step length and update */

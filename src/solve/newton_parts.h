@@ -9,8 +9,8 @@
 typedef struct NewtonPhases {
     /* Computes g and p at x, and the residual of p.  Sets newton->passes_test
      * if the residual is at most the tolerance, unless a turn may follow
-     * (turns_may_follow) that turn_free_body does not make.  Returns OK or a
-     * failure. */
+     * (turns_may_follow) that turn_free_body does not make.  Returns OK, or
+     * why there is no p. */
     Status (*find_direction)(Newton *newton);
     /* Computes alpha, trials, slope and change, and the end of the step in
      * u_trial and x_trial.  Returns OK, or why no step lowers E:
