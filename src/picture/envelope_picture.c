@@ -93,17 +93,13 @@ void envelope_add_values(const Simulation *simulation, LiveValues *values)
 {
     const EnvelopeMap *map = &simulation->exhibit.envelope;
     const EnvelopeCell *cell = &map->cell[map->row][map->column];
-    double h = envelope_timestep(map->column), m = simulation->system.m[0];
+    double h = envelope_timestep(map->column);
     int known = 0, converged = 0;
-    bool only_rounding = true; /* rounding is the only reason of failures */
     for (int i = 0; i < ENVELOPE_ROWS * ENVELOPE_COLUMNS; i++) {
-        int row = i / ENVELOPE_COLUMNS, column = i % ENVELOPE_COLUMNS;
-        const EnvelopeCell *one = &map->cell[row][column];
-        double step = envelope_timestep(column);
-        double ratio = step * step * envelope_stiffness(row) / m;
+        const EnvelopeCell *one =
+            &map->cell[i / ENVELOPE_COLUMNS][i % ENVELOPE_COLUMNS];
         known += one->known;
         converged += one->known && !one->worst;
-        only_rounding = only_rounding && (!one->worst || ratio > 1e16);
     }
     values->colour[0] = colour_of_shade(ENVELOPE_SHADES);
     values->colour[1] = colour_of_shade(2);
@@ -111,8 +107,7 @@ void envelope_add_values(const Simulation *simulation, LiveValues *values)
     bool all = known == ENVELOPE_ROWS * ENVELOPE_COLUMNS;
     values_add_flag(values, all ? "all runs" : "some runs", true);
     values_add_flag(values, "all converged", all && converged == known);
-    values_add_flag(values, only_rounding ? "rounded" : "refused",
-                    all && converged < known);
+    values_add_flag(values, "refused", all && converged < known);
     values_add(values, "known", known > 1 ? known : NAN);
     values_add(values, "converged", converged);
     values_add(values, "h", h);
