@@ -1,6 +1,6 @@
 /* scene.h - what a scene is: a row of the table in scenes.h.
  *
- * A new scene is a row in scene.c; its function, such as create_square, fills
+ * A new scene is a row in scene.c, whose function, such as create_square, fills
  * the system and the start.  Keys, files, options and --list read the row.
  */
 #pragma once
