@@ -14,7 +14,7 @@ static inline double clock_now(void)
 
 /* Processor time that this program has used, s, so other programs do not count.
  * A system without such a clock gives the elapsed time. */
-static inline double clock_processor(void)
+static inline double clock_processor_time(void)
 {
     struct timespec now;
     if (clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now))

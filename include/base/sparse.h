@@ -13,7 +13,7 @@
 
 typedef struct Triplets {
     int size;    /* rows = columns of the matrix */
-    long long count; /* number of triplets */
+    long long entries; /* number of triplets */
     int *row; /* [count] row of each triplet, >= column; NULL: only counted */
     int *column; /* [count] column of each triplet */
 } Triplets;
@@ -21,7 +21,7 @@ typedef struct Triplets {
 typedef struct Sparse {
     int size;      /* rows = columns */
     int entries;   /* stored entries */
-    int *start;    /* [size+1] column c is start[c] ... start[c+1]-1 */
+    int *column_start; /* [size+1] column c is start[c] ... start[c+1]-1 */
     int *row;      /* [entries] row of each entry, ascending in each column */
     double *value; /* [entries+1] value[entries] sums the dropped entries */
     int *slot;     /* [triplets] place of each triplet in value */

@@ -16,38 +16,39 @@ typedef struct LecturePage {
     const char *name;     /* name for --lecture, one word */
     const char *topic;    /* title of the slide */
     const char *section;  /* heading above the page in the list, or NULL */
-    bool extra;           /* whether the 80 minutes leave the page out */
+    bool is_extra;        /* whether the 80 minutes leave the page out */
     const char *text;     /* text: what the page is about */
     const char *formula;  /* text: large formulas, one on a line, or NULL */
-    const char *line;     /* scene and settings, as on the command line */
+    const char *command_line; /* scene and settings, as on the command line */
     const char *cards;    /* names of the open cards, separated by blanks */
-    const char *look;     /* text: the answer, and what to look at */
-    const char *touch;    /* text: what to change, and what will happen */
-    const char *ask;      /* text: the question before the answer, or NULL */
+    const char *look_text; /* text: the answer, and what to look at */
+    const char *try;       /* text: what to change, and what will happen */
+    const char *question;  /* text: the question before the answer, or NULL */
     const char *answer;   /* live value that is the right number; "click": the
                              end of the next step; NULL: the answer is words */
-    const char *veils;    /* names of cards hidden before the answer, or NULL */
+    const char
+        *covered_cards; /* names of cards hidden before the answer, or NULL */
     const char *main_card; /* name of the enlarged card, or NULL */
-    const char *law;      /* name of the curve in the card `law`, or NULL */
+    const char *law_name;  /* name of the curve in the card `law`, or NULL */
     const char *notes;    /* text for the lecturer */
     const char *file;     /* path of the source shown by K */
     const char *function; /* functions shown by K, separated by ',' */
     const char *const *code; /* code lines of `function`, then NULL */
-    const char *lit;         /* code lines with this text are highlighted */
-    const char *const *lit_at_line; /* [LINES_WALKED] text of the code lines that
-                                       are highlighted at each line of Algorithm
-                                       3; NULL: `lit` */
+    const char *highlight;   /* code lines with this text are highlighted */
+    const char *const *line_highlight; /* [LINES_WALKED] text of the code lines
+                                       that are highlighted at each line of
+                                       Algorithm 3; NULL: `lit` */
     const char *claim;       /* statement that a test checks */
-    unsigned flips;          /* bit s: switch s of the scene is turned over */
-    int picture;             /* step that the printed page shows */
+    unsigned switch_flips;   /* bit s: switch s of the scene is turned over */
+    int print_step;          /* step that the printed page shows */
     double speed;            /* steps for each frame; 0: as in the scene */
-    const char *open;        /* commands at the opening, separated by ';' */
-    const char *tell;        /* commands at the answer, separated by ';' */
-    int lines;               /* presses of N before the page is printed; 0: it
-                                is printed at the step `picture` */
+    const char *on_open;     /* commands at the opening, separated by ';' */
+    const char *on_answer;   /* commands at the answer, separated by ';' */
+    int presses;             /* presses of N before the page is printed; 0: it
+                              is printed at the step `picture` */
     unsigned layers; /* bits of PictureLayer: additions to the picture */
-    NextAction next;         /* effect of the key N after the answer */
-    int pause;               /* step at which a run pauses; 0: none */
+    NextAction next_action; /* effect of the key N after the answer */
+    int pause_step;         /* step at which a run pauses; 0: none */
 } LecturePage;
 
 /* All pages; the table ends with a page whose name is NULL. */

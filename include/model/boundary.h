@@ -27,14 +27,14 @@ typedef struct Box2 {
 } Box2;
 
 typedef struct Boundary {
-    SquareMesh shape;
+    SquareMesh mesh;
     unsigned version;     /* System.version for which the boundary was found */
     int points, edges;    /* numbers of points and edges */
-    int *point;           /* [nodes] node of each point */
+    int *point_node;      /* [nodes] node of each point */
     Box2 *edge_box;       /* [springs] boxes of the edges, sorted */
     Box2 *point_box;      /* [nodes] box of each point, by node */
     unsigned char *sides; /* [springs] solid triangles at each spring */
-    unsigned char *role;  /* [nodes] bits: in a triangle, on an edge */
+    unsigned char *node_role; /* [nodes] bits: in a triangle, on an edge */
 
     /* Motion for which the boxes were made: from x by alpha (p - mean). */
     bool boxes_valid; /* whether the boxes belong to the present boundary */
@@ -46,8 +46,8 @@ typedef struct Boundary {
     double margin;    /* m, each box is wider by it at all sides */
     double widest;    /* m, largest extent of an edge's box, coordinate 0 */
     bool sorts_by_y;  /* whether coordinate 0 of the boxes is y */
-    bool lists_near;  /* whether `near` had room for all near edges */
-    int *near;        /* [8 nodes] near edges, point by point */
+    bool has_near_edges; /* whether `near` had room for all near edges */
+    int *near_edge;      /* [8 nodes] near edges, point by point */
     int *near_list_end; /* [nodes] end of each point's edges in `near` */
 } Boundary;
 

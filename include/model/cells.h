@@ -17,8 +17,8 @@
 
 typedef struct Cells {
     Triangles triangles; /* four in each cell */
-    int (*spring)[3];    /* [triangles.count] sides of each triangle, which ends
-                            when one breaks */
+    int (*sides)[3];     /* [triangles.count] sides of each triangle, which ends
+                             when one breaks */
     double c;            /* J, A0 k_c */
 } Cells;
 

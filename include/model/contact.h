@@ -73,20 +73,21 @@ enum { CONTACT_MAX_OBSTACLES = 20 };
 
 /* An obstacle that a hand pulls to a point (push.c). */
 typedef struct Push {
-    bool on;          /* whether a hand holds an obstacle */
+    bool held;        /* whether a hand holds an obstacle */
     int obstacle;     /* number of the obstacle */
     double target[2]; /* m, target of the obstacle's point o */
-    SquareMesh shape; /* mesh of the bodies, whose cells no ball may enter */
+    SquareMesh mesh;  /* mesh of the bodies, whose cells no ball may enter */
     bool stopped;     /* the obstacle found no room to move in this step */
-    double moved;     /* part of the step before the obstacle stopped */
+    double moved_part; /* part of the step before the obstacle stopped */
 } Push;
 
 typedef struct Contact {
     Barrier barrier;
     int obstacles;
     Obstacle obstacle[CONTACT_MAX_OBSTACLES];
-    int ball; /* number of the free ball, whose centre is a node; -1: none */
-    Push push;
+    int free_ball; /* number of the free ball, whose centre is a node; -1: none
+                    */
+    Push hand;
 } Contact;
 
 /* The sum of W over all pairs of a node and an obstacle; data: Contact.  A pair

@@ -20,14 +20,15 @@
 /* An element is a group of one to three nodes with an energy W, such as a
  * triangle or a node near a wall, at given positions. */
 typedef struct Element {
-    int nodes;                 /* 1 ... 3 */
-    int vectors;               /* vectors that W depends on: 1: a, 2: a and b */
+    int node_count;            /* 1 ... 3 */
+    int vector_count;          /* vectors that W depends on: 1: a, 2: a and b */
     int node[3];               /* [nodes] */
     const double (*weight)[3]; /* [vectors] weights of nodes in a and b */
-    int block;   /* index of the matrix block of its entries; -1: none yet */
+    int block_index; /* index of the matrix block of its entries; -1: none yet
+                      */
     int partner; /* obstacle (contact) or spring of the edge (self-contact) */
-    int cursor;  /* > 0: place in a search that the next call of get_element
-                    continues, with the same i */
+    int search_cursor; /* > 0: place in a search that the next call of
+                   get_element continues, with the same i */
     double factor;  /* factor on gradient and Hessian: 1, or EvalPoint.weight
                        if the kind's functions do not multiply by it */
     double v[4];    /* m, the vectors a and b, if the kind uses them */
@@ -39,12 +40,12 @@ typedef struct Element {
  * positions, or their change along a direction.
  *   x  [2n] m, in, positions or a direction
  *   v  [4] m, out, a and b */
-static inline void element_vectors(const Element *element, const double *x,
-                                   double v[4])
+static inline void element_get_vectors(const Element *element, const double *x,
+                                       double v[4])
 {
-    for (int m = 0; m < element->vectors; m++) {
+    for (int m = 0; m < element->vector_count; m++) {
         v[2 * m] = v[2 * m + 1] = 0;
-        for (int k = 0; k < element->nodes; k++) {
+        for (int k = 0; k < element->node_count; k++) {
             const double *at = x + 2 * element->node[k];
             v[2 * m] += element->weight[m][k] * at[0];
             v[2 * m + 1] += element->weight[m][k] * at[1];
@@ -120,7 +121,7 @@ struct ElementKind {
  * W > 0 on the way to x + alpha p: begins with elements_begin(at, p, alpha),
  * goes on while elements_next(&walk). */
 typedef struct ElementIterator {
-    const EvalPoint *at;
+    const EvalPoint *point;
     const ElementKind *kind;
     double way;      /* m, bound on the change of vectors a and b by alpha p */
     int i, count;    /* present element, number of elements */

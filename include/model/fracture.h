@@ -21,7 +21,7 @@ typedef struct Candidate {
 typedef struct Fracture {
     double strength;      /* s_c > 0, mean strain at which springs break */
     Candidate *candidate; /* [springs] workspace */
-    unsigned char *taken; /* [nodes] 1: a spring of the node broke now */
+    unsigned char *is_taken; /* [nodes] 1: a spring of the node broke now */
 } Fracture;
 
 /* Fracture as a term; data: Fracture.  The option's number is s_c.  The term

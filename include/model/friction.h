@@ -34,7 +34,7 @@ typedef struct Friction {
     double slip_speed; /* m/s, eps_v > 0 */
     double e;          /* m, eps_v h */
     int contacts;      /* number of contacts with a normal force in this step */
-    int room;          /* number of contacts for which `contact` has room */
+    int capacity;      /* number of contacts for which `contact` has room */
     SlidingContact contact[]; /* [room] contacts of this step */
 } Friction;
 

@@ -20,8 +20,8 @@
  * damping (damping.h) V has the further summand theta (e - e_n)^2/2. */
 typedef struct FlowLaw {
     double ep;    /* plastic strain at the step's start */
-    double yield; /* yield strain Y_n > 0 */
-    double flow;  /* 1/(1 + H), part of the strain beyond Y_n that flows */
+    double yield_strain; /* yield strain Y_n > 0 */
+    double flow_part; /* 1/(1 + H), part of the strain beyond Y_n that flows */
     double plastic_slope; /* 1 - flow, slope of V' beyond Y_n */
     double theta;         /* damping eta/h; 0: none */
     double e_n;           /* elastic strain e = E - ep at the step's start */
@@ -38,7 +38,7 @@ double flow_law_eigenvalue_along(FlowLaw law, double e, double d2,
                                  double across);
 
 typedef struct Plasticity {
-    double yield;     /* yield strain Y > 0 */
+    double yield_strain; /* yield strain Y > 0 */
     double hardening; /* hardening modulus H >= 0, relative to k */
     double *ep;       /* [springs] plastic strain */
     double *kappa;    /* [springs] accumulated |change of ep| */

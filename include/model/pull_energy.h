@@ -18,8 +18,8 @@ typedef struct Pull {
     double target[2]; /* m, o */
 
     /* The following members are for the hand alone. */
-    double mouse[2]; /* m, position of the mouse */
-    double strength; /* J/m^2, stiffness with which the mouse pulls */
+    double mouse_xy[2]; /* m, position of the mouse */
+    double stiffness;   /* J/m^2, stiffness with which the mouse pulls */
     double cell;     /* m, side of a cell of the pulled body */
     double side;     /* m, side of the pulled body */
 } Pull;

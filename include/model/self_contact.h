@@ -16,7 +16,8 @@
  * between two.
  *
  * The matrix has blocks for the pairs that may be near in this step.  Further
- * pairs that come near during the step get blocks then (TermKind.grow). */
+ * pairs that come near during the step get blocks then
+ * (TermKind.extend_pattern). */
 #pragma once
 
 #include "model/boundary.h"
@@ -33,7 +34,7 @@ typedef struct SelfContact {
     double friction; /* coefficient of friction mu */
     Boundary boundary;
     int pairs;      /* number of blocks in this step */
-    int room;       /* number of pairs for which `pair` has room */
+    int capacity;   /* number of pairs for which `pair` has room */
     int sorted;     /* number of pairs at the start of this step */
     SelfPair *pair; /* [room] the first `sorted` pairs are sorted by node, then
                        by edge */

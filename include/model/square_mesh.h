@@ -25,7 +25,7 @@ typedef struct SquareMesh {
     int nodes;      /* n, nodes of all bodies */
     int springs;    /* springs of all bodies */
     int cells;      /* cells of all bodies; each has four triangles */
-    int outline;    /* outer edges of all bodies */
+    int outline_edges; /* outer edges of all bodies */
 } SquareMesh;
 
 /* Returns twice the signed area of the triangle a b p, m^2: positive if p is

@@ -18,7 +18,7 @@ enum { SYSTEM_MAX_TERMS = 12 };
 
 /* Energy that a system lost for good, for one column of the ledger. */
 typedef struct EnergyLoss {
-    const char *name; /* TermKind.loss */
+    const char *name; /* TermKind.loss_name */
     double energy;    /* J */
 } EnergyLoss;
 
@@ -30,17 +30,20 @@ struct System {
     double *l2;  /* [springs] m^2, rest length squared, > 0 */
     double *k;   /* [springs] J/m^2, stiffness; 0: broken or without energy */
     double gravity[2];     /* m/s^2, acceleration of every node */
-    int *order;            /* [n] place of each node in the elimination order */
+    int *
+        elimination_order; /* [n] place of each node in the elimination order */
     unsigned char *pinned; /* [n] 1: pinned; e, order, pinned share one
                               allocation */
     double *pin_v;         /* [2n] m/s, velocity of pinned nodes; NULL: 0 */
     int segments;     /* segments a side if the system is one square; else 0 */
     unsigned version; /* rises with every change of numbers or terms */
-    unsigned pattern; /* rises when the pattern of the Hessian changes */
+    unsigned
+        pattern_version; /* rises when the pattern of the Hessian changes */
     int terms;
     Term term[SYSTEM_MAX_TERMS]; /* terms in the order of TermKind.place */
-    EnergyLoss lost[SYSTEM_MAX_TERMS]; /* energy lost by column, to a NULL name;
-                                    a loss stays when its term is removed */
+    EnergyLoss
+        losses[SYSTEM_MAX_TERMS]; /* energy lost by column, to a NULL name;
+                             a loss stays when its term is removed */
 };
 
 /* Allocates the arrays, filled with 0, and sets order[i] = i.  The list has the

@@ -32,8 +32,8 @@ typedef struct EvalPoint {
 } EvalPoint;
 
 /* Returns a point with weight 1 and no term selected. */
-EvalPoint eval_point_at(const System *system, const double *x_n,
-                        const double *u, const double *x);
+EvalPoint make_eval_point(const System *system, const double *x_n,
+                          const double *u, const double *x);
 
 /* Selects the next term of the system's list and returns its kind; after the
  * last term selects none and returns NULL. */
@@ -60,7 +60,7 @@ struct TermKind {
 
     /* Columns of the energy ledger: for value(), and for the energy that the
      * term dissipates (system_book_loss).  NULL: no such column. */
-    const char *energy, *loss;
+    const char *energy_name, *loss_name;
 
     /* Order of the list.  Equal places keep the order in which they were added.
      * Sums and end_step thus keep their order when a term is added later. */
@@ -95,7 +95,7 @@ struct TermKind {
      * for example of bodies that came near each other during the step; *grown
      * is then set to true.  The triplets so far keep their places.  NULL: never
      * needed.  Returns OK or OUT_OF_MEMORY. */
-    Status (*grow)(const EvalPoint *at, bool *grown);
+    Status (*extend_pattern)(const EvalPoint *at, bool *grown);
 
     /* Adds weight times the projected Hessian of P at x:
      *   slot  in/out, place of the term's first triplet in the matrix, then of
@@ -134,7 +134,7 @@ struct TermKind {
 
     bool diagonal; /* P is a sum of c/2 |x_i - o|^2 over nodes i, c > 0,
                       so its Hessian is a diagonal matrix */
-    bool external; /* has forces that move the centre of mass */
+    bool is_external;      /* has forces that move the centre of mass */
     bool depends_on_start; /* P depends on x_n too, and a turn changes P */
     bool any_integrator; /* works with every integrator; other terms only with
                             backward Euler, whose x_(n+1) is the minimiser */

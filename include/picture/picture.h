@@ -55,8 +55,8 @@ typedef struct Card {
 typedef struct Picture {
     int count; /* number of cards */
     const Card *const *cards;
-    bool stretched;    /* scales x and y differently, to fill the stage */
-    bool own_handles;  /* draws and picks the scene's handles itself */
+    bool is_stretched;  /* scales x and y differently, to fill the stage */
+    bool draws_handles; /* draws and picks the scene's handles itself */
     bool takes_clicks; /* a click sets a start point or the guess */
     /* Finds the part of the world to show: left, bottom, right, top, m.  The
      * stage has no camera yet.  NULL: default_bounds. */

@@ -24,7 +24,7 @@ typedef struct TextStyle {
     Face face;
     double size; /* pixels an em, 5 ... 400; other sizes draw nothing */
     Colour colour;
-    bool plain;      /* has no markup; braces are ordinary characters */
+    bool is_plain;   /* has no markup; braces are ordinary characters */
     double min_size; /* pixels, least size of scripts and fractions */
 } TextStyle;
 
@@ -44,7 +44,7 @@ double text_line_height(double size);
 /* Extent of a line in pixels, above and below the baseline, at least that of a
  * line of words.  The width is a whole number. */
 typedef struct TextExtent {
-    double width, above, below;
+    double width, ascent, descent;
 } TextExtent;
 TextExtent text_extent(Text *text, const TextStyle *style, const char *markup);
 

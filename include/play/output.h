@@ -49,7 +49,7 @@ Status output_report_failure(const Output *output, const char *why);
 /* Returns the text of a status; for FILE_FAILED the text of errno. */
 const char *output_reason(Status status);
 
-/* Prints a formatted text as one line (make_one_line). */
+/* Prints a formatted text as one line (replace_line_breaks). */
 void print_line(FILE *file, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 

@@ -118,8 +118,8 @@ typedef struct Past {
     PaneRun pane[OPTIONS_MAX_PANES];
     bool stores_states;    /* states are stored: the user may go back */
     bool panes_fail_alone; /* a pane that fails ends alone; the others go on */
-    long written; /* last step with valid rows in the tables; -1: none */
-    long booked;  /* last step whose energies in the tables are valid */
+    long written_to; /* last step with valid rows in the tables; -1: none */
+    long booked_to;  /* last step whose energies in the tables are valid */
     size_t used_bytes, max_bytes; /* memory of states, samples; its limit */
     int line_pane;       /* pane in which E along p is drawn; -1: none */
     WorkStage work_stage; /* stage of the work that leads to `aim_step` */
@@ -131,13 +131,13 @@ typedef struct Past {
 } Past;
 
 /* Whether there is work left that leads to the aim. */
-static inline bool past_works(const Past *past)
+static inline bool past_is_working(const Past *past)
 {
     return past->work_stage != WORK_DONE;
 }
 
 /* Whether a new step is being made. */
-static inline bool past_makes(const Past *past)
+static inline bool past_makes_step(const Past *past)
 {
     return past->work_stage >= WORK_MAKES;
 }

@@ -225,7 +225,7 @@ bool player_ended(const Player *player);
 
 /* Describes how a pane differs: "h 0.01 s, ended at step 3".  A value that all
  * panes but one share is left out where others tell the pane apart. */
-void player_label(const Player *player, int pane, char label[LABEL_SIZE]);
+void player_write_label(const Player *player, int pane, char label[LABEL_SIZE]);
 
 /* Returns the hash of the present states of all panes (state_hash). */
 uint64_t player_hash(const Player *player);

@@ -38,7 +38,7 @@ Status film_add(Film *film, const Canvas *canvas, int times);
 Status film_close(Film *film, FileEnding keep);
 
 /* Whether a film was begun and not ended. */
-static inline bool film_runs(const Film *film)
+static inline bool film_is_open(const Film *film)
 {
     return film->output.file != NULL;
 }

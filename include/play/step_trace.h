@@ -57,7 +57,7 @@ typedef struct StepTrace {
     double *end_x;     /* [x_length] m, x after the last iteration, or NULL */
     size_t used_bytes; /* memory of the rounds */
     TracePlace *place; /* [places] in the order of the walk */
-    int places;        /* number of places; 0 if memory is missing */
+    int place_count;   /* number of places; 0 if memory is missing */
 } StepTrace;
 
 /* Begins the trace of a step.  E along p is sampled in each iteration (`all`,
@@ -91,7 +91,7 @@ int step_trace_find_place(const StepTrace *trace, int round, StepLine line);
 
 /* Returns the index of the place where E was highest, if E exploded: E rose by
  * more than ten times its change in the whole step.  -1: E did not explode. */
-int step_trace_peak(const StepTrace *trace);
+int step_trace_find_peak(const StepTrace *trace);
 
 /* Fills what a picture shows at a place; place -1: after the step.  Pointers of
  * `shown` lead into the trace.  Returns positions to draw, [x_length] m; NULL:

@@ -9,10 +9,10 @@ typedef struct Simulation Simulation;
 
 /* A user's guess where the next step leads, and where the step does lead. */
 typedef struct Prediction {
-    bool made;       /* the user has made a guess */
+    bool has_guess;  /* the user has made a guess */
     long guess_step; /* steps of the simulation when the user guessed */
-    double at[2];    /* m, the guess */
-    double end[2];   /* m, where the step does lead */
+    double guess[2]; /* m, the guess */
+    double reached[2]; /* m, where the step does lead */
     double distance; /* m, from `at` to `end`; in one variable along x */
 } Prediction;
 
@@ -21,7 +21,7 @@ typedef struct Prediction {
 /* Value, gradient and Hessian (xx, xy, yy) of E or f at a point, in J s^2 and
  * m.  A function of one unknown uses g[0] and H[0]; the other numbers are 0. */
 typedef struct LocalModel {
-    double value, g[2], H[3];
+    double energy, g[2], H[3];
     int projected; /* number of springs whose Hessian was projected */
 } LocalModel;
 
@@ -80,7 +80,7 @@ typedef struct RacePoint {
     bool converged; /* every step converged */
     double energy_after_second; /* energy after 1 s over that at the start; only
                                    for the step size RACE_SHOWN_ROW */
-    bool stable; /* the energy stays bounded when the run goes on */
+    bool is_stable; /* the energy stays bounded when the run goes on */
 } RacePoint;
 
 typedef struct Race {
@@ -93,8 +93,9 @@ typedef struct Race {
 enum { ENVELOPE_STEPS = 3, ENVELOPE_COLUMNS = 25, ENVELOPE_ROWS = 22 };
 
 typedef struct EnvelopeCell {
-    bool known;   /* the run of the cell was made */
-    Status worst; /* last status of the ENVELOPE_STEPS steps that is not OK */
+    bool is_known;       /* the run of the cell was made */
+    Status worst_status; /* last status of the ENVELOPE_STEPS steps that is not
+                            OK */
     int updates;  /* Newton updates of all steps */
 } EnvelopeCell;
 
@@ -109,7 +110,7 @@ typedef struct EnvelopeMap {
 /* Data of all small scenes; a scene uses what it needs. */
 typedef struct Exhibit {
     double exact_start[4]; /* m, m/s, start x, v of one mass's exact path */
-    double target[2];      /* m, x_tilde; in one unknown [0] alone counts */
+    double x_tilde[2];     /* m, x_tilde; in one unknown [0] alone counts */
     unsigned switches;     /* bit s: part s of E is on (LandscapePart); for
                               switches of kinds of springs, kind s is off */
     DialCurve dial;

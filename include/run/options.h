@@ -123,8 +123,8 @@ typedef enum OptionKind {
 
 /* The names of a table whose rows begin with a name; NULL ends the table. */
 typedef struct NameTable {
-    const void *table;
-    size_t size; /* bytes of a row of the table */
+    const void *rows;
+    size_t row_size; /* bytes of a row of the table */
 } NameTable;
 
 #define NAMES_OF(table) ((NameTable){table, sizeof *(table)})
@@ -152,7 +152,7 @@ typedef enum ChangeEffect {
 typedef struct OptionDisplay {
     int place;        /* position in the window's row of numbers, from 1; 0: the
                          row has the option after the user has added it */
-    int letters;      /* letters of the longest value */
+    int max_letters;  /* letters of the longest value */
     double increment; /* change by a notch; 0: a factor, or the next name */
 } OptionDisplay;
 
@@ -172,7 +172,7 @@ typedef struct OptionRow {
     const double *omitted; /* [count] defaults for numbers that are left out */
     char separator;        /* separator of the numbers; 0: a comma */
     int max_times; /* most values of a repeated option; 0: the last counts */
-    int counter;   /* max_times > 0: slot of the number of values */
+    int count_slot;        /* max_times > 0: slot of the number of values */
     double default_value;  /* default, as on the slides */
     double low, high;      /* range, both ends included */
     const char *unit;      /* unit of the numbers, or "" if they have none */

@@ -45,7 +45,7 @@ enum { SCENE_MAX_HANDLES = 4, SCENE_MAX_SWITCHES = 4 };
 /* A part of the picture that can be switched off. */
 typedef struct Switch {
     const char *label;
-    bool on;
+    bool is_on;
 } Switch;
 
 /* Properties of a scene's body for which there is no option. */
@@ -70,7 +70,7 @@ typedef struct Scene {
     const char *sentence; /* description, at most 60 letters */
     PictureKind picture;
     unsigned needs;   /* enum SceneNeeds */
-    const char *line; /* options with other values than on the slides */
+    const char *args; /* options with other values than on the slides */
     /* Fills simulation->system, the mesh and the start. */
     Status (*create)(struct Simulation *simulation);
     double speed;    /* steps a frame when the scene opens; 0 means 1 */
@@ -80,7 +80,7 @@ typedef struct Scene {
                                  which is true only of methods that dissipate */
     const char *step_name; /* name of a step, "iteration"; NULL: a time step */
     bool starts_paused;    /* the window waits at step 0 */
-    const char *group;     /* heading of the group, in its first scene */
+    const char *group_heading; /* heading of the group, in its first scene */
     bool only_by_name;     /* has no key, and no cell in the overview */
     const char *pin;       /* value of --pin */
     SceneBody body;

@@ -31,22 +31,24 @@ struct Simulation {
     Options options;
     SquareMesh mesh; /* mesh of the square; zero in other scenes */
     System system;   /* system of run 0, which all runs may share */
-    System more[SIMULATION_MAX_RUNS]; /* systems of runs 1, 2 if not shared */
+    System run_system[SIMULATION_MAX_RUNS]; /* systems of runs 1, 2 if not
+                                               shared */
     int runs;
     TimeIntegrator run[SIMULATION_MAX_RUNS];
     Ledger ledger[SIMULATION_MAX_RUNS];
-    int stepping; /* run whose step is being computed */
-    Status worst; /* OK, or the last other status of a run in this step */
+    int step_run; /* run whose step is being computed */
+    Status
+        worst_status; /* OK, or the last other status of a run in this step */
     Descent descent;      /* minimisation; zero in scenes that move in time */
     Exhibit exhibit;      /* data of small scenes, and of switches */
     Prediction prediction;   /* guess where the next step leads */
     NewtonObserver observer; /* called after each Newton iteration, or NULL */
-    void *user;              /* argument of observer */
+    void *user_data;         /* argument of observer */
     long steps;              /* steps so far */
     long unconverged;        /* steps so far that did not converge */
-    int reasons[STATUS_COUNT];   /* unconverged steps by their status */
+    int status_counts[STATUS_COUNT]; /* unconverged steps by their status */
     Status status;               /* status of the last step */
-    bool done;                   /* the scene has ended: a step does nothing */
+    bool is_over;                /* the scene has ended: a step does nothing */
     NewtonCounters old_counters; /* work of integrators that were replaced */
 };
 
@@ -57,11 +59,11 @@ typedef struct Energy {
 } Energy;
 
 /* The energies of a run, J.  A run holds
- *   total = kinetic + gravity + what the terms store (TermKind.energy)
+ *   total = kinetic + gravity + what the terms store (TermKind.energy_name)
  * and its balance since the start is
  *   total at the start + work
- *     = total + what the terms have taken out (TermKind.loss) + dissipated.
- * Each term books its own energy; several terms may share a name.
+ *     = total + what the terms have taken out (TermKind.loss_name) +
+ * dissipated. Each term books its own energy; several terms may share a name.
  *
  * The work of a moving wall, pin or hand is its force at the end of the step
  * times its way, which is right to O(h): backward Euler then dissipates in

@@ -64,8 +64,8 @@ typedef struct SpringValues {
     double strain;      /* |d|^2/l2 - 1 */
     double energy;      /* P, J */
     double force[2];    /* -grad P, on the free end, N */
-    double along;       /* eigenvalue of P's Hessian along d, J/m^2 */
-    double across;      /* eigenvalue of P's Hessian across d, J/m^2 */
+    double eigenvalue_along;  /* eigenvalue of P's Hessian along d, J/m^2 */
+    double eigenvalue_across; /* eigenvalue of P's Hessian across d, J/m^2 */
     double root_energy; /* J, energy with the square root, P_root */
     double root_along, root_across; /* J/m^2, eigenvalues of P_root's Hessian;
                                        root_across is -infinity at d = 0 */

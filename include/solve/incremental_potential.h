@@ -89,7 +89,7 @@ static inline double quartic_value(const Quartic *quartic, double alpha)
  * that are no polynomials. */
 typedef struct LineEnergy {
     Quartic polynomial;
-    const Iterate *at;
+    const Iterate *iterate;
     bool has_remainder; /* has terms with a line_remainder (term.h) */
 } LineEnergy;
 

@@ -47,10 +47,10 @@ typedef struct NewtonRecord {
     double seconds;      /* computing time of the iteration */
     Status status;  /* RUNNING, or how the iteration ended the minimisation */
     Solver solver;  /* NEWTON or MULTIGRID */
-    double from[2]; /* m, point before the update, in scenes with one moving
+    double x_before[2]; /* m, point before the update, in scenes with one moving
                        point; else 0 */
-    double to[2]; /* m, point after the update, in scenes with one moving point;
-                     else 0 */
+    double x_after[2];  /* m, point after the update, in scenes with one moving
+                      point;  else 0 */
 } NewtonRecord;
 
 /* Called after each iteration.  Returns false to pause the loop. */
@@ -64,7 +64,7 @@ typedef struct NewtonSettings {
     LineSearch line_search;  /* how the step length is found */
     int max_iterations;      /* most iterations; then ITERATION_LIMIT */
     NewtonObserver observer; /* called after each iteration; NULL: none */
-    void *user;              /* argument of the observer */
+    void *user_data;         /* argument of the observer */
 } NewtonSettings;
 
 /* Counts of the work since the object was made.  No decision reads them. */
@@ -77,7 +77,8 @@ typedef struct NewtonCounters {
     long tile_sweeps;     /* sweeps of multigrid's tiles (tiles.h) */
     long indefinite_ends; /* minimisations that converged with a last p from a
                              Hessian with negative pivots: perhaps a maximum */
-    long handed_over; /* minimisations that multigrid began and Newton ended */
+    long handed_to_newton; /* minimisations that multigrid began and Newton
+                              ended */
 } NewtonCounters;
 
 /* Adds each member of counters to sum. */
@@ -92,22 +93,23 @@ void newton_counters_add(const NewtonCounters *counters, NewtonCounters *sum);
 typedef struct SearchDirection {
     Projection projection;   /* projection of the Hessian in A */
     CholeskyKind factor_kind; /* kind of factor that cholesky holds */
-    unsigned pattern;        /* System.pattern at the symbolic analysis */
+    unsigned
+        analysed_pattern; /* System.pattern_version at the symbolic analysis */
     Sparse A;                /* Hessian, one triangle, in elimination order */
     Cholesky *cholesky;      /* factor of A; NULL: not created yet */
     double shift;            /* kg, added to the diagonal before factoring */
-    double way_since_factor; /* m, upper bound of a node's displacement since A
-                                was factored */
+    double moved_since_factor; /* m, upper bound of a node's displacement since
+                                A was factored */
     double *b;               /* right-hand side in elimination order */
     double *r, *z, *q, *d;   /* vectors of conjugate gradients */
 } SearchDirection;
 
 /* Data for the rounding errors of a minimisation (rounding.c). */
 typedef struct Rounding {
-    unsigned known_version; /* 1 + System.version for which lightest, stiffest
+    unsigned bounds_version; /* 1 + System.version for which lightest, stiffest
                                and shortest hold; 0: not computed yet */
-    double lightest;        /* kg, the smallest mass */
-    double stiffest;        /* J/m^2, the largest curvature of a term */
+    double min_mass;         /* kg, the smallest mass */
+    double max_curvature;    /* J/m^2, the largest curvature of a term */
     double shortest; /* m, the shortest spring at rest; 1 without springs */
     bool stiff;      /* w stiffest > 1e5 lightest, with w the weight of P in E:
                         a decrease of E is checked by a second computation */
@@ -144,7 +146,8 @@ typedef struct Newton {
     Rounding rounding;
     Multigrid *multigrid; /* data of multigrid; NULL: not created yet */
     Solver active_solver; /* solver of this minimisation: NEWTON or MULTIGRID */
-    const char *refusal;  /* why multigrid refused the minimisation, or NULL */
+    const char
+        *refusal_reason;  /* why multigrid refused the minimisation, or NULL */
     double change_sum;    /* J s^2, sum of the updates' changes of E */
     double change_abs_sum; /* J s^2, sum of the absolute changes of E */
     double change;         /* J s^2, E at the end - E at the start, summed over

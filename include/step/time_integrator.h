@@ -17,12 +17,12 @@ typedef struct IntegratorMethod {
     const char *name;       /* name on the command line */
     const char *label;      /* name in the window */
     int order;              /* order of accuracy */
-    bool implicit;          /* needs Newton */
+    bool is_implicit;       /* needs Newton */
     bool ends_at_minimiser; /* has the minimiser as x_(n+1), which contact,
                                friction and flow need */
     bool damps;        /* takes energy out of motion, which comes to rest */
     bool only_by_name; /* is chosen by name only, and skipped by key M */
-    int memory;        /* arrays [2n] kept between steps */
+    int arrays;        /* arrays [2n] kept between steps */
     int stages;        /* minimisations of a step; explicit: 0 */
     /* Fills newton->u_tilde and weight for the present stage.  Gravity is added
      * to u_tilde by completing the square:
@@ -37,7 +37,7 @@ typedef struct IntegratorMethod {
 /* Time as a number of equal steps since h was last changed.  A sum of steps has
  * wrong last digits: 60 steps of 0.002 s would not be 0.12 s. */
 typedef struct StepClock {
-    double now;         /* s, last_change + steps h */
+    double time;        /* s, last_change + steps h */
     double last_change; /* s, time of the last change of h */
     double h;           /* s, time step of the steps that are counted */
     long steps;         /* number of steps since the last change of h */
@@ -46,12 +46,12 @@ typedef struct StepClock {
 struct TimeIntegrator {
     const IntegratorMethod *method;
     System *system;    /* not owned; its terms may change it */
-    size_t size;       /* 2n, length of x, v, new_x, new_v */
+    size_t x_length;   /* 2n, length of x, v, new_x, new_v */
     double h;          /* s, time step */
     long steps;        /* steps so far */
     Status status;     /* status of the last step */
     StepClock clock;   /* time of x and v */
-    bool moves;        /* has prescribed motion of walls or pins in this step */
+    bool has_motion;   /* has prescribed motion of walls or pins in this step */
     double moved_part; /* part of the way that is done in this step */
     double work;       /* J, work of the prescribed motion so far */
     double *x;         /* [2n] m, positions; start of the block of all arrays */
@@ -64,12 +64,13 @@ struct TimeIntegrator {
     Newton *newton;  /* NULL for explicit methods */
     /* State of an unfinished step: */
     int stage;     /* 0 ... stages - 1 */
-    Status worst;  /* last status of the step's minimisations that is not OK */
+    Status worst_status; /* last status of the step's minimisations that is not
+                            OK */
     double weight; /* s^2, factor of P in E */
     double remaining_part; /* part of the prescribed way that is not done yet */
     int parts_made;        /* number of parts of the prescribed way so far */
     long iterations_before; /* Newton's iterations before this step */
-    bool blocked; /* walls and pins cannot move on: a body is in their way */
+    bool is_blocked; /* walls and pins cannot move on: a body is in their way */
 };
 
 /* The table of methods.  The last row has the name NULL. */

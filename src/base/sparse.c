@@ -7,12 +7,12 @@
 
 Status triplets_allocate(Triplets *triplets)
 {
-    size_t bytes = (size_t)triplets->count * sizeof(int);
-    if (triplets->count >= INT_MAX)
+    size_t bytes = (size_t)triplets->entries * sizeof(int);
+    if (triplets->entries >= INT_MAX)
         return STATUS_TOO_LARGE;
     triplets->row = malloc(bytes);
     triplets->column = malloc(bytes);
-    triplets->count = 0;
+    triplets->entries = 0;
     if (!triplets->row || !triplets->column)
         return STATUS_OUT_OF_MEMORY;
     return STATUS_OK;
@@ -27,7 +27,7 @@ void triplets_free(Triplets *triplets)
 
 void triplets_add(Triplets *triplets, int row, int column)
 {
-    long long t = triplets->count++;
+    long long t = triplets->entries++;
     if (!triplets->row)
         return;
     triplets->row[t] = row > column ? row : column;
@@ -54,28 +54,28 @@ static void counting_sort(int count, int size, const int *key, const int *in,
 Status sparse_create(const Triplets *triplets, Sparse *A)
 {
     const int *row = triplets->row, *column = triplets->column;
-    int count = (int)triplets->count, size = triplets->size;
+    int count = (int)triplets->entries, size = triplets->size;
     size_t bytes = ((size_t)count + 1) * sizeof(int);
-    size_t starts = ((size_t)size + 1) * sizeof *A->start;
+    size_t starts = ((size_t)size + 1) * sizeof *A->column_start;
     *A = (Sparse){.size = size,
-                  .start = malloc(starts),
+                  .column_start = malloc(starts),
                   .row = malloc(bytes),
                   .slot = malloc(bytes)};
     int *by_row = malloc(bytes), *sorted = malloc(bytes);
-    if (A->start && A->row && A->slot && by_row && sorted) {
-        counting_sort(count, size, row, NULL, A->start, by_row);
-        counting_sort(count, size, column, by_row, A->start, sorted);
-        memset(A->start, 0, starts);
+    if (A->column_start && A->row && A->slot && by_row && sorted) {
+        counting_sort(count, size, row, NULL, A->column_start, by_row);
+        counting_sort(count, size, column, by_row, A->column_start, sorted);
+        memset(A->column_start, 0, starts);
         for (int i = 0; i < count; i++) { /* each new place opens a new slot */
             int t = sorted[i], last = i > 0 ? sorted[i - 1] : -1;
             if (last < 0 || row[t] != row[last] || column[t] != column[last]) {
                 A->row[A->entries++] = row[t];
-                A->start[column[t] + 1]++;
+                A->column_start[column[t] + 1]++;
             }
             A->slot[t] = A->entries - 1;
         }
         for (int c = 0; c < size; c++)
-            A->start[c + 1] += A->start[c];
+            A->column_start[c + 1] += A->column_start[c];
         A->value = calloc((size_t)A->entries + 1, sizeof *A->value);
     }
     free(by_row);
@@ -85,7 +85,7 @@ Status sparse_create(const Triplets *triplets, Sparse *A)
 
 void sparse_free(Sparse *A)
 {
-    free(A->start);
+    free(A->column_start);
     free(A->row);
     free(A->value);
     free(A->slot);
@@ -98,7 +98,7 @@ void sparse_multiply(const Sparse *A, const double *x, double *y)
     for (int i = 0; i < A->size; i++)
         y[i] = 0;
     for (int c = 0; c < A->size; c++)
-        for (int s = A->start[c]; s < A->start[c + 1]; s++) {
+        for (int s = A->column_start[c]; s < A->column_start[c + 1]; s++) {
             int r = A->row[s];
             y[r] += A->value[s] * x[c];
             if (r != c)

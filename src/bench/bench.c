@@ -99,7 +99,7 @@ static Status create_motion(const TimedMotion *motion, int segments,
     if (status)
         return status;
     TimeIntegrator *start = &simulation->run[0];
-    for (size_t i = 0; i < start->size; i += 2) {
+    for (size_t i = 0; i < start->x_length; i += 2) {
         start->v[i] = -motion->spin * start->x[i + 1];
         start->v[i + 1] = motion->spin * start->x[i];
     }
@@ -133,7 +133,7 @@ static Status measure_method(bool quick, const TimedMotion *motion,
         bool failed = !(now.converged && now.error < simulation->options.side);
         double ms = 1e3 * now.seconds;
         printf("%s,%d,%s,%s,%d,%ld,%.6g,%.6g,%.6g,%d\n", motion->name, segments,
-               method->name, method->implicit ? "multigrid" : "none",
+               method->name, method->is_implicit ? "multigrid" : "none",
                method->order, steps, simulation->options.tolerance, now.seconds,
                fmin(now.error, 1e300), failed);
         if (failed)
@@ -159,7 +159,7 @@ static Status measure_motion(bool quick, const TimedMotion *motion,
     for (const IntegratorMethod *method = integrator_methods; method->name;
          method++) {
         Status status = measure_method(quick, motion, simulation, method,
-                                       best[method->implicit]);
+                                       best[method->is_implicit]);
         if (status)
             return status;
     }
@@ -251,7 +251,7 @@ static Status measure_start(BenchSolver program, int segments, int start,
     options.solver = program == MULTIGRID ? SOLVER_MULTIGRID : SOLVER_NEWTON;
     Status status = simulation_create(&options, NULL, NULL, &simulation);
     double energy = status ? 1 : simulation_energies(&simulation, 0).total;
-    double began = clock_processor();
+    double began = clock_processor_time();
     for (int i = 0; i < steps && !status; i++) {
         status = program == LECTURE
                      ? lecture_step(&simulation.system, options.timestep,
@@ -263,7 +263,7 @@ static Status measure_start(BenchSolver program, int segments, int start,
             status = STATUS_OK;
         }
     }
-    runs->ms[start] = 1e3 * (clock_processor() - began) / steps;
+    runs->ms[start] = 1e3 * (clock_processor_time() - began) / steps;
     runs->newton_updates[start] =
         (double)simulation_sum_counters(&simulation).iterations / steps;
     if (!status)

@@ -32,7 +32,7 @@ typedef struct ArgLine {
 } ArgLine;
 
 /* Returns the last word about an option; NULL: the option is not given. */
-static ArgWord *find_word(ArgLine *line, const char *option)
+static ArgWord *find_arg(ArgLine *line, const char *option)
 {
     for (int i = line->words - 1; i >= 0; i--)
         if (line->word[i].row && !strcmp(line->word[i].row->name, option))
@@ -83,7 +83,7 @@ static Status apply_numbers(const ArgLine *line, const ArgWord *word)
     const OptionRow *row = word->row;
     Options *options = line->options;
     double number[BODY_NUMBERS] = {0};
-    double *times = &options->number[row->counter];
+    double *times = &options->number[row->count_slot];
     int most = row->count ? row->count : 1, used = 0;
     bool x_alone = row->needs == NEEDS_START && !strchr(word->text, ',') &&
                    (options->scene->needs & NEEDS_ONE_NUMBER);
@@ -102,7 +102,7 @@ static Status apply_numbers(const ArgLine *line, const ArgWord *word)
 }
 
 /* Stores the name of a file, or of nodes.  A table must be CSV. */
-static Status apply_text(const ArgLine *line, const ArgWord *word)
+static Status apply_option_text(const ArgLine *line, const ArgWord *word)
 {
     static const char *const formats[] = {".npz", ".json", ".vtk",  ".gz",
                                           ".zip", ".xlsx", ".hdf5", ".h5"};
@@ -122,7 +122,7 @@ static Status apply_text(const ArgLine *line, const ArgWord *word)
 }
 
 /* Stores the value of an option.  --lecture alone is the first page. */
-static Status apply_word(const ArgLine *line, const ArgWord *word)
+static Status apply_option_word(const ArgLine *line, const ArgWord *word)
 {
     Options *options = line->options;
     switch (word->row->kind) {
@@ -130,7 +130,7 @@ static Status apply_word(const ArgLine *line, const ArgWord *word)
         options->number[word->row->slot] = 1;
         return STATUS_OK;
     case OPTION_TEXT:
-        return apply_text(line, word);
+        return apply_option_text(line, word);
     case OPTION_PAGE:
         options->page = lecture_find_page(word->text[0] ? word->text : "1");
         return options->page ? STATUS_OK : refuse_value(line, word, 1);
@@ -169,7 +169,7 @@ Status options_set(Options *options, const OptionRow *row, const char *text,
     const ArgWord word = {row, text[0] ? text : number, NULL, ""};
     if (!text[0] && row->count <= 1 && option_allows(row, value))
         options->number[row->slot] = value;
-    else if (apply_word(&line, &word))
+    else if (apply_option_word(&line, &word))
         return STATUS_INVALID_INPUT;
     /* The integrator, and a body that the option starts anew, must fit. */
     bool is_start = row->effect == EFFECT_START &&
@@ -303,12 +303,12 @@ static Status check_words(ArgLine *line)
     for (int i = 0; i < line->words; i++) {
         const ArgWord *word = &line->word[i];
         const OptionRow *row = word->row;
-        const ArgWord *last = row ? find_word(line, row->name) : NULL;
+        const ArgWord *last = row ? find_arg(line, row->name) : NULL;
         if (row && row->kind == OPTION_TEXT && last != word)
             return refuse(line->message,
                           "--%s: '%.60s' and '%.60s': only one can be given",
                           row->name, word->text, last->text);
-        if (row && row->kind == OPTION_PAGE && apply_word(line, word))
+        if (row && row->kind == OPTION_PAGE && apply_option_word(line, word))
             return STATUS_INVALID_INPUT;
         if (!row && options->scene)
             return refuse(line->message,
@@ -338,27 +338,27 @@ static Status fill_defaults(ArgLine *line)
     for (const OptionRow *row = option_rows; row->name; row++)
         if (row->default_value != 0)
             options->number[row->slot] = row->default_value;
-    Status status = split_words(options->scene->line, &own);
+    Status status = split_words(options->scene->args, &own);
     for (int i = 0; i < own.words && !status; i++)
-        status = apply_word(&own, &own.word[i]);
+        status = apply_option_word(&own, &own.word[i]);
     /* --body replaces the scene's body, and with the body its pins */
-    if (!find_word(line, "body"))
+    if (!find_arg(line, "body"))
         options->pin = options->scene->pin;
     for (const OptionRow *row = option_rows; row->name; row++)
-        if (row->max_times && find_word(line, row->name))
-            options->number[row->counter] = 0;
+        if (row->max_times && find_arg(line, row->name))
+            options->number[row->count_slot] = 0;
     return status;
 }
 
 /* Picks this pane's value from each list; the last list changes fastest. */
 static Status pick_values(ArgLine *line, int pane)
 {
-    bool is_drawn = !find_word(line, "headless") || find_word(line, "frames") ||
-                    find_word(line, "film");
+    bool is_drawn = !find_arg(line, "headless") || find_arg(line, "frames") ||
+                    find_arg(line, "film");
     int most = is_drawn ? OPTIONS_MAX_DRAWN : OPTIONS_MAX_PANES;
     for (int i = names_count(NAMES_OF(option_rows)) - 1; i >= 0; i--) {
         const OptionRow *row = &option_rows[i];
-        ArgWord *word = row->label ? find_word(line, row->name) : NULL;
+        ArgWord *word = row->label ? find_arg(line, row->name) : NULL;
         const char *text = word ? word->text : "";
         int count = option_count_values(text, ',');
         if (count == 1)
@@ -423,14 +423,14 @@ static Status check_body(ArgLine *line)
     if (is_solid)
         options->cells = 0;
     if ((options->cells || is_solid || options->self_contact) &&
-        !find_word(line, "projection"))
+        !find_arg(line, "projection"))
         options->projection = PROJECTION_ON_DEMAND;
     return body_check(options, line->message);
 }
 
 /* Stores the words of a line in the options of a pane.  Refuses options that
  * have no effect beside the others. */
-static Status apply_line(ArgLine *line, int pane)
+static Status apply_argument_line(ArgLine *line, int pane)
 {
     Options *options = line->options;
     *options = (Options){.panes = 1};
@@ -444,10 +444,10 @@ static Status apply_line(ArgLine *line, int pane)
                           "it in the window, or leave --lecture out",
                           row->name);
         if (row && (check_scene(options, row, line->message) ||
-                    apply_word(line, &line->word[i])))
+                    apply_option_word(line, &line->word[i])))
             return STATUS_INVALID_INPUT;
     }
-    if (options->bodies > 1 && !find_word(line, "self-contact"))
+    if (options->bodies > 1 && !find_arg(line, "self-contact"))
         options->self_contact = 1; /* bodies touch each other */
     for (int i = 0; i < line->words; i++) {
         const OptionRow *row = line->word[i].row;
@@ -464,12 +464,12 @@ Status options_parse(int argc, char **argv, int pane, Options *options,
 {
     ArgLine line = {.options = options, .message = message};
     Status status = read_words(argc, argv, &line);
-    return status ? status : apply_line(&line, pane);
+    return status ? status : apply_argument_line(&line, pane);
 }
 
 Status options_parse_line(const char *line, Options *options, Message message)
 {
     ArgLine words = {.options = options, .message = message};
     Status status = split_words(line, &words);
-    return status ? status : apply_line(&words, 0);
+    return status ? status : apply_argument_line(&words, 0);
 }

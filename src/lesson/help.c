@@ -10,7 +10,7 @@ enum { HELP_COLUMNS = 80, HELP_INDENT = 21 };
 
 /* Writes the start of a line, and the words in the column of descriptions, in
  * several lines if they do not fit in one. */
-static void write_line(FILE *help, const char *start, const char *words)
+static void write_help_line(FILE *help, const char *start, const char *words)
 {
     int column = fprintf(help, "%s", start);
     if (column > HELP_INDENT && *words) {
@@ -61,7 +61,7 @@ void options_help(FILE *help)
     for (const OptionRow *row = option_rows; row->name; row++) {
         char start[80], words[512];
         if (!row->name[0]) {
-            write_line(help, row->help, "");
+            write_help_line(help, row->help, "");
             continue;
         }
         snprintf(start, sizeof start, "  --%s%s%s", row->name,
@@ -70,6 +70,6 @@ void options_help(FILE *help)
         if (row->letter)
             append(start, sizeof start, ", -%c", row->letter);
         describe_option(row, words, sizeof words);
-        write_line(help, start, words);
+        write_help_line(help, start, words);
     }
 }

@@ -62,7 +62,7 @@ static int count_mistakes(const char *text, const char *name)
 /* A name of an option or of a value, and words that mean the same in other
  * programs, in books or in lecture.c, each between two blanks. */
 static const struct Synonyms {
-    const char *name, *words;
+    const char *name, *synonyms;
 } synonyms[] = {
     {"timestep", " h dt "},
     {"stiffness", " k "},
@@ -116,7 +116,7 @@ Phrase suggest_name(const char *text, const char *dashes, NameTable names)
     }
     snprintf(word, sizeof word, " %s ", text);
     for (size_t i = 0; i < sizeof synonyms / sizeof *synonyms; i++)
-        if (strcasestr(synonyms[i].words, word) &&
+        if (strcasestr(synonyms[i].synonyms, word) &&
             names_find(names, synonyms[i].name) >= 0)
             meant = synonyms[i].name;
     if (meant)

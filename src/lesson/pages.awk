@@ -52,19 +52,19 @@ function put_word(    part)
     else if (word in texts)
         print "." texts[word] " = " quoted(text) ","
     else if (word in numbers && text ~ /^[0-9.]+$/)
-        print "." word " = " text ","
+        print "." numbers[word] " = " text ","
     else if (word == "extra" && text == "")
-        print ".extra = true,"
+        print ".is_extra = true,"
     else if (word == "layers")
         print ".layers = " layers_of(text) ","
     else if (word == "next" && text in of_next)
-        print ".next = NEXT_" toupper(text) ","
+        print ".next_action = NEXT_" toupper(text) ","
     else if (word == "code" && split(text, part, " ") >= 3)
         print ".file = " quoted(part[1]) ", .function = " quoted(part[2]) \
-              ", .lit = " quoted(substr(text, length(part[1] part[2]) + 3)) \
+              ", .highlight = " quoted(substr(text, length(part[1] part[2]) + 3)) \
               ", .code = (const char *const[]){" \
               code_of(part[1], part[2]) "NULL}," \
-              (part[2] in walk ? ".lit_at_line = (const char *const[LINES_WALKED]){" \
+              (part[2] in walk ? ".line_highlight = (const char *const[LINES_WALKED]){" \
                                  walk[part[2]] "}," : "")
     else if (word != "" && word != "minutes") # minutes are for readers only
         fail(begins, "'" word " " text "' is nothing that a page has")
@@ -79,7 +79,7 @@ function end_page(    i)
         if (page && !(needed[i] in had))
             fail(page, "the page has no " needed[i])
     for (i in below)
-        print "." i " = " below[i] ","
+        print "." (i == "look" ? "look_text" : i) " = " below[i] ","
     split("", below)
     if (page)
         print "},"
@@ -88,15 +88,23 @@ function end_page(    i)
 
 BEGIN {
     split("text run cards look try code claim notes", needed)
-    split("open cards claim ask answer tell veils main_card law notes section", same)
+    split("cards claim answer main_card notes section", same)
     for (i in same)
         texts[same[i]] = same[i]
-    texts["run"] = "line"
-    texts["try"] = "touch"
+    texts["run"] = "command_line"
+    texts["try"] = "try"
+    texts["ask"] = "question"
+    texts["open"] = "on_open"
+    texts["tell"] = "on_answer"
+    texts["veils"] = "covered_cards"
+    texts["law"] = "law_name"
     prose["text"] prose["ask"] prose["look"] prose["try"] prose["notes"]
     read_names(ARGV[1])
-    numbers["picture"] numbers["lines"] numbers["speed"] numbers["flips"]
-    numbers["pause"]
+    numbers["picture"] = "print_step"
+    numbers["lines"] = "presses"
+    numbers["speed"] = "speed"
+    numbers["flips"] = "switch_flips"
+    numbers["pause"] = "pause_step"
     of_next["nearer"] of_next["spring"]
     split("numbers forces modes kinds cuts downhill curves first_step velocity eigenvalues",
           layer)

@@ -25,21 +25,21 @@ void lecture_apply_page(const LecturePage *page, Options *options)
 {
     options->page = page;
     options->layers = page->layers;
-    options->next = page->next;
-    options->pause = page->pause;
-    options->law = page->law;
+    options->next = page->next_action;
+    options->pause = page->pause_step;
+    options->law = page->law_name;
     options->main_card = page->main_card;
 }
 
 Status lecture_make_options(const LecturePage *page, Options *options,
                             Message message)
 {
-    Status status = options_parse_line(page->line, options, message);
-    const char *pin = strstr(page->line, "--pin ");
+    Status status = options_parse_line(page->command_line, options, message);
+    const char *pin = strstr(page->command_line, "--pin ");
     if (pin) /* the text of --pin has to stay valid */
         options->pin = pin + strlen("--pin ");
     lecture_apply_page(page, options);
-    options->flips = page->flips;
+    options->flips = page->switch_flips;
     options->speed = page->speed;
     return status;
 }

@@ -27,10 +27,10 @@ int triangle_block_nodes(const EvalPoint *at, int t, int node[3])
 void triangle_set_element(const EvalPoint *at, int t, Element *element)
 {
     static const double edges[2][3] = {{-1, 1, 0}, {-1, 0, 1}};
-    element->vectors = 2;
-    element->nodes = triangle_block_nodes(at, t, element->node);
+    element->vector_count = 2;
+    element->node_count = triangle_block_nodes(at, t, element->node);
     element->weight = edges;
-    element->block = t;
+    element->block_index = t;
     element->factor = at->weight;
     const int *node = element->node;
     subtract_node(at->x, node[1], node[2], node[0], element->v);

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Boundary.near has room for this many edges for each node of the mesh. */
+/* Boundary.near_edge has room for this many edges for each node of the mesh. */
 enum { NEAR_PER_NODE = 8 };
 
 Status boundary_create(const SquareMesh *mesh, Boundary *boundary)
@@ -15,17 +15,18 @@ Status boundary_create(const SquareMesh *mesh, Boundary *boundary)
                    (nodes + springs) * sizeof(Box2) +
                    (2 + NEAR_PER_NODE) * nodes * sizeof(int) + springs + nodes;
     *boundary =
-        (Boundary){.shape = *mesh, .version = ~0u, .x = calloc(1, bytes)};
+        (Boundary){.mesh = *mesh, .version = ~0u, .x = calloc(1, bytes)};
     if (!boundary->x)
         return STATUS_OUT_OF_MEMORY;
     boundary->p = boundary->x + 2 * nodes;
     boundary->edge_box = (Box2 *)(boundary->p + 2 * nodes);
     boundary->point_box = boundary->edge_box + springs;
-    boundary->point = (int *)(boundary->point_box + nodes);
-    boundary->near_list_end = boundary->point + nodes;
-    boundary->near = boundary->near_list_end + nodes;
-    boundary->sides = (unsigned char *)(boundary->near + NEAR_PER_NODE * nodes);
-    boundary->role = boundary->sides + springs;
+    boundary->point_node = (int *)(boundary->point_box + nodes);
+    boundary->near_list_end = boundary->point_node + nodes;
+    boundary->near_edge = boundary->near_list_end + nodes;
+    boundary->sides =
+        (unsigned char *)(boundary->near_edge + NEAR_PER_NODE * nodes);
+    boundary->node_role = boundary->sides + springs;
     return STATUS_OK;
 }
 
@@ -38,9 +39,9 @@ enum { IN_A_TRIANGLE = 1, ON_AN_EDGE = 2 };
  * part of a cell only shrinks when springs break. */
 static void find_boundary(Boundary *boundary, const System *system)
 {
-    const SquareMesh *shape = &boundary->shape;
+    const SquareMesh *shape = &boundary->mesh;
     memset(boundary->sides, 0, (size_t)shape->springs);
-    memset(boundary->role, 0, (size_t)shape->nodes);
+    memset(boundary->node_role, 0, (size_t)shape->nodes);
     boundary->points = boundary->edges = 0;
     for (int c = 0; c < shape->cells; c++) {
         int node[4][3], side[4][3], solid = 0;
@@ -54,7 +55,7 @@ static void find_boundary(Boundary *boundary, const System *system)
         bool other = (solid & 5) != 5 && (solid & 10) == 10;
         for (int k = other; k < 4; k += 2)
             for (int i = 0; i < 3 && solid >> k & 1; i++) {
-                boundary->role[node[k][i]] |= IN_A_TRIANGLE;
+                boundary->node_role[node[k][i]] |= IN_A_TRIANGLE;
                 boundary->sides[side[k][i]]++;
             }
     }
@@ -63,11 +64,11 @@ static void find_boundary(Boundary *boundary, const System *system)
             continue;
         boundary->edge_box[boundary->edges++].edge = s;
         for (int end = 0; end < 2; end++)
-            boundary->role[system->e[2 * s + end]] |= ON_AN_EDGE;
+            boundary->node_role[system->e[2 * s + end]] |= ON_AN_EDGE;
     }
     for (int i = 0; i < shape->nodes; i++)
-        if (boundary->role[i] != IN_A_TRIANGLE)
-            boundary->point[boundary->points++] = i;
+        if (boundary->node_role[i] != IN_A_TRIANGLE)
+            boundary->point_node[boundary->points++] = i;
     boundary->version = system->version;
     boundary->boxes_valid = false;
 }
@@ -102,7 +103,7 @@ static void bound_motions(Boundary *boundary, const System *system)
     boundary->widest = mean[0] = mean[1] = 0;
     Box2 all = empty_box;
     for (int i = 0; i < boundary->points; i++) {
-        int node = boundary->point[i];
+        int node = boundary->point_node[i];
         for (int c = 0; c < 2; c++) {
             extend_box(&all, c, x[2 * node + c], x[2 * node + c]);
             if (p)
@@ -111,7 +112,7 @@ static void bound_motions(Boundary *boundary, const System *system)
     }
     boundary->sorts_by_y = all.high[1] - all.low[1] > all.high[0] - all.low[0];
     for (int i = 0; i < boundary->points; i++) {
-        int node = boundary->point[i];
+        int node = boundary->point_node[i];
         Box2 *box = &boundary->point_box[node];
         *box = empty_box;
         for (int c = 0; c < 2; c++) {
@@ -155,7 +156,7 @@ static int find_first_edge(const Boundary *boundary, double left)
 static int search_next_edge(const Boundary *boundary, const System *system,
                             int i, int *cursor)
 {
-    int node = boundary->point[i];
+    int node = boundary->point_node[i];
     const Box2 *own = &boundary->point_box[node];
     int k = *cursor > 0 ? *cursor : find_first_edge(boundary, own->low[0]);
     for (; k < boundary->edges && boundary->edge_box[k].low[0] <= own->high[0];
@@ -175,8 +176,8 @@ static int search_next_edge(const Boundary *boundary, const System *system,
 void boundary_update(Boundary *boundary, const System *system, const double *x,
                      const double *p, double alpha, double margin)
 {
-    size_t bytes = 2 * (size_t)boundary->shape.nodes * sizeof *x;
-    int room = NEAR_PER_NODE * boundary->shape.nodes, count = 0, cursor = 0,
+    size_t bytes = 2 * (size_t)boundary->mesh.nodes * sizeof *x;
+    int room = NEAR_PER_NODE * boundary->mesh.nodes, count = 0, cursor = 0,
         edge;
     if (boundary->version != system->version)
         find_boundary(boundary, system);
@@ -193,23 +194,23 @@ void boundary_update(Boundary *boundary, const System *system, const double *x,
     if (p)
         memcpy(boundary->p, p, bytes);
     bound_motions(boundary, system);
-    boundary->lists_near = true;
-    for (int i = 0; i < boundary->points && boundary->lists_near; i++) {
+    boundary->has_near_edges = true;
+    for (int i = 0; i < boundary->points && boundary->has_near_edges; i++) {
         while ((edge = search_next_edge(boundary, system, i, &cursor)) >= 0 &&
                count < room)
-            boundary->near[count++] = edge;
+            boundary->near_edge[count++] = edge;
         boundary->near_list_end[i] = count;
-        boundary->lists_near = edge < 0;
+        boundary->has_near_edges = edge < 0;
     }
 }
 
 int boundary_next_edge(const Boundary *boundary, const System *system, int i,
                        int *cursor)
 {
-    if (!boundary->lists_near)
+    if (!boundary->has_near_edges)
         return search_next_edge(boundary, system, i, cursor);
     int first = i > 0 ? boundary->near_list_end[i - 1] : 0;
     int k = *cursor > 0 ? *cursor : first;
     *cursor = k < boundary->near_list_end[i] ? k + 1 : 0;
-    return *cursor > 0 ? boundary->near[k] : -1;
+    return *cursor > 0 ? boundary->near_edge[k] : -1;
 }

@@ -15,7 +15,7 @@ static bool cell_get_element(const EvalPoint *at, int t, double way,
 {
     const Cells *cells = at->term->data;
     const double *k = at->system->k;
-    const int *node = cells->triangles.node[t], *side = cells->spring[t];
+    const int *node = cells->triangles.node[t], *side = cells->sides[t];
     double e[4], unit = cells->triangles.unit;
     subtract_node(at->x, node[1], node[2], node[0], e);
     double sides = fabs(e[0]) + fabs(e[1]) + fabs(e[2]) + fabs(e[3]);
@@ -96,7 +96,7 @@ static const ElementKind triangle = {
 const TermKind cell_energy = {
     .name = "cells that cannot turn over",
     ELEMENTS(triangle),
-    .energy = "contact",
+    .energy_name = "contact",
     .place = PLACE_CELLS,
     .curvature_bound = cell_curvature_bound,
 };
@@ -107,15 +107,14 @@ Status cells_configure(System *system, const SquareMesh *shape,
     int count = 4 * shape->cells;
     Cells *cells = system_add_term(system, &cell_energy,
                                    sizeof *cells + 2 * (size_t)count *
-                                                       sizeof *cells->spring);
+                                                       sizeof *cells->sides);
     if (!cells)
         return STATUS_OUT_OF_MEMORY;
     Triangles *triangles = &cells->triangles;
     *triangles = triangles_of_legs(count, shape->spacing, cells + 1);
     cells->c = triangles->area * stiffness;
-    cells->spring = triangles->node + count;
+    cells->sides = triangles->node + count;
     for (int t = 0; t < count; t++)
-        square_mesh_get_triangle(shape, t, triangles->node[t],
-                                 cells->spring[t]);
+        square_mesh_get_triangle(shape, t, triangles->node[t], cells->sides[t]);
     return STATUS_OK;
 }

@@ -48,9 +48,9 @@ bool contact_has_pair(const Contact *contact, const System *system, int node,
 
 double contact_node_radius(const Contact *contact, int node)
 {
-    if (contact->ball < 0)
+    if (contact->free_ball < 0)
         return 0;
-    const Obstacle *ball = &contact->obstacle[contact->ball];
+    const Obstacle *ball = &contact->obstacle[contact->free_ball];
     return ball->node == node ? ball->radius : 0;
 }
 
@@ -81,9 +81,9 @@ static bool contact_get_element(const EvalPoint *at, int i, double way,
                                   contact_node_radius(contact, node));
     if (gap.d >= contact->barrier.d_hat + way)
         return false;
-    element->vectors = 1;
-    element->nodes = other->node < 0 ? 1 : 2;
-    element->node[0] = element->block = node;
+    element->vector_count = 1;
+    element->node_count = other->node < 0 ? 1 : 2;
+    element->node[0] = element->block_index = node;
     element->node[1] = other->node;
     element->partner = obstacle;
     element->weight = difference;
@@ -107,9 +107,9 @@ static int contact_block_nodes(const EvalPoint *at, int block, int node[3])
 {
     const Contact *contact = contact_of(at->system);
     node[0] = block;
-    if (contact->ball < 0)
+    if (contact->free_ball < 0)
         return 1;
-    node[1] = contact->obstacle[contact->ball].node;
+    node[1] = contact->obstacle[contact->free_ball].node;
     if (node[1] == block)
         node[1] += block > 0 ? -1 : 1;
     return 2;
@@ -226,10 +226,10 @@ static const ElementKind pairs = {
 const TermKind contact_energy = {
     .name = "contact",
     ELEMENTS(pairs),
-    .energy = "contact",
+    .energy_name = "contact",
     .place = PLACE_CONTACT,
     .curvature_bound = contact_curvature_bound,
-    .external = true,
+    .is_external = true,
 };
 
 Status contact_configure(System *system, const Barrier *barrier, int obstacles,
@@ -245,10 +245,10 @@ Status contact_configure(System *system, const Barrier *barrier, int obstacles,
         return STATUS_OUT_OF_MEMORY;
     contact->barrier = *barrier;
     contact->obstacles = obstacles;
-    contact->ball = -1;
+    contact->free_ball = -1;
     memcpy(contact->obstacle, obstacle, (size_t)obstacles * sizeof *obstacle);
     for (int k = 0; k < obstacles; k++)
         if (obstacle[k].node >= 0)
-            contact->ball = k;
+            contact->free_ball = k;
     return STATUS_OK;
 }

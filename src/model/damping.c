@@ -59,7 +59,7 @@ static Status damping_configure(System *system, const struct SquareMesh *mesh,
 const TermKind damping = {
     .name = "damping",
     .configure = damping_configure,
-    .loss = "damping",
+    .loss_name = "damping",
     .place = PLACE_DAMPING,
     .begin_step = damping_begin_step,
     .end_step = damping_end_step,

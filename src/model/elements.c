@@ -20,8 +20,8 @@ ElementIterator elements_begin(const EvalPoint *at, const double *p,
 
 bool elements_next(ElementIterator *walk)
 {
-    while (walk->element.cursor > 0 || ++walk->i < walk->count)
-        if (walk->kind->get_element(walk->at, walk->i, walk->way,
+    while (walk->element.search_cursor > 0 || ++walk->i < walk->count)
+        if (walk->kind->get_element(walk->point, walk->i, walk->way,
                                     &walk->element))
             return true;
     return false;
@@ -34,9 +34,9 @@ bool elements_next(ElementIterator *walk)
 static void element_add_vector(const Element *element, double factor,
                                const double g[4], double *out)
 {
-    for (int i = 0; i < 2 * element->nodes; i++) {
+    for (int i = 0; i < 2 * element->node_count; i++) {
         double sum = 0;
-        for (int m = 0; m < element->vectors; m++)
+        for (int m = 0; m < element->vector_count; m++)
             sum += element->weight[m][i / 2] * g[2 * m + i % 2];
         out[2 * element->node[i / 2] + i % 2] += factor * sum;
     }
@@ -95,7 +95,7 @@ static inline void element_add_block(const Element *element, int vectors,
 {
     for (int i = 0; i < PARTS; i++) {
         int k = part[i][0], l = part[i][1];
-        if (l >= element->nodes)
+        if (l >= element->node_count)
             continue;
         for (int r = 0; r < 2; r++)
             for (int c = k == l ? r : 0; c < 2; c++) {
@@ -119,13 +119,13 @@ static bool add_product(const ElementIterator *walk, Projection projection,
     const Element *element = &walk->element;
     double H[4][4], v[4], Hv[4] = {0};
     bool changed;
-    element_vectors(element, q, v);
+    element_get_vectors(element, q, v);
     if (walk->kind->product) {
-        changed = walk->kind->product(walk->at, element, projection, v, Hv);
+        changed = walk->kind->product(walk->point, element, projection, v, Hv);
     } else {
-        changed = walk->kind->hessian(walk->at, element, projection, H);
-        for (int r = 0; r < 2 * element->vectors; r++)
-            for (int c = 0; c < 2 * element->vectors; c++)
+        changed = walk->kind->hessian(walk->point, element, projection, H);
+        for (int r = 0; r < 2 * element->vector_count; r++)
+            for (int c = 0; c < 2 * element->vector_count; c++)
                 Hv[r] += H[r][c] * v[c];
     }
     element_add_vector(element, element->factor, Hv, out);
@@ -145,8 +145,8 @@ int elements_hessian(const EvalPoint *at, Projection projection,
             continue;
         }
         projected += walk.kind->hessian(at, element, projection, H);
-        const int *first = *slot + entries * element->block;
-        if (element->vectors == 1)
+        const int *first = *slot + entries * element->block_index;
+        if (element->vector_count == 1)
             element_add_block(element, 1, H, first, out);
         else
             element_add_block(element, 2, H, first, out);
@@ -162,7 +162,7 @@ double elements_line_remainder(const EvalPoint *at, const double *p,
     double sum = 0, P[4];
     for (ElementIterator walk = elements_begin(at, p, alpha);
          elements_next(&walk);) {
-        element_vectors(&walk.element, p, P);
+        element_get_vectors(&walk.element, p, P);
         sum += walk.kind->line_remainder(at, &walk.element, P, alpha);
     }
     return at->weight * sum;
@@ -173,7 +173,7 @@ double elements_max_step(const EvalPoint *at, const double *p)
     double smallest = INFINITY, P[4];
     ElementIterator walk = elements_begin(at, p, 1);
     while (walk.kind->max_step && elements_next(&walk)) {
-        element_vectors(&walk.element, p, P);
+        element_get_vectors(&walk.element, p, P);
         double alpha = walk.kind->max_step(at, &walk.element, P);
         smallest = alpha <= 1 ? fmin(smallest, alpha) : smallest;
     }

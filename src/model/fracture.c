@@ -31,8 +31,8 @@ static int compare_loads(const void *one, const void *other)
 }
 
 /* Collects and sorts the candidates, and returns their number. */
-static int find_candidates(Fracture *fracture, const System *system,
-                           const double *x)
+static int find_overloaded_springs(Fracture *fracture, const System *system,
+                                   const double *x)
 {
     int count = 0;
     for (int s = 0; s < system->springs; s++) {
@@ -53,15 +53,15 @@ static void fracture_end_step(const TermStep *step)
 {
     System *system = step->system;
     Fracture *fracture = step->term->data;
-    int count = find_candidates(fracture, system, step->x);
+    int count = find_overloaded_springs(fracture, system, step->x);
     if (count == 0)
         return;
     double energy = system_potential(system, step->x);
-    memset(fracture->taken, 0, (size_t)system->nodes);
+    memset(fracture->is_taken, 0, (size_t)system->nodes);
     for (int k = 0; k < count; k++) {
         int s = fracture->candidate[k].spring;
-        unsigned char *i = &fracture->taken[system->e[2 * s]];
-        unsigned char *j = &fracture->taken[system->e[2 * s + 1]];
+        unsigned char *i = &fracture->is_taken[system->e[2 * s]];
+        unsigned char *j = &fracture->is_taken[system->e[2 * s + 1]];
         if (*i || *j)
             continue;
         *i = *j = 1;
@@ -85,13 +85,13 @@ static Status fracture_configure(System *system, const struct SquareMesh *mesh,
         return STATUS_OUT_OF_MEMORY;
     data->strength = number[0];
     data->candidate = (Candidate *)(data + 1);
-    data->taken = (unsigned char *)(data->candidate + springs);
+    data->is_taken = (unsigned char *)(data->candidate + springs);
     return STATUS_OK;
 }
 
 const TermKind fracture = {
     .configure = fracture_configure,
-    .loss = "fracture",
+    .loss_name = "fracture",
     .place = PLACE_FRACTURE,
     .end_step = fracture_end_step,
     .any_integrator = true,

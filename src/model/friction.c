@@ -48,7 +48,7 @@ static double friction_taylor_remainder(double y, double t, double e)
 static double tangential_component(const Element *row, const double vectors[4])
 {
     double sum = 0;
-    for (int i = 0; i < 2 * row->vectors; i++)
+    for (int i = 0; i < 2 * row->vector_count; i++)
         sum += row->v[i] * vectors[i];
     return sum;
 }
@@ -58,7 +58,7 @@ static double compute_slip(const SlidingContact *contact, double h,
                            const double *v)
 {
     double vectors[4];
-    element_vectors(&contact->element, v, vectors);
+    element_get_vectors(&contact->element, v, vectors);
     return h * tangential_component(&contact->element, vectors) -
            contact->travel;
 }
@@ -77,7 +77,7 @@ static EvalPoint select_contact_term(const EvalPoint *at)
 static Status friction_begin_step(const TermStep *step)
 {
     Friction *friction = step->term->data;
-    EvalPoint at = eval_point_at(step->system, step->x, NULL, step->x);
+    EvalPoint at = make_eval_point(step->system, step->x, NULL, step->x);
     at.term = step->term;
     at = select_contact_term(&at);
     friction->e = friction->slip_speed * step->h;
@@ -88,19 +88,19 @@ static Status friction_begin_step(const TermStep *step)
         contact.element.r = walk.kind->friction_limit(
             &at, &walk.element, contact.element.v, &contact.travel);
         contact.element.factor = 1;
-        contact.element.cursor = 0;
+        contact.element.search_cursor = 0;
         contact.travel *= step->h;
         if (!(contact.element.r > 0))
             continue;
-        if (friction->contacts == friction->room) {
-            int room = 2 * friction->room + 64;
+        if (friction->contacts == friction->capacity) {
+            int room = 2 * friction->capacity + 64;
             friction =
                 realloc(step->term->data,
                         sizeof *friction + (size_t)room * sizeof contact);
             if (!friction)
                 return STATUS_OUT_OF_MEMORY;
             step->term->data = friction;
-            friction->room = room;
+            friction->capacity = room;
         }
         friction->contact[friction->contacts++] = contact;
     }
@@ -206,12 +206,12 @@ static const ElementKind slips = {
 
 /* The TermKind of both terms begins with these functions. */
 #define FRICTION                                                               \
-    ELEMENTS(slips), .loss = "friction", .place = PLACE_FRICTION,              \
+    ELEMENTS(slips), .loss_name = "friction", .place = PLACE_FRICTION,         \
                      .begin_step = friction_begin_step,                        \
                      .end_step = friction_end_step, .depends_on_start = true
 
 const TermKind friction_energy = {FRICTION, .name = "friction",
-                                  .external = true};
+                                  .is_external = true};
 const TermKind self_friction_energy = {FRICTION};
 
 double friction_work_of_obstacles(const System *system, const double *u)

@@ -78,7 +78,7 @@ double mass_spring_curvature_bound(const EvalPoint *at)
 }
 
 const TermKind mass_spring_energy = {
-    .energy = "elastic",
+    .energy_name = "elastic",
     .value = mass_spring_value,
     .gradient = mass_spring_gradient,
     .pattern = mass_spring_pattern,

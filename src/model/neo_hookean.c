@@ -177,6 +177,6 @@ const TermKind neo_hookean_energy = {
     ELEMENTS(triangle),
     .name = "triangles",
     .configure = neo_hookean_configure,
-    .energy = "elastic",
+    .energy_name = "elastic",
     .curvature_bound = neo_hookean_curvature_bound,
 };

@@ -9,13 +9,13 @@
 /* Returns (|e| - Y)_+.  fmax would be a slow library call for each spring. */
 static double strain_beyond_yield(FlowLaw law, double e)
 {
-    return fabs(e) > law.yield ? fabs(e) - law.yield : 0;
+    return fabs(e) > law.yield_strain ? fabs(e) - law.yield_strain : 0;
 }
 
 /* Returns min(|e|, Y). */
 static double strain_within_yield(FlowLaw law, double e)
 {
-    return fabs(e) < law.yield ? fabs(e) : law.yield;
+    return fabs(e) < law.yield_strain ? fabs(e) : law.yield_strain;
 }
 
 /* Returns V(e) = e^2/2 - flow (|e| - Y)_+^2/2, plus theta (e - e_n)^2/2 with
@@ -55,8 +55,8 @@ static inline FlowLaw make_flow_law(const Plasticity *data, int s)
 {
     double H = data->hardening, flow = 1 / (1 + H);
     return (FlowLaw){.ep = data->ep[s],
-                     .yield = data->yield + H * data->kappa[s],
-                     .flow = flow,
+                     .yield_strain = data->yield_strain + H * data->kappa[s],
+                     .flow_part = flow,
                      .plastic_slope = 1 - flow};
 }
 
@@ -64,14 +64,14 @@ FlowLaw plasticity_get_law(const System *system, int s)
 {
     const Plasticity *data = system_term_data(system, &plastic_energy);
     return data ? make_flow_law(data, s)
-                : (FlowLaw){.yield = INFINITY, .plastic_slope = 1};
+                : (FlowLaw){.yield_strain = INFINITY, .plastic_slope = 1};
 }
 
 /* A spring at the point of evaluation. */
 typedef struct FlowSpring {
     const int *e;
     double k, l2;
-    double d[2], d2; /* m, x_i - x_j, and m^2, |d|^2 */
+    double d[2], d_squared; /* m, x_i - x_j, and m^2, |d|^2 */
     double strain;   /* elastic strain, E - ep */
     FlowLaw law;
 } FlowSpring;
@@ -85,8 +85,8 @@ static inline FlowSpring evaluate_flow_spring(const EvalPoint *at, int s)
                          .law = make_flow_law(at->term->data, s)};
     spring.law.theta = damping ? damping->theta : 0;
     spring.law.e_n = damping ? damping->E_n[s] - spring.law.ep : 0;
-    spring.d2 = spring_vector(spring.e, at->x, spring.d);
-    spring.strain = spring_strain(spring.d2, spring.l2) - spring.law.ep;
+    spring.d_squared = spring_vector(spring.e, at->x, spring.d);
+    spring.strain = spring_strain(spring.d_squared, spring.l2) - spring.law.ep;
     return spring;
 }
 
@@ -124,7 +124,7 @@ static int plastic_hessian(const EvalPoint *at, Projection projection,
     int projected = 0;
     for (int s = 0; s < at->system->springs; s++) {
         FlowSpring spring = evaluate_flow_spring(at, s);
-        const double *d = spring.d, d2 = spring.d2;
+        const double *d = spring.d, d2 = spring.d_squared;
         double k = at->weight * spring.k,
                factor = spring_hessian_factor(spring.l2, k);
         double across = spring.l2 * flow_law_slope(spring.law, spring.strain);
@@ -177,14 +177,14 @@ static double plastic_line_remainder(const EvalPoint *at, const double *p,
         expand_strain_along(&spring, p, &B, &C);
         double t = alpha * (B + alpha * C), way = fabs(t);
         double start = copysign(1, t) * spring.strain;
-        double from = -law.yield - start, to = law.yield - start;
+        double from = -law.yield_strain - start, to = law.yield_strain - start;
         from = from > 0 ? from : 0;
         to = to < way ? to : way;
-        double within = from > 0 && to < way ? 2 * law.yield : to - from;
+        double within = from > 0 && to < way ? 2 * law.yield_strain : to - from;
         double elastic = to > from ? within * (way - to + 0.5 * within) : 0;
         sum += spring.k * spring.l2 *
                (0.5 * (law.plastic_slope + law.theta) * t * t +
-                law.flow * elastic);
+                law.flow_part * elastic);
     }
     return at->weight * sum;
 }
@@ -194,19 +194,19 @@ static void plastic_end_step(const TermStep *step)
 {
     System *system = step->system;
     Plasticity *data = step->term->data;
-    EvalPoint at = eval_point_at(system, step->x, NULL, step->x);
+    EvalPoint at = make_eval_point(system, step->x, NULL, step->x);
     bool changed = false;
     at.term = step->term;
     for (int s = 0; s < system->springs; s++) {
         FlowSpring spring = evaluate_flow_spring(&at, s);
-        double gamma =
-            spring.law.flow * strain_beyond_yield(spring.law, spring.strain);
+        double gamma = spring.law.flow_part *
+                       strain_beyond_yield(spring.law, spring.strain);
         if (!(gamma > 0) || spring_is_broken(system, s))
             continue;
         data->ep[s] += copysign(gamma, spring.strain);
         data->kappa[s] += gamma;
         system_book_loss(system, &plastic_energy,
-                         spring.k * spring.l2 * data->yield * gamma);
+                         spring.k * spring.l2 * data->yield_strain * gamma);
         changed = true;
     }
     if (changed)
@@ -224,7 +224,7 @@ static Status plastic_configure(System *system, const struct SquareMesh *mesh,
         system, &plastic_energy, sizeof *data + 2 * springs * sizeof(double));
     if (!data)
         return STATUS_OUT_OF_MEMORY;
-    data->yield = number[0];
+    data->yield_strain = number[0];
     data->hardening = number[1];
     data->ep = (double *)(data + 1);
     data->kappa = data->ep + springs;
@@ -235,8 +235,8 @@ static Status plastic_configure(System *system, const struct SquareMesh *mesh,
 const TermKind plastic_energy = {
     .name = "plastic springs",
     .configure = plastic_configure,
-    .energy = "elastic",
-    .loss = "plastic",
+    .energy_name = "elastic",
+    .loss_name = "plastic",
     .value = plastic_value,
     .gradient = plastic_gradient,
     .pattern = mass_spring_pattern,

@@ -64,9 +64,9 @@ static double pull_curvature_bound(const EvalPoint *at)
     .value = pull_value, .gradient = pull_gradient, .pattern = pull_pattern,   \
     .hessian = pull_hessian, .line_polynomial = pull_line_polynomial,          \
     .curvature_bound = pull_curvature_bound, .diagonal = true,                 \
-    .external = true, .any_integrator = true
+    .is_external = true, .any_integrator = true
 
-const TermKind central_field = {PULL, .energy = "elastic"};
+const TermKind central_field = {PULL, .energy_name = "elastic"};
 const TermKind hand_energy = {PULL, .place = PLACE_HAND};
 
 Status pull_configure(System *system, const TermKind *kind, const Pull *pull)
@@ -85,14 +85,14 @@ void hand_begin_step(Pull *hand, const double *x, const double *v, double m,
     static const double TIME = 0.06, MOST = 0.5, INERTIA = 10, LIMIT = 1e8;
     static const double CELL = 0.5, SPEED = 0.5, SIDE = 1.0 / 64;
     double reach = fmax(CELL * hand->cell, fmin(SPEED * h, SIDE) * hand->side);
-    double d[2] = {hand->mouse[0] - x[0], hand->mouse[1] - x[1]};
+    double d[2] = {hand->mouse_xy[0] - x[0], hand->mouse_xy[1] - x[1]};
     double away = sqrt(d[0] * d[0] + d[1] * d[1]);
     double slow = fmin(MOST, h / TIME), part = slow;
     if (part * away > reach)
         part = reach / away;
     /* A node at rest feels the force strength times its distance. */
-    hand->k = fmin(fmax(hand->strength / slow, INERTIA * m / (h * h)),
-                   LIMIT * hand->strength);
+    hand->k = fmin(fmax(hand->stiffness / slow, INERTIA * m / (h * h)),
+                   LIMIT * hand->stiffness);
     if (free)
         hand->k = m / (h * h);
     for (int i = 0; i < 2; i++)

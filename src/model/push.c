@@ -22,10 +22,10 @@ static const double KEPT = 0.3;
 enum { HALVINGS = 8, MAX_PARTS = 16 };
 
 /* Writes the displacement of a free obstacle in a step of h seconds. */
-static void plan_obstacle_way(const Push *push, const double *o, double h,
-                              double way[2])
+static void plan_obstacle_path(const Push *push, const double *o, double h,
+                               double way[2])
 {
-    double side = push->shape.side;
+    double side = push->mesh.side;
     double d[2] = {push->target[0] - o[0], push->target[1] - o[1]};
     double away = math_hypot(d[0], d[1]);
     double most = side * fmin(fmax(FAST * h, SHORTEST), LONGEST);
@@ -36,10 +36,10 @@ static void plan_obstacle_way(const Push *push, const double *o, double h,
 }
 
 /* Whether a node in front of the obstacle feels the hand's full force. */
-static bool is_pressed(const Contact *contact, const System *system,
-                       const double *x, const double way[2])
+static bool obstacle_is_pressed(const Contact *contact, const System *system,
+                                const double *x, const double way[2])
 {
-    int k = contact->push.obstacle;
+    int k = contact->hand.obstacle;
     const Obstacle *obstacle = &contact->obstacle[k];
     for (int i = 0; i < system->nodes; i++) {
         Gap gap = contact_measure_gap(obstacle, obstacle->o, x + 2 * i,
@@ -58,7 +58,7 @@ static bool is_pressed(const Contact *contact, const System *system,
 static bool obstacle_has_room(const Contact *contact, const System *system,
                               const double *x, const double o[2])
 {
-    int k = contact->push.obstacle;
+    int k = contact->hand.obstacle;
     const Obstacle *obstacle = &contact->obstacle[k];
     const double keep = KEPT * contact->barrier.d_hat;
     for (int i = 0; i < system->nodes; i++) {
@@ -70,7 +70,7 @@ static bool obstacle_has_room(const Contact *contact, const System *system,
         if (after < fmin(before, keep))
             return false;
     }
-    const SquareMesh *shape = &contact->push.shape;
+    const SquareMesh *shape = &contact->hand.mesh;
     return obstacle->kind == OBSTACLE_WALL ||
            square_mesh_find_cell(shape, x, o, 0, shape->cells) < 0 ||
            square_mesh_find_cell(shape, x, obstacle->o, 0, shape->cells) >= 0;
@@ -78,10 +78,10 @@ static bool obstacle_has_room(const Contact *contact, const System *system,
 
 /* Returns the part of the way up to the first place without room, found by
  * steps that are halved there. */
-static double find_free_part(const Contact *contact, const System *system,
-                             const double *x, const double way[2])
+static double find_free_path_part(const Contact *contact, const System *system,
+                                  const double *x, const double way[2])
 {
-    const Obstacle *obstacle = &contact->obstacle[contact->push.obstacle];
+    const Obstacle *obstacle = &contact->obstacle[contact->hand.obstacle];
     double length = math_hypot(way[0], way[1]), free = 0, step = 1;
     if (obstacle->kind == OBSTACLE_BALL)
         step = fmin(fmax(0.5 * obstacle->radius / length, 1.0 / MAX_PARTS), 1);
@@ -102,25 +102,25 @@ static double find_free_part(const Contact *contact, const System *system,
 void push_begin_step(Contact *contact, const System *system, const double *x,
                      double h)
 {
-    Push *push = &contact->push;
+    Push *push = &contact->hand;
     double way[2];
     push->stopped = false;
-    push->moved = 0;
-    push->on = push->on && push->obstacle < contact->obstacles;
-    if (!push->on)
+    push->moved_part = 0;
+    push->held = push->held && push->obstacle < contact->obstacles;
+    if (!push->held)
         return;
     Obstacle *obstacle = &contact->obstacle[push->obstacle];
-    plan_obstacle_way(push, obstacle->o, h, way);
-    double part = is_pressed(contact, system, x, way)
+    plan_obstacle_path(push, obstacle->o, h, way);
+    double part = obstacle_is_pressed(contact, system, x, way)
                       ? 0
-                      : find_free_part(contact, system, x, way);
+                      : find_free_path_part(contact, system, x, way);
     for (int c = 0; c < 2; c++)
         obstacle->v[c] = part * way[c] / h;
 }
 
 double push_max_step(const Contact *contact, double h)
 {
-    const Obstacle *obstacle = &contact->obstacle[contact->push.obstacle];
+    const Obstacle *obstacle = &contact->obstacle[contact->hand.obstacle];
     double length = h * math_hypot(obstacle->v[0], obstacle->v[1]);
     return obstacle->kind == OBSTACLE_BALL && length > 0
                ? 0.5 * obstacle->radius / length

@@ -42,13 +42,13 @@ static int find_pair_block(const SelfContact *self, SelfPair pair)
 
 static Status add_pair(SelfContact *self, SelfPair pair)
 {
-    if (self->pairs == self->room) {
-        int room = 2 * self->room + 64;
+    if (self->pairs == self->capacity) {
+        int room = 2 * self->capacity + 64;
         SelfPair *more = realloc(self->pair, (size_t)room * sizeof *more);
         if (!more)
             return STATUS_OUT_OF_MEMORY;
         self->pair = more;
-        self->room = room;
+        self->capacity = room;
     }
     self->pair[self->pairs++] = pair;
     return STATUS_OK;
@@ -68,7 +68,7 @@ static Status self_contact_begin_step(const TermStep *step)
     for (int i = 0; i < boundary->points && !status; i++)
         while (!status &&
                (edge = boundary_next_edge(boundary, system, i, &cursor)) >= 0)
-            status = add_pair(self, (SelfPair){boundary->point[i], edge});
+            status = add_pair(self, (SelfPair){boundary->point_node[i], edge});
     int count = self->pairs - old;
     SelfPair *fresh = self->pair + old;
     self->pairs = old;
@@ -91,7 +91,7 @@ static Status self_contact_grow(const EvalPoint *at, bool *grown)
     Status status = STATUS_OK;
     for (ElementIterator walk = elements_begin(at, NULL, 0);
          !status && elements_next(&walk);)
-        if (walk.element.block < 0) {
+        if (walk.element.block_index < 0) {
             *grown = true;
             status = add_pair(
                 self, (SelfPair){walk.element.node[0], walk.element.partner});
@@ -180,10 +180,10 @@ static bool pair_get_element(const EvalPoint *at, int i, double way,
     Boundary *boundary = &self->boundary;
     int edge;
     while ((edge = boundary_next_edge(boundary, at->system, i,
-                                      &element->cursor)) >= 0) {
-        const SelfPair pair = {boundary->point[i], edge};
-        element->vectors = 2;
-        element->nodes = get_pair_nodes(at->system, pair, element->node);
+                                      &element->search_cursor)) >= 0) {
+        const SelfPair pair = {boundary->point_node[i], edge};
+        element->vector_count = 2;
+        element->node_count = get_pair_nodes(at->system, pair, element->node);
         element->weight = differences;
         element->factor = at->weight;
         element->partner = edge;
@@ -194,7 +194,7 @@ static bool pair_get_element(const EvalPoint *at, int i, double way,
             continue;
         if (is_below_rounding(self, element, at->x))
             element->s = 0;
-        element->block =
+        element->block_index =
             boundary->has_motion ? -1 : find_pair_block(self, pair);
         return true;
     }
@@ -260,8 +260,8 @@ typedef struct Quadratic {
 
 /* Returns the change of top^2/l along the line, less its part of degree 1,
  * which is added to *first.  A negative top counts as 0 unless `always`. */
-static double square_ratio_change(Quadratic top, Quadratic l, bool always,
-                                  double *first)
+static double square_ratio_remainder(Quadratic top, Quadratic l, bool always,
+                                     double *first)
 {
     double N = top.degree0, change = top.degree1 + top.degree2,
            end = l.degree0 + l.degree1 + l.degree2;
@@ -293,9 +293,9 @@ static double pair_line_remainder(const EvalPoint *at, const Element *element,
                            -dot2(dq, de)};
     const Quadratic high = {-low.degree0 - l.degree0, -low.degree1 - l.degree1,
                             -low.degree2 - l.degree2};
-    double rest = square_ratio_change(side, l, true, &first) +
-                  square_ratio_change(low, l, false, &first) +
-                  square_ratio_change(high, l, false, &first);
+    double rest = square_ratio_remainder(side, l, true, &first) +
+                  square_ratio_remainder(low, l, false, &first) +
+                  square_ratio_remainder(high, l, false, &first);
     double S = element->s, slope = barrier_slope(S);
     if (S < 1 && S + (first + rest) / d_hat2 >= 1) /* p leaves the barrier */
         return self->c * (-barrier_value(S) - slope * first / d_hat2);
@@ -377,10 +377,10 @@ static void self_contact_free(void *data)
 const TermKind self_contact_energy = {
     .name = "bodies that touch",
     ELEMENTS(near_pairs),
-    .energy = "contact",
+    .energy_name = "contact",
     .place = PLACE_CONTACT,
     .begin_step = self_contact_begin_step,
-    .grow = self_contact_grow,
+    .extend_pattern = self_contact_grow,
     .curvature_bound = pair_curvature_bound,
     .free = self_contact_free,
 };

@@ -14,7 +14,7 @@ SquareMesh square_mesh_create(int columns, int rows, double side, int bodies)
                         .nodes = bodies * (columns + 1) * (rows + 1),
                         .springs = bodies * (springs + 2 * columns * rows),
                         .cells = bodies * columns * rows,
-                        .outline = bodies * 2 * (columns + rows)};
+                        .outline_edges = bodies * 2 * (columns + rows)};
 }
 
 /* Returns the body of node, cell or edge i; i becomes its number in the body.
@@ -27,7 +27,7 @@ static int locate_in_body(const SquareMesh *shape, int total, int *i)
 }
 
 /* Returns the node of column i, row j; nodes are numbered column by column. */
-static int grid_node(const SquareMesh *shape, int i, int j)
+static int grid_index(const SquareMesh *shape, int i, int j)
 {
     return i * (shape->rows + 1) + j;
 }
@@ -40,7 +40,7 @@ int square_mesh_locate_body(const SquareMesh *shape, int *i)
 /* x_(i,j) = (-side/2 + i spacing, -high/2 + j spacing) */
 void square_mesh_rest_position(const SquareMesh *shape, int i, double x[2])
 {
-    int stride = grid_node(shape, 1, 0);
+    int stride = grid_index(shape, 1, 0);
     square_mesh_locate_body(shape, &i);
     double step = shape->spacing;
     double high =
@@ -52,7 +52,7 @@ void square_mesh_rest_position(const SquareMesh *shape, int i, double x[2])
 int square_mesh_get_sides(const SquareMesh *shape, int i)
 {
     square_mesh_locate_body(shape, &i);
-    int stride = grid_node(shape, 1, 0), column = i / stride, row = i % stride;
+    int stride = grid_index(shape, 1, 0), column = i / stride, row = i % stride;
     return (column == 0 ? MESH_LEFT : 0) |
            (column == shape->segments ? MESH_RIGHT : 0) |
            (row == 0 ? MESH_BOTTOM : 0) | (row == shape->rows ? MESH_TOP : 0);
@@ -66,7 +66,7 @@ void square_mesh_get_cell(const SquareMesh *shape, int c, int node[4],
     int first = locate_in_body(shape, shape->cells, &c);
     first *= shape->springs / shape->bodies;
     int a = first + c / rows * (rows + 1) + c % rows;
-    int upright = first + grid_node(shape, columns, 0) + c;
+    int upright = first + grid_index(shape, columns, 0) + c;
     int diagonals = upright + (columns + 1) * rows + c;
     const int springs[6] = {a,       upright + rows, a + 1,
                             upright, diagonals,      diagonals + 1};
@@ -112,31 +112,31 @@ bool square_mesh_get_patch(const SquareMesh *shape, int c, int cells,
     int left = c / rows, low = c % rows;
     int right = left + cells < columns ? left + cells : columns;
     int up = low + cells < rows ? low + cells : rows;
-    node[0] = first + grid_node(shape, left, low);
-    node[1] = first + grid_node(shape, right, low);
-    node[2] = first + grid_node(shape, right, up);
-    node[3] = first + grid_node(shape, left, up);
+    node[0] = first + grid_index(shape, left, low);
+    node[1] = first + grid_index(shape, right, low);
+    node[2] = first + grid_index(shape, right, up);
+    node[3] = first + grid_index(shape, left, up);
     return cells == 1 || (left % cells == 0 && low % cells == 0);
 }
 
 /* Returns node k of a body's outline, anticlockwise from the lower left. */
-static int outline_node(const SquareMesh *shape, int k)
+static int outline_index(const SquareMesh *shape, int k)
 {
     int columns = shape->segments, rows = shape->rows;
     if (k >= columns + rows) /* from the upper right back to the lower left */
-        return grid_node(shape, columns, rows) -
-               outline_node(shape, k - columns - rows);
-    return k < columns ? grid_node(shape, k, 0)
-                       : grid_node(shape, columns, k - columns);
+        return grid_index(shape, columns, rows) -
+               outline_index(shape, k - columns - rows);
+    return k < columns ? grid_index(shape, k, 0)
+                       : grid_index(shape, columns, k - columns);
 }
 
 void square_mesh_get_outline_edge(const SquareMesh *shape, int k, int node[2])
 {
-    int first = locate_in_body(shape, shape->outline, &k);
+    int first = locate_in_body(shape, shape->outline_edges, &k);
     first *= shape->nodes / shape->bodies;
-    int next = (k + 1) % (shape->outline / shape->bodies);
-    node[0] = first + outline_node(shape, k);
-    node[1] = first + outline_node(shape, next);
+    int next = (k + 1) % (shape->outline_edges / shape->bodies);
+    node[0] = first + outline_index(shape, k);
+    node[1] = first + outline_index(shape, next);
 }
 
 /* Writes the springs from each node (i, j) to (i + right, j + up).  Returns the
@@ -146,8 +146,8 @@ static int *list_springs(const SquareMesh *shape, int first, int *e, int right,
 {
     for (int i = 0; i + right <= shape->segments; i++)
         for (int j = 0; j + up <= shape->rows; j++) {
-            *e++ = first + grid_node(shape, i, j);
-            *e++ = first + grid_node(shape, i + right, j + up);
+            *e++ = first + grid_index(shape, i, j);
+            *e++ = first + grid_index(shape, i + right, j + up);
         }
     return e;
 }
@@ -195,7 +195,7 @@ static int dissect_grid(const SquareMesh *shape, GridPart part, int next,
     }
     for (int i = part.begin[0]; i < part.end[0]; i++)
         for (int j = part.begin[1]; j < part.end[1]; j++)
-            order[grid_node(shape, i, j)] = next++;
+            order[grid_index(shape, i, j)] = next++;
     return next;
 }
 

@@ -20,10 +20,10 @@ Status system_create(int nodes, int springs, System *system)
         return STATUS_OUT_OF_MEMORY;
     system->l2 = system->m + n;
     system->k = system->l2 + count;
-    system->order = system->e + 2 * count;
+    system->elimination_order = system->e + 2 * count;
     for (int i = 0; i < nodes; i++)
-        system->order[i] = i;
-    system->pinned = (unsigned char *)(system->order + n);
+        system->elimination_order[i] = i;
+    system->pinned = (unsigned char *)(system->elimination_order + n);
     return springs == 0 || system_add_term(system, &mass_spring_energy, 1)
                ? STATUS_OK
                : STATUS_OUT_OF_MEMORY;
@@ -32,7 +32,7 @@ Status system_create(int nodes, int springs, System *system)
 void system_mark_changed(System *system, bool pattern)
 {
     system->version++;
-    system->pattern += pattern;
+    system->pattern_version += pattern;
 }
 
 static void free_term(Term *term)
@@ -97,15 +97,15 @@ void system_remove_term(System *system, const TermKind *kind)
  * yet takes the first free row. */
 void system_book_loss(System *system, const TermKind *kind, double energy)
 {
-    EnergyLoss *loss = system->lost;
-    while (loss->name && strcmp(loss->name, kind->loss) != 0)
+    EnergyLoss *loss = system->losses;
+    while (loss->name && strcmp(loss->name, kind->loss_name) != 0)
         loss++;
-    loss->name = kind->loss;
+    loss->name = kind->loss_name;
     loss->energy += energy;
 }
 
-EvalPoint eval_point_at(const System *system, const double *x_n,
-                        const double *u, const double *x)
+EvalPoint make_eval_point(const System *system, const double *x_n,
+                          const double *u, const double *x)
 {
     const Damping *damped = u ? system_term_data(system, &damping) : NULL;
     return (EvalPoint){.system = system,
@@ -138,14 +138,14 @@ double system_max_step(EvalPoint at, const double *p, bool internal)
 {
     double reach = INFINITY;
     for (const TermKind *kind; (kind = eval_point_next_term(&at));)
-        if (kind->element && !(kind->external && internal))
+        if (kind->element && !(kind->is_external && internal))
             reach = fmin(reach, elements_max_step(&at, p));
     return reach;
 }
 
 bool system_path_is_free(const System *system, const double *x, const double *p)
 {
-    return system_max_step(eval_point_at(system, NULL, NULL, x), p, true) > 1;
+    return system_max_step(make_eval_point(system, NULL, NULL, x), p, true) > 1;
 }
 
 bool system_has_gravity(const System *system)
@@ -172,7 +172,7 @@ double system_gravity_potential(const System *system, const double *x)
 
 double system_potential(const System *system, const double *x)
 {
-    EvalPoint at = eval_point_at(system, x, NULL, x);
+    EvalPoint at = make_eval_point(system, x, NULL, x);
     double sum = 0;
     for (const TermKind *kind; (kind = eval_point_next_term(&at));)
         if (kind->value)
@@ -192,7 +192,7 @@ static bool terms_are_internal(const System *system, bool turn)
 {
     for (int t = 0; t < system->terms; t++) {
         const TermKind *kind = system->term[t].kind;
-        if (kind->external || (turn && kind->depends_on_start))
+        if (kind->is_external || (turn && kind->depends_on_start))
             return false;
     }
     return true;
@@ -218,7 +218,7 @@ bool system_turns_freely(const System *system, int *pivot)
 
 void system_acceleration(const System *system, const double *x, double *a)
 {
-    EvalPoint at = eval_point_at(system, x, NULL, x);
+    EvalPoint at = make_eval_point(system, x, NULL, x);
     at.weight = -1;
     for (int i = 0; i < 2 * system->nodes; i++)
         a[i] = 0;
@@ -234,7 +234,7 @@ double system_curvature_bound(const System *system)
 {
     /* In a step, where u is not NULL, damping makes springs stiffer. */
     const double u = 0;
-    EvalPoint at = eval_point_at(system, NULL, &u, NULL);
+    EvalPoint at = make_eval_point(system, NULL, &u, NULL);
     double most = 0;
     for (const TermKind *kind; (kind = eval_point_next_term(&at));)
         if (kind->curvature_bound)
@@ -244,7 +244,7 @@ double system_curvature_bound(const System *system)
 
 void term_add_block(const System *system, int i, int j, Triplets *triplets)
 {
-    int r = system->order[i], c = system->order[j];
+    int r = system->elimination_order[i], c = system->elimination_order[j];
     triplets_add(triplets, 2 * r, 2 * c);
     triplets_add(triplets, 2 * r, 2 * c + 1);
     if (r != c)
@@ -254,7 +254,7 @@ void term_add_block(const System *system, int i, int j, Triplets *triplets)
 
 void term_add_diagonal(const System *system, int i, Triplets *triplets)
 {
-    int place = system->order[i];
+    int place = system->elimination_order[i];
     triplets_add(triplets, 2 * place, 2 * place);
     triplets_add(triplets, 2 * place + 1, 2 * place + 1);
 }

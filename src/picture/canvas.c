@@ -138,7 +138,7 @@ Box canvas_set_clip(Canvas *canvas, Box box)
     return before;
 }
 
-static uint32_t *get_row(const Canvas *canvas, int y)
+static uint32_t *get_pixel_row(const Canvas *canvas, int y)
 {
     return canvas->pixels + (size_t)y * (size_t)canvas->width;
 }
@@ -160,8 +160,8 @@ void canvas_fill(Canvas *canvas, Box box, Colour colour)
 {
     Box seen = box_intersection(canvas->clip, box);
     for (int j = seen.y; j < seen.y + seen.height; j++)
-        blend_span(get_row(canvas, j), seen.x, seen.x + seen.width, colour,
-                   find_opacity(colour));
+        blend_span(get_pixel_row(canvas, j), seen.x, seen.x + seen.width,
+                   colour, find_opacity(colour));
 }
 
 void canvas_framed_box(Canvas *canvas, Box box, Colour fill, Colour border)
@@ -347,7 +347,7 @@ void canvas_triangle(Canvas *canvas, const double c[6], bool smooth,
         edge[k][3] = 1 / edge[k][0];
     }
     for (int j = box.y; j < box.y + box.height; j++) {
-        uint32_t *row = get_row(canvas, j);
+        uint32_t *row = get_pixel_row(canvas, j);
         int left = box.x, right = box.x + box.width;
         double first[3]; /* a x + b y + c at the middle of pixel 0 */
         for (int k = 0; k < 3; k++) {
@@ -382,7 +382,7 @@ void canvas_ring(Canvas *canvas, double x, double y, double radius,
         find_touched_pixels(canvas->clip, x - far, y - far, x + far, y + far);
     uint32_t full = find_opacity(colour);
     for (int j = box.y; j < box.y + box.height; j++) {
-        uint32_t *row = get_row(canvas, j);
+        uint32_t *row = get_pixel_row(canvas, j);
         double dy = j + 0.5 - y;
         for (int i = box.x; i < box.x + box.width; i++) {
             double dx = i + 0.5 - x, d2 = dx * dx + dy * dy;
@@ -407,7 +407,7 @@ void canvas_fill_mask(Canvas *canvas, int x, int y, int width, int height,
     uint32_t full = find_opacity(colour);
     Box box = find_touched_pixels(canvas->clip, x, y, x + width, y + height);
     for (int j = box.y; j < box.y + box.height; j++) {
-        uint32_t *row = get_row(canvas, j);
+        uint32_t *row = get_pixel_row(canvas, j);
         const uint8_t *part = mask + (size_t)(j - y) * (size_t)width;
         for (int i = box.x; i < box.x + box.width; i++) {
             uint32_t amount = part[i - x];

@@ -249,7 +249,7 @@ static int write_legend(const Plot *card, const Curves *all, bool named,
 }
 
 /* Leaves out the curve, not the first one, whose largest value is smallest. */
-static void leave_out_smallest(Curves *all)
+static void omit_smallest_curves(Curves *all)
 {
     double least = INFINITY;
     int smallest = all->count - 1;
@@ -282,7 +282,7 @@ void energies_draw(const Plot *card)
                  write_legend(card, &all, true, false) <= room;
     while (has_legend && all.count > 1 &&
            write_legend(card, &all, named, false) > room)
-        leave_out_smallest(&all);
+        omit_smallest_curves(&all);
     if (has_legend)
         box_cut_off(&rest.box, EDGE_TOP, write_legend(card, &all, named, true));
     Axis energy = make_energies_axis(card->simulation, &all, &last);

@@ -8,9 +8,9 @@ enum { NOTHING, FILL, ENTRY };
 
 /* Returns the row of a node: the node's number in natural order, else the
  * node's place in the elimination order. */
-static int row_of_node(const System *system, int node, bool natural)
+static int matrix_row(const System *system, int node, bool natural)
 {
-    return natural ? node : system->order[node];
+    return natural ? node : system->elimination_order[node];
 }
 
 /* Computes the pattern of the first springs' matrix in natural order, else of
@@ -18,14 +18,14 @@ static int row_of_node(const System *system, int node, bool natural)
  * block [i n + i] is the number of the node's springs.
  * Each column of the factor adds its pattern to its parent's column; the parent
  * is the first non-zero row below the diagonal.  NULL: out of memory. */
-static unsigned char *compute_pattern(const System *system, bool natural,
-                                      int springs)
+static unsigned char *compute_matrix_pattern(const System *system, bool natural,
+                                             int springs)
 {
     size_t n = (size_t)system->nodes;
     unsigned char *block = calloc(n, n);
     for (int s = 0; block && s < springs; s++) {
-        size_t i = (size_t)row_of_node(system, system->e[2 * s], natural);
-        size_t j = (size_t)row_of_node(system, system->e[2 * s + 1], natural);
+        size_t i = (size_t)matrix_row(system, system->e[2 * s], natural);
+        size_t j = (size_t)matrix_row(system, system->e[2 * s + 1], natural);
         block[i < j ? i * n + j : j * n + i] = ENTRY;
         block[i * n + i]++;
         block[j * n + j]++;
@@ -60,7 +60,7 @@ static void draw_pattern(const Plot *card, Box square, bool natural,
 {
     const System *system = &card->simulation->system;
     const Pick *hover = &card->content->view->hovered;
-    unsigned char *block = compute_pattern(system, natural, springs);
+    unsigned char *block = compute_matrix_pattern(system, natural, springs);
     Canvas *canvas = &card->paper->canvas;
     bool writes = card->simulation->options.next == NEXT_SPRING;
     int n = system->nodes, least = paper_pixels(card->paper, 0.35);
@@ -81,8 +81,8 @@ static void draw_pattern(const Plot *card, Box square, bool natural,
         }
     for (int k = 0; block && k < 4 && lit >= 0 && lit < system->springs; k++) {
         const int *e = system->e + 2 * lit;
-        int i = row_of_node(system, e[k / 2], natural);
-        int j = row_of_node(system, e[k % 2], natural);
+        int i = matrix_row(system, e[k / 2], natural);
+        int j = matrix_row(system, e[k % 2], natural);
         Box box = find_block_box(square, n, i, j, least);
         int sum = writes && i == j ? block[(size_t)i * (size_t)(n + 1)] : 0;
         canvas_framed_box(canvas, box_inset(box, -1),

@@ -25,7 +25,7 @@ typedef struct LawPoint {
 } LawPoint;
 
 typedef struct Law {
-    const char *name; /* value of Options.law */
+    const char *name; /* value of Options.law_name */
     const char *x_label, *y_label;
     const TermKind *law_term;     /* term with the law */
     const TermKind *element_term; /* term of the elements; NULL: springs */
@@ -90,7 +90,7 @@ static const Law laws[] = {
      breaking_force_ratio, 0, 1.3},
 };
 
-static void fill_spring_point(LawPoint *now, int s)
+static void fill_spring_law(LawPoint *now, int s)
 {
     const System *system = now->eval.system;
     const Plasticity *flow = system_term_data(system, &plastic_energy);
@@ -104,7 +104,7 @@ static void fill_spring_point(LawPoint *now, int s)
                 : tear                      ? now->x
                        : fabs(now->spring.ep) + 1e-3 * fabs(now->x);
     if (flow)
-        now->axis_unit = fmax(4 * now->spring.yield, 1.2 * fabs(now->x));
+        now->axis_unit = fmax(4 * now->spring.yield_strain, 1.2 * fabs(now->x));
 }
 
 /* Returns the law's value at the dot.  A spring beyond its strength keeps its
@@ -130,7 +130,7 @@ static const Law *find_law(const Simulation *simulation, LawPoint *most)
     if (!term)
         return NULL;
     bool rubs = law->evaluate == friction_force_ratio;
-    *most = (LawPoint){.eval = eval_point_at(system, x, NULL, x),
+    *most = (LawPoint){.eval = make_eval_point(system, x, NULL, x),
                        .axis_unit = 1,
                        .x = NAN,
                        .load = -INFINITY};
@@ -142,7 +142,7 @@ static const Law *find_law(const Simulation *simulation, LawPoint *most)
         most->axis_unit = self_contact_of(system)->d_hat;
     LawPoint now = *most;
     for (int s = 0; s < system->springs && !law->element_term; s++) {
-        fill_spring_point(&now, s);
+        fill_spring_law(&now, s);
         *most = now.load > most->load ? now : *most;
     }
     if (!law->element_term)
@@ -159,8 +159,8 @@ static const Law *find_law(const Simulation *simulation, LawPoint *most)
         now.x = element->s;
         if (rubs) {
             now.load = walk.kind->friction_limit(&now.eval, element, t, &slip);
-            element_vectors(element, v, w);
-            for (int i = 0; i < 2 * element->vectors; i++)
+            element_get_vectors(element, v, w);
+            for (int i = 0; i < 2 * element->vector_count; i++)
                 slip -= t[i] * w[i];
             mean = force > 0 ? mean : 0;
             force += now.load;
@@ -203,9 +203,10 @@ static bool find_flow_path(const LawPoint *now, double from[2], double to[2])
 {
     const Plasticity *flow =
         system_term_data(now->eval.system, &plastic_energy);
-    double ep = now->spring.ep, most = flow ? now->spring.yield : 0;
-    double away = flow ? most - flow->yield - flow->hardening * fabs(ep) : 0;
-    from[0] = from[1] = flow ? copysign(flow->yield, ep) : 0;
+    double ep = now->spring.ep, most = flow ? now->spring.yield_strain : 0;
+    double away =
+        flow ? most - flow->yield_strain - flow->hardening * fabs(ep) : 0;
+    from[0] = from[1] = flow ? copysign(flow->yield_strain, ep) : 0;
     to[1] = copysign(most, ep);
     to[0] = ep + to[1];
     return ep != 0 && fabs(away) <= 1e-9 * most;
@@ -274,7 +275,7 @@ void law_draw(const Plot *card)
     bool both = law->axis_low < 0;
     double low = law->axis_low * now->axis_unit,
            high = law->axis_high * now->axis_unit;
-    double most = both ? 1.4 * now->spring.yield
+    double most = both ? 1.4 * now->spring.yield_strain
                        : fmax(law->evaluate(now, 0.9 * low + 0.1 * high),
                               law->evaluate(now, 0.25 * low + 0.75 * high));
     double x = now->x, y = law_value_at(law, now);
@@ -287,7 +288,7 @@ void law_draw(const Plot *card)
     plot_graph(&plot, law->evaluate, now, 2.4, COLOUR_X);
     LawPoint other = *now; /* each spring has a small dot on its own law */
     for (int s = 0; s < other.eval.system->springs && !law->element_term; s++) {
-        fill_spring_point(&other, s);
+        fill_spring_law(&other, s);
         if (other.load > -INFINITY)
             plot_disc(&plot, (double[2]){other.x, law_value_at(law, &other)}, 2,
                       COLOUR_GHOST);

@@ -56,8 +56,8 @@ static void fill_curves(const Trace *trace, const Trace *other,
 }
 
 /* Draws a trial of the line search; above the axis as an arrow with a value. */
-static void draw_trial(const Plot *plot, double alpha, double value,
-                       bool accepted)
+static void draw_trial_step(const Plot *plot, double alpha, double value,
+                            bool accepted)
 {
     Paper *paper = plot->paper;
     const double point[2] = {alpha, value};
@@ -129,11 +129,11 @@ void line_energy_draw(const Plot *card)
     double full = line_energy_at(trace, first);
     bool is_main = card->simulation->options.main_card;
     if (trace->trials == 0 && is_main && full > plot.y.high)
-        draw_trial(&plot, first, full, false);
+        draw_trial_step(&plot, first, full, false);
     for (int t = 0; t < trace->trials; t++) {
         double at = trace_step_length(trace, t + 1);
         bool last = t == trace->trials - 1;
-        draw_trial(&plot, at, line_energy_at(trace, at),
-                   last && trace->is_accepted);
+        draw_trial_step(&plot, at, line_energy_at(trace, at),
+                        last && trace->is_accepted);
     }
 }

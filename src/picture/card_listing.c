@@ -9,7 +9,7 @@ static const double PAGE_PITCH = 2.1, PITCH = 1.75;
 /* Height of the table of residuals over that of the main card. */
 static const double TABLE_PART = 0.68;
 
-ShownRow listing_show_row(const Pane *pane, const ListingRow *row)
+ShownRow listing_fill_row(const Pane *pane, const ListingRow *row)
 {
     const LiveValues *values = &pane->values;
     const Trace *trace = pane->shown_trace;
@@ -28,7 +28,7 @@ static void draw_listing_row(const Plot *card, Box box, const ListingRow *row,
                              int number)
 {
     Paper *paper = card->paper;
-    const ShownRow now = listing_show_row(card->pane, row);
+    const ShownRow now = listing_fill_row(card->pane, row);
     char digits[12];
     double size = box.height < 0.95 * PAGE_PITCH * paper->em ? 1 : 1.2;
     int indent = paper_pixels(paper, 2 + 1.2 * row->indented);

@@ -67,12 +67,12 @@ static int lay_out_page(Paper *paper, Box inside, double size,
     const PageText words[] = {
         {NULL, page->text, COLOUR_TEXT, 1},
         {NULL, page->formula, COLOUR_TEXT, FORMULA_SIZE},
-        {judged ? "Ask" : NULL, judged ? page->ask : NULL, COLOUR_X, 1},
+        {judged ? "Ask" : NULL, judged ? page->question : NULL, COLOUR_X, 1},
         {judged ? "You" : NULL, judged ? content->lecture.verdict : NULL,
          COLOUR_HAND, VERDICT_SIZE},
-        {asks ? "Ask" : "Look", asks ? page->ask : content->lecture.look_text,
-         COLOUR_X, 1},
-        {asks ? "How" : "Try", asks ? how : page->touch, COLOUR_HAND, 1}};
+        {asks ? "Ask" : "Look",
+         asks ? page->question : content->lecture.look_text, COLOUR_X, 1},
+        {asks ? "How" : "Try", asks ? how : page->try, COLOUR_HAND, 1}};
     int y = inside.y;
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
         y = lay_out_text(paper, inside, y, size, HEADING_WIDTH, &words[i],

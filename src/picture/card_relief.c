@@ -35,9 +35,9 @@ typedef struct Corner {
     bool is_convex;
 } Corner;
 
-static double find_rim(const Simulation *simulation)
+static double rim_height(const Simulation *simulation)
 {
-    const double *target = simulation->exhibit.target;
+    const double *target = simulation->exhibit.x_tilde;
     unsigned parts = simulation->exhibit.switches;
     double rim = 0;
     if (parts & PART_INERTIA)
@@ -52,7 +52,7 @@ static double find_rim(const Simulation *simulation)
 static Corner corner_at(const Relief *relief, double x, double y)
 {
     LocalModel E = descent_evaluate(relief->simulation, PROJECTION_NONE, x, y);
-    return (Corner){x, y, E.value, landscape_is_convex(&E)};
+    return (Corner){x, y, E.energy, landscape_is_convex(&E)};
 }
 
 /* Returns the orthographic projection: m to the right and upwards. */
@@ -190,8 +190,8 @@ static void draw_newton_path(const Relief *relief)
     for (int i = 0; i < descent->count; i++) {
         const NewtonRecord *record = &descent->record[i];
         Colour colour = record->slope > 0 ? COLOUR_WARNING : COLOUR_P;
-        draw_surface_line(relief, record->from, record->to, 3, colour);
-        draw_surface_point(relief, record->from, 4.5, COLOUR_X, NULL);
+        draw_surface_line(relief, record->x_before, record->x_after, 3, colour);
+        draw_surface_point(relief, record->x_before, 4.5, COLOUR_X, NULL);
     }
     if (!relief->plot.content->lecture.hides_answer)
         draw_surface_line(relief, x, point_along(x, 1, descent->direction).xy,
@@ -239,7 +239,7 @@ static void draw_relief_axes(const Relief *relief)
 void relief_draw(const Plot *card)
 {
     static const double bounds[4] = {-1.62, -0.75, 1.88, 2.2}; /* m */
-    Relief relief = {card->simulation, *card, find_rim(card->simulation), 0};
+    Relief relief = {card->simulation, *card, rim_height(card->simulation), 0};
     relief.contour_step = plot_round_up(relief.rim_E / MAX_CONTOURS);
     relief.plot.camera = camera_create(card->box, bounds, false, &LENS_FITS);
     draw_surface(&relief);
@@ -248,6 +248,6 @@ void relief_draw(const Plot *card)
         draw_dial_curve(&relief);
     else
         draw_newton_path(&relief);
-    draw_surface_point(&relief, card->simulation->exhibit.target, 5,
+    draw_surface_point(&relief, card->simulation->exhibit.x_tilde, 5,
                        COLOUR_X_TILDE, "{xt}");
 }

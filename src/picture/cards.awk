@@ -74,7 +74,7 @@ BEGIN {
     switches["starts_closed"] switches["below_picture"]
     switches["beside_picture"]
     switches["needs_line_energy"] switches["only_in_lecture"]
-    switches["stretched"] switches["own_handles"] switches["takes_clicks"]
+    switches["is_stretched"] switches["draws_handles"] switches["takes_clicks"]
     switches["shows_scale"] switches["indented"]
     print "#include \"picture/cards.h\""
 }

@@ -51,7 +51,7 @@ typedef struct ListGrid {
     double row_height; /* pixels, height of a row */
 } ListGrid;
 
-static ListGrid arrange_list(const List *list, Box inside, double em)
+static ListGrid arrange_list_grid(const List *list, Box inside, double em)
 {
     const double line = 1.5, least = 1.3, wide = 24; /* ems */
     ListGrid grid = {list->rows > 0 ? list->rows : 1, 1, line * em};
@@ -69,7 +69,7 @@ int frame_find_row(const FrameContent *content, const Layout *layout, double x,
 {
     int margin = (int)lround(0.9 * layout->em);
     Box inside = card_inner_box(box_inset(layout->column, margin), layout->em);
-    ListGrid grid = arrange_list(&content->list, inside, layout->em);
+    ListGrid grid = arrange_list_grid(&content->list, inside, layout->em);
     if (content->column < COLUMN_PAGES || !box_contains(inside, x, y))
         return -1;
     int column = (int)((x - inside.x) * grid.columns / inside.width);
@@ -83,7 +83,7 @@ int frame_find_row(const FrameContent *content, const Layout *layout, double x,
 static void draw_list(Paper *paper, Box inside, const List *list)
 {
     const double smallest = 0.85; /* smallest size over the usual size */
-    ListGrid grid = arrange_list(list, inside, paper->em);
+    ListGrid grid = arrange_list_grid(list, inside, paper->em);
     double em = paper->em, size = fmin(0.95, grid.row_height / (1.3 * em));
     double key = 0, wide = inside.width / (double)grid.columns;
     for (int i = 0; i < list->rows; i++)
@@ -131,7 +131,7 @@ double code_needed_width(const LecturePage *page)
 static void draw_code(Paper *paper, Box inside, const FrameContent *content)
 {
     const char *const *code = content->lecture.page->code;
-    const char *mark = lecture_lit_code(content);
+    const char *mark = lecture_marked_code(content);
     const double letter = 0.603, high = 1.3, low = 1.17, most = 1.9; /* ems */
     int lines;
     double letters = measure_code(content->lecture.page, &lines);

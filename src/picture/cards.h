@@ -99,7 +99,7 @@ bool frame_has_card(const FrameContent *content, const char *name);
 
 /* Returns the text that a line of the page's code contains if the line is lit.
  * In a walk through Algorithm 3 the text depends on the present line. */
-const char *lecture_lit_code(const FrameContent *content);
+const char *lecture_marked_code(const FrameContent *content);
 
 /* Returns the spring that the present step adds to the Hessian. */
 int find_newest_spring(const Simulation *simulation);
@@ -117,7 +117,7 @@ void card_write_hint(const Plot *card, const char *text);
 void card_draw_table(const Plot *card, const Card *table, const int *order);
 
 /* Returns what a row of a listing shows. */
-ShownRow listing_show_row(const Pane *pane, const ListingRow *row);
+ShownRow listing_fill_row(const Pane *pane, const ListingRow *row);
 
 /* Writes the rows of a listing that are shown now; the present line is lit. */
 void card_write_rows(const Plot *card, const ListingRow *row);

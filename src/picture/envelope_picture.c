@@ -17,9 +17,9 @@ static Colour colour_of_shade(int shade)
 static Colour colour_of_cell(const EnvelopeCell *cell)
 {
     int shade = 0;
-    if (!cell->known)
+    if (!cell->is_known)
         return COLOUR_CHIP;
-    if (cell->worst)
+    if (cell->worst_status)
         return COLOUR_REFUSED;
     while (shade < ENVELOPE_SHADES && cell->updates > 4 << shade)
         shade++;
@@ -98,8 +98,8 @@ void envelope_add_values(const Simulation *simulation, LiveValues *values)
     for (int i = 0; i < ENVELOPE_ROWS * ENVELOPE_COLUMNS; i++) {
         const EnvelopeCell *one =
             &map->cell[i / ENVELOPE_COLUMNS][i % ENVELOPE_COLUMNS];
-        known += one->known;
-        converged += one->known && !one->worst;
+        known += one->is_known;
+        converged += one->is_known && !one->worst_status;
     }
     values->colour[0] = colour_of_shade(ENVELOPE_SHADES);
     values->colour[1] = colour_of_shade(2);
@@ -114,6 +114,6 @@ void envelope_add_values(const Simulation *simulation, LiveValues *values)
     values_add(values, "k", envelope_stiffness(map->row));
     values_add(values, "steps", ENVELOPE_STEPS);
     values_add(values, "updates", cell->updates);
-    values_add_flag(values, "refused cell", cell->worst);
-    values_add_flag(values, "converged cell", !cell->worst);
+    values_add_flag(values, "refused cell", cell->worst_status);
+    values_add_flag(values, "converged cell", !cell->worst_status);
 }

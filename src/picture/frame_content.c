@@ -33,7 +33,7 @@ int picture_find_card(const Picture *picture, const char *name)
 }
 
 /* Returns the cards that the page or scene hides or closes at first. */
-static CardSets find_first_sets(const Simulation *simulation)
+static CardSets find_first_card_sets(const Simulation *simulation)
 {
     const Picture *picture = picture_of_scene(simulation->scene);
     const LecturePage *page = simulation->options.page;
@@ -55,14 +55,14 @@ void frame_create(const Simulation *simulation, FrameContent *content)
     *content = (FrameContent){.panes = 1,
                               .view = &whole,
                               .settings.selected = -1,
-                              .cards = find_first_sets(simulation)};
+                              .cards = find_first_card_sets(simulation)};
     content->pane[0].simulation = simulation;
 }
 
 bool cards_need_line_energy(const Simulation *simulation, unsigned toggled)
 {
     const Picture *picture = picture_of_scene(simulation->scene);
-    const CardSets sets = find_first_sets(simulation);
+    const CardSets sets = find_first_card_sets(simulation);
     unsigned shut = sets.hidden_cards | (sets.closed_cards ^ toggled);
     for (int c = 0; c < picture->count; c++)
         if (picture->cards[c]->needs_line_energy && !(shut >> c & 1))
@@ -76,7 +76,7 @@ static Box find_picture_room(const FrameContent *content, const Layout *layout,
                              int pane)
 {
     const Simulation *simulation = content->pane[pane].simulation;
-    bool stretched = picture_of_scene(simulation->scene)->stretched;
+    bool stretched = picture_of_scene(simulation->scene)->is_stretched;
     bool several = content->panes > 1;
     Box room = layout->pane[pane];
     int words = (int)(LEGEND_ROOM * layout->em);
@@ -140,7 +140,7 @@ Plot stage_create(Paper *paper, const FrameContent *content,
                              layout->pane[pane], layout->em);
     double bounds[4];
     stage.has_text = !content->is_bare;
-    bool stretched = picture_of_scene(stage.simulation->scene)->stretched;
+    bool stretched = picture_of_scene(stage.simulation->scene)->is_stretched;
     Box room = find_picture_room(content, layout, pane);
     Switch switches[SCENE_MAX_SWITCHES];
     find_pane_bounds(content, layout, pane, bounds);
@@ -204,7 +204,7 @@ static void draw_switches(const Plot *stage)
     for (int i = 0; i < count; i++) {
         Box box = box_of_switch(stage, i, count),
             mark = box_inset(box, box.height / 4);
-        bool on = switches[i].on;
+        bool on = switches[i].is_on;
         canvas_framed_box(&paper->canvas, box, on ? COLOUR_LIT : COLOUR_CHIP,
                           COLOUR_BORDER);
         mark.width = mark.height;
@@ -225,10 +225,10 @@ static void draw_guess(const Plot *stage)
     const Box *box = &stage->box;
     Canvas *canvas = &stage->paper->canvas;
     double unit = stage->paper->unit, arm = 7 * unit, at[2], came[2], point[2];
-    if (!guess->made || stage->content->is_bare)
+    if (!guess->has_guess || stage->content->is_bare)
         return;
-    plot_to_pixel(stage, guess->at, at);
-    plot_to_pixel(stage, guess->end, came);
+    plot_to_pixel(stage, guess->guess, at);
+    plot_to_pixel(stage, guess->reached, came);
     if (simulation_find_point(stage->simulation, point) == 1) {
         canvas_line(canvas, at[0], box->y + box->height, at[0], box->y,
                     1.5 * unit, COLOUR_HAND);
@@ -238,7 +238,7 @@ static void draw_guess(const Plot *stage)
         canvas_line(canvas, at[0] - arm, at[1] - k * arm, at[0] + arm,
                     at[1] + k * arm, 3 * unit, COLOUR_HAND);
     canvas_dashes(canvas, at, came, 1.6 * unit, unit, NULL, COLOUR_HAND);
-    plot_label(stage, 1, guess->at, COLOUR_HAND, "your guess, %s off",
+    plot_label(stage, 1, guess->guess, COLOUR_HAND, "your guess, %s off",
                format_number(guess->distance).text);
 }
 
@@ -256,7 +256,7 @@ Pick frame_pick(const FrameContent *content, const Layout *layout, double x,
     Switch switches[SCENE_MAX_SWITCHES];
     camera_to_world(&stage.camera, x, y, pick.point);
     pick.kind = picture->takes_clicks ? PICK_PLACE : PICK_NONE;
-    if (!picture->own_handles) {
+    if (!picture->draws_handles) {
         int count = list_switches(&stage, switches);
         for (pick.index = 0; pick.index < count; pick.index++)
             if (box_contains(box_of_switch(&stage, pick.index, count), x, y)) {
@@ -325,8 +325,8 @@ enum { LABEL_SIZE = 4 * VALUE_SIZE };
 
 /* Copies the first parts of a label, separated by ", ", that fit into a line
  * [LABEL_SIZE].  Returns the rest of the label. */
-static const char *take_label_line(const Plot *stage, const char *label,
-                                   char *line)
+static const char *cut_label_line(const Plot *stage, const char *label,
+                                  char *line)
 {
     int room = (int)(stage->box.width - stage->em);
     char *comma;
@@ -348,7 +348,7 @@ static void draw_pane_label(const Plot *stage, const char *label)
     char line[LINES][LABEL_SIZE];
     int lines = 0, wide = 0;
     while (*label && lines < LINES) {
-        label = take_label_line(stage, label, line[lines]);
+        label = cut_label_line(stage, label, line[lines]);
         int own = paper_width(paper, FACE_BOLD, 1, line[lines++]);
         wide = own > wide ? own : wide;
     }
@@ -377,7 +377,7 @@ static void draw_pane(Paper *paper, const Layout *layout,
         plot_legend(&stage, line.colour, "%s", line.text);
     if (stage.has_text && picture->shows_scale)
         plot_scale(&stage);
-    if (!picture->own_handles)
+    if (!picture->draws_handles)
         stage_draw_handles(&stage);
     draw_switches(&stage);
     draw_guess(&stage);

@@ -12,28 +12,28 @@ static const double HIGHLIGHT_RADIUS = 4; /* units of paper around each pixel */
 static const double MOUSE_REACH = 0.5;    /* ems, from the mouse to a term */
 static const double MIN_COVERAGE = 0.5;   /* least part of the term's colour */
 
-static int get_channel(Colour colour, int k)
+static int channel_of(Colour colour, int k)
 {
     return (int)(colour >> 8 * k & 255);
 }
 
 /* Whether the pixel is a mixture of this colour with white. */
-static bool has_colour(Colour pixel, Colour colour)
+static bool pixel_has_colour(Colour pixel, Colour colour)
 {
     double ink = 0, off = 0;
     for (int k = 0; k < 3; k++)
-        if (get_channel(colour, k) < 128)
-            ink = fmax(ink, (255.0 - get_channel(pixel, k)) /
-                                (255.0 - get_channel(colour, k)));
+        if (channel_of(colour, k) < 128)
+            ink = fmax(ink, (255.0 - channel_of(pixel, k)) /
+                                (255.0 - channel_of(colour, k)));
     for (int k = 0; k < 3; k++)
-        off = fmax(off, fabs(255 - ink * (255 - get_channel(colour, k)) -
-                             get_channel(pixel, k)));
+        off = fmax(off, fabs(255 - ink * (255 - channel_of(colour, k)) -
+                             channel_of(pixel, k)));
     return ink > MIN_COVERAGE && off < 16;
 }
 
 /* Marks the pixels of a disc in the map of pixels to highlight. */
-static void mark_disc(unsigned char *map, const Canvas *canvas, int x, int y,
-                      int radius)
+static void mark_disc_pixels(unsigned char *map, const Canvas *canvas, int x,
+                             int y, int radius)
 {
     for (int dy = -radius; dy <= radius; dy++) {
         int half = (int)sqrt((double)(radius * radius - dy * dy));
@@ -51,15 +51,15 @@ static void highlight_colour(Canvas *canvas, Colour colour, int radius)
     unsigned char *map = calloc(count, 1);
     for (size_t i = 0; i < count && map; i++)
         if (canvas->pixels[i] != COLOUR_WHITE &&
-            has_colour(canvas->pixels[i], colour))
-            mark_disc(map, canvas, (int)(i % canvas->width),
-                      (int)(i / canvas->width), radius);
+            pixel_has_colour(canvas->pixels[i], colour))
+            mark_disc_pixels(map, canvas, (int)(i % canvas->width),
+                             (int)(i / canvas->width), radius);
     for (size_t i = 0; i < count && map; i++) {
         Colour pixel = canvas->pixels[i], lit = 0xff000000u;
-        if (!map[i] || get_channel(pixel, 1) < 128)
+        if (!map[i] || channel_of(pixel, 1) < 128)
             continue; /* dark pixels keep their colour */
         for (int k = 0; k < 3; k++) {
-            int part = get_channel(pixel, k) * get_channel(COLOUR_HIGHLIGHT, k);
+            int part = channel_of(pixel, k) * channel_of(COLOUR_HIGHLIGHT, k);
             lit |= (Colour)(part / 255) << 8 * k;
         }
         canvas->pixels[i] = lit;
@@ -83,7 +83,7 @@ static Colour find_term_near(const Canvas *canvas, const double at[2],
                 continue;
             Colour pixel = canvas->pixels[canvas->width * j + i];
             for (int term = 0; (colour = colour_of_term(term)); term++)
-                if (colour != COLOUR_TEXT && has_colour(pixel, colour)) {
+                if (colour != COLOUR_TEXT && pixel_has_colour(pixel, colour)) {
                     best = colour;
                     least = far;
                 }

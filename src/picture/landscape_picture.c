@@ -86,7 +86,7 @@ static void draw_contour_map(const Plot *plot)
                                  plot->y.high - (j - box->y + 1) * metre);
             if (!landscape_is_convex(&E))
                 canvas_fill(canvas, (Box){i, j, 2, 2}, COLOUR_SHADE);
-            draw_contours(plot, i, j, E.value / e, E.g[0] * metre / e,
+            draw_contours(plot, i, j, E.energy / e, E.g[0] * metre / e,
                           E.g[1] * metre / e, false, contour);
             for (int k = 0; k < 2 && curves; k++)
                 draw_contours(plot, i, j, E.g[k], E.H[k] * metre,
@@ -104,8 +104,8 @@ static void write_levels(const Plot *plot)
     double space = 1.3 * plot->em / plot->camera.scale[0];
     const Box inside = box_inset(plot->box, (int)plot->em);
     for (double gone = 0; gone < 3; gone += pace) {
-        const Point x = point_along(simulation->exhibit.target, gone, ray);
-        double value = evaluate_energy(simulation, x.xy).value / e;
+        const Point x = point_along(simulation->exhibit.x_tilde, gone, ray);
+        double value = evaluate_energy(simulation, x.xy).energy / e;
         plot_to_pixel(plot, x.xy, place);
         for (int k = 0; k < MAP_LEVELS; k++)
             if (before < map_levels[k] && value >= map_levels[k] &&
@@ -136,7 +136,7 @@ static Plot draw_map(const Plot *stage)
     plot_springs(&plot, system, x, 3.5, curves ? COLOUR_GRID : COLOUR_REST);
     for (int i = 1; i < system->nodes; i++)
         plot_pin(&plot, x + 2 * i, 5);
-    plot_disc(&plot, simulation->exhibit.target, 6, COLOUR_X_TILDE);
+    plot_disc(&plot, simulation->exhibit.x_tilde, 6, COLOUR_X_TILDE);
     return plot;
 }
 
@@ -207,7 +207,7 @@ static void draw_forces(const Plot *plot, const LocalModel *E)
 {
     const Simulation *simulation = plot->simulation;
     const double *x = simulation->descent.point, *m = simulation->system.m;
-    const double *target = simulation->exhibit.target;
+    const double *target = simulation->exhibit.x_tilde;
     unsigned parts = simulation->exhibit.switches;
     double inertia[2], springs[2];
     for (int c = 0; c < 2; c++) {
@@ -228,7 +228,7 @@ static double energy_of_parts(const Simulation *simulation, unsigned parts,
     return value < 1e-30 ? 0 : value;
 }
 
-static void add_part_name(unsigned parts, LiveValues *values)
+static void append_part_name(unsigned parts, LiveValues *values)
 {
     values_add_words(values, "part",
                      parts == PART_BOTH      ? "E"
@@ -238,12 +238,12 @@ static void add_part_name(unsigned parts, LiveValues *values)
 
 /* Adds the number of updates that Algorithm 1 makes from the descent's start,
  * and at the end of the descent the new velocity. */
-static void add_algorithm1(const Simulation *simulation, LiveValues *values)
+static void add_newton_values(const Simulation *simulation, LiveValues *values)
 {
     const Descent *descent = &simulation->descent;
     double h = simulation->options.timestep, x[2], p[2], v[2];
     const double *start =
-        descent->count > 0 ? descent->record[0].from : descent->point;
+        descent->count > 0 ? descent->record[0].x_before : descent->point;
     int updates = 0;
     memcpy(x, start, sizeof x);
     while (updates < DESCENT_MAX &&
@@ -257,7 +257,7 @@ static void add_algorithm1(const Simulation *simulation, LiveValues *values)
     values_add(values, "updates", updates);
     for (int k = 0; k < 2; k++)
         v[k] = (descent->point[k] - start[k]) / h;
-    if (simulation->done)
+    if (simulation->is_over)
         values_add_point(values, "v end", v);
 }
 
@@ -271,7 +271,7 @@ void landscape_add_values(const Simulation *simulation, LiveValues *values)
     const double *x = descent->point;
     LocalModel E = evaluate_energy(simulation, x);
     values_add_point(values, "place", x);
-    values_add_point(values, "x tilde", simulation->exhibit.target);
+    values_add_point(values, "x tilde", simulation->exhibit.x_tilde);
     for (int k = 0; k < 2; k++) /* values below rounding become 0 */
         E.g[k] = fabs(E.g[k]) < 1e-15 ? 0 : E.g[k];
     values_add_point(values, "g", E.g);
@@ -295,7 +295,7 @@ void landscape_add_values(const Simulation *simulation, LiveValues *values)
     values_add(values, "elastic part",
                energy_of_parts(simulation, PART_ELASTICITY, x));
     values_add_matrix(values, raw, E.H, 0);
-    add_part_name(parts, values);
+    append_part_name(parts, values);
     values_add(values, "h", parts == PART_INERTIA ? NAN : h);
     values_add_flag(values, "both", parts == PART_BOTH);
     values_add_flag(values, "elastic", parts != PART_INERTIA);
@@ -307,7 +307,7 @@ void landscape_add_values(const Simulation *simulation, LiveValues *values)
         up = up || descent->record[i].slope > 0;
     }
     values_add_flag(values, "pulls", pulls);
-    add_algorithm1(simulation, values);
+    add_newton_values(simulation, values);
     values_add_flag(values, "halves", layers & LAYER_DOWNHILL);
     values_add_flag(values, "curves", layers & LAYER_CURVES);
     values_add_flag(values, "directed", down);
@@ -386,7 +386,7 @@ void landscape_draw(Plot *stage)
         draw_downhill(&plot, &E);
     for (int i = 0; i < descent->count; i++) {
         const NewtonRecord *record = &descent->record[i];
-        const double *from = record->from, *to = record->to;
+        const double *from = record->x_before, *to = record->x_after;
         Colour colour = record->slope > 0 ? COLOUR_WARNING : COLOUR_P;
         if (record->alpha > 0)
             plot_arrow(&plot, from, vector_between(from, to).xy,
@@ -396,9 +396,9 @@ void landscape_draw(Plot *stage)
     }
     bool raw = simulation->options.projection == PROJECTION_NONE;
     bool both = !lecture->page || (raw && halves);
-    if (stage->revealed && raw && !curves && !simulation->done)
+    if (stage->revealed && raw && !curves && !simulation->is_over)
         draw_model_ellipses(&plot, &E);
-    if (curves && !simulation->done)
+    if (curves && !simulation->is_over)
         draw_linearised_zeros(&plot, &E);
     if (stage->revealed && layers & LAYER_FORCES)
         draw_forces(&plot, &E);
@@ -415,7 +415,7 @@ void landscape_draw(Plot *stage)
         simulation->exhibit.switches != PART_INERTIA)
         mark_stationary_points(&plot);
     plot_disc(&plot, descent->point, 7, COLOUR_TEXT);
-    plot_label(&plot, 1, simulation->exhibit.target, COLOUR_X_TILDE, "{xt}");
+    plot_label(&plot, 1, simulation->exhibit.x_tilde, COLOUR_X_TILDE, "{xt}");
 }
 
 /* ---- the dial ----------------------------------------------------------- */
@@ -432,7 +432,7 @@ void dial_draw(Plot *stage)
     for (int i = 10; i < points; i += 10)
         plot_disc(&plot, dial->point[i], 4.5, COLOUR_X);
     plot_disc(&plot, simulation->run[0].x, 9, COLOUR_TEXT);
-    plot_label(&plot, 1, simulation->exhibit.target, COLOUR_X_TILDE, "{xt}");
+    plot_label(&plot, 1, simulation->exhibit.x_tilde, COLOUR_X_TILDE, "{xt}");
     for (int i = points - 11; i > 0; i -= 10)
         plot_label(&plot, 1, dial->point[i], COLOUR_X, "h %s %s s",
                    i == points - 11 ? "\u2265" : "=",
@@ -443,11 +443,11 @@ void dial_add_values(const Simulation *simulation, LiveValues *values)
 {
     const double *x = simulation->run[0].x, h = simulation->run[0].h;
     double elastic = energy_of_parts(simulation, PART_ELASTICITY, x);
-    add_part_name(simulation->exhibit.switches, values);
+    append_part_name(simulation->exhibit.switches, values);
     values_add(values, "h", h);
     values_add_point(values, "minimiser", x);
     values_add(values, "distance",
-               point_distance(simulation->exhibit.target, x));
+               point_distance(simulation->exhibit.x_tilde, x));
     values_add(values, "inertia", energy_of_parts(simulation, PART_INERTIA, x));
     values_add(values, "elasticity", elastic);
     values_add(values, "P", elastic / (h * h));

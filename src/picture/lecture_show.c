@@ -7,12 +7,12 @@
 _Static_assert((int)LINE_COUNT == LINES_WALKED,
                "walk has a text for each line");
 
-const char *lecture_lit_code(const FrameContent *content)
+const char *lecture_marked_code(const FrameContent *content)
 {
     const LecturePage *page = content->lecture.page;
     const Trace *trace = active_pane(content)->trace;
-    bool walks = page->lit_at_line && trace && trace->at_line != LINE_NONE;
-    return walks ? page->lit_at_line[trace->at_line] : page->lit;
+    bool walks = page->line_highlight && trace && trace->at_line != LINE_NONE;
+    return walks ? page->line_highlight[trace->at_line] : page->highlight;
 }
 
 /* Lists all pages of the lecture, with a heading before each section.
@@ -25,16 +25,16 @@ static void list_pages(const LecturePage *marked, FrameContent *content)
             *row = (ListRow){.is_heading = true};
             snprintf((row++)->text, SENTENCE_SIZE, "%s", page->section);
         }
-        *row = (ListRow){.is_grey = page->extra};
+        *row = (ListRow){.is_grey = page->is_extra};
         snprintf(row->key, VALUE_SIZE, "%s%d", page == marked ? ">" : "",
                  (int)(page - lecture_pages) + 1);
         snprintf((row++)->text, SENTENCE_SIZE, "%s%s", page->topic,
-                 page->extra ? " (extra)" : "");
+                 page->is_extra ? " (extra)" : "");
     }
     content->list.rows = (int)(row - content->list.row);
 }
 
-static void list_letters(FrameContent *content)
+static void list_formula_letters(FrameContent *content)
 {
     ListRow *row = content->list.row;
     for (const Letter *letter = lecture_letters; letter->letter; letter++) {
@@ -45,7 +45,7 @@ static void list_letters(FrameContent *content)
 }
 
 /* Adds the lines of a text with live values, or those without. */
-static void add_lines(const char *text, bool live, char *out, size_t size)
+static void add_list_lines(const char *text, bool live, char *out, size_t size)
 {
     while (*text) {
         size_t length = strcspn(text, "\n");
@@ -60,17 +60,17 @@ static void add_lines(const char *text, bool live, char *out, size_t size)
 
 /* Copies the answer of the page.  If options are changed, lines with live
  * values come first; the other lines, if any, follow below lecture->own. */
-static void fill_look(const LecturePage *page, LectureContent *lecture)
+static void fill_look_text(const LecturePage *page, LectureContent *lecture)
 {
     char *look = lecture->look_text, others[LOOK_SIZE] = "";
     look[0] = '\0';
-    add_lines(page->look, false, others, sizeof others);
+    add_list_lines(page->look_text, false, others, sizeof others);
     if (lecture->own_title[0]) {
-        add_lines(page->look, true, look, LOOK_SIZE);
+        add_list_lines(page->look_text, true, look, LOOK_SIZE);
         if (others[0])
             append(look, LOOK_SIZE, "%s\n%s", lecture->own_title, others);
     } else {
-        append(look, LOOK_SIZE, "%s", page->look);
+        append(look, LOOK_SIZE, "%s", page->look_text);
     }
 }
 
@@ -83,16 +83,16 @@ void frame_add_lecture(ColumnContent column, const LecturePage *left,
     if (column == COLUMN_PAGES)
         list_pages(page ? page : left, content);
     if (column == COLUMN_LETTERS)
-        list_letters(content);
+        list_formula_letters(content);
     content->column = page || column != COLUMN_CODE ? column : COLUMN_CARDS;
     if (!page)
         return;
     content->lecture.page = page;
-    fill_look(page, &content->lecture);
+    fill_look_text(page, &content->lecture);
     content->title_bar.topic = page->topic;
     content->cards.covered_cards = 0;
     for (int c = 0; c < picture->count; c++)
-        if (content->lecture.hides_answer && page->veils &&
-            strstr(page->veils, picture->cards[c]->name))
+        if (content->lecture.hides_answer && page->covered_cards &&
+            strstr(page->covered_cards, picture->cards[c]->name))
             content->cards.covered_cards |= 1u << c;
 }

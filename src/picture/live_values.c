@@ -10,7 +10,7 @@
 
 /* ---- values -------------------------------------------------------------- */
 
-static LiveValue *add_value(LiveValues *values, const char *name)
+static LiveValue *append_value(LiveValues *values, const char *name)
 {
     LiveValue *new = &values->entry[values->count % VALUES_MOST];
     values->count += values->count < VALUES_MOST;
@@ -21,13 +21,13 @@ static LiveValue *add_value(LiveValues *values, const char *name)
 void values_add(LiveValues *values, const char *name, double number)
 {
     if (!isnan(number))
-        add_value(values, name)->value[0] = number;
+        append_value(values, name)->value[0] = number;
 }
 
 void values_add_words(LiveValues *values, const char *name, const char *words)
 {
     if (words)
-        add_value(values, name)->text = words;
+        append_value(values, name)->text = words;
 }
 
 void values_add_flag(LiveValues *values, const char *name, bool flag)
@@ -38,7 +38,7 @@ void values_add_flag(LiveValues *values, const char *name, bool flag)
 void values_add_point(LiveValues *values, const char *name,
                       const double point[2])
 {
-    LiveValue *new = add_value(values, name);
+    LiveValue *new = append_value(values, name);
     new->is_point = true;
     memcpy(new->value, point, sizeof new->value);
 }
@@ -74,7 +74,7 @@ static void add_setting_values(const Simulation *simulation, LiveValues *values)
     const IntegratorMethod *method = run[0].method;
     const Descent *descent = &simulation->descent;
     bool time = scene->needs & NEEDS_TIME;
-    bool explicit = time && method && !method->implicit;
+    bool explicit = time && method && !method->is_implicit;
     bool backward = method && strcmp(method->name, "backward-euler") == 0;
     bool forward = method && strcmp(method->name, "forward-euler") == 0;
     values_add_words(values, "scene", options->page ? NULL : scene->sentence);
@@ -105,8 +105,8 @@ static void add_setting_values(const Simulation *simulation, LiveValues *values)
     values_add_flag(values, "whole", whole);
     values_add(values, "springs", simulation->system.springs);
     values_add_flag(values, "of a solid", neo_hookean_of(&simulation->system));
-    values_add_flag(values, "done", simulation->done);
-    if (simulation->done && scene->step == step_descent &&
+    values_add_flag(values, "done", simulation->is_over);
+    if (simulation->is_over && scene->step == step_descent &&
         descent->residual <= options->tolerance) { /* a stationary point */
         const double *x = descent->point;
         int down = descent_hessian_index(simulation, x[0], x[1]);
@@ -176,7 +176,7 @@ static double compute_energy_change(const void *function, double alpha)
     const Point x = point_along(space->start, alpha, space->p);
     LocalModel there =
         descent_evaluate(space->simulation, PROJECTION_NONE, x.xy[0], x.xy[1]);
-    return there.value - space->start_energy;
+    return there.energy - space->start_energy;
 }
 
 /* Makes the trace of a descent's last update.  Without updates, or if the last
@@ -191,14 +191,15 @@ static const Trace *make_descent_trace(const Simulation *simulation,
     bool given_up = last >= 0 && !made; /* the line search refused all trials */
     *space = (DescentTrace){.simulation = simulation};
     for (int k = 0; k < (descent->scalar ? 1 : 2); k++) {
-        space->start[k] = made ? record->from[k] : descent->point[k];
-        space->p[k] = made ? (record->to[k] - record->from[k]) / record->alpha
-                           : descent->direction[k];
+        space->start[k] = made ? record->x_before[k] : descent->point[k];
+        space->p[k] =
+            made ? (record->x_after[k] - record->x_before[k]) / record->alpha
+                 : descent->direction[k];
     }
     bool aims = space->p[0] != 0 || space->p[1] != 0, taken = aims && made;
     space->start_energy = descent_evaluate(simulation, PROJECTION_NONE,
                                            space->start[0], space->start[1])
-                              .value;
+                              .energy;
     space->trace = (Trace){
         .at_line = aims && !made ? LINE_SOLVE : LINE_NONE,
         .h = simulation->options.timestep,

@@ -311,7 +311,7 @@ static void draw_mass_lesson(Plot *stage, const MassStep *step)
     }
     plot_label(stage, 1, end.xy, COLOUR_FAINT, "exact");
     bool symplectic =
-        !step->by_old_v && !stage->simulation->run[0].method->implicit;
+        !step->by_old_v && !stage->simulation->run[0].method->is_implicit;
     double turn = 1 - 0.5 * h * h, reach = sqrt(1 - turn * turn);
     const Point side = point_along(step->new_x, -turn, step->x);
     const Point across = point_along(origin, 1 / reach, side.xy);
@@ -330,7 +330,7 @@ static void draw_mass_step(Plot *stage)
     MassStep step;
     if (!mass_find_next_step(simulation, 0, &step))
         return;
-    bool backward = simulation->run[0].method->implicit;
+    bool backward = simulation->run[0].method->is_implicit;
     const double *a = backward ? step.new_a : step.a;
     const Point tip = point_along(step.x, 1, step.v),
                 to = vector_between(step.x, step.new_x);
@@ -418,7 +418,7 @@ void mass_add_values(const Simulation *simulation, LiveValues *values)
         values_add(values, "factor", after / before);
     }
     values->run = 0;
-    bool backward = simulation->run[0].method->implicit;
+    bool backward = simulation->run[0].method->is_implicit;
     bool known = mass_find_next_step(simulation, 0, &step);
     values_add_flag(values, "stages", one && !known);
     if (!one || !known)

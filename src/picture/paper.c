@@ -70,8 +70,8 @@ int paper_write_in_box(Paper *paper, Face face, double size, Colour colour,
            size > least)
         size = fmax(least, 0.99 * size * box.width / wide);
     TextStyle style = paper_style(paper, face, size, colour);
-    double over = text_extent(paper->text, &style, markup).above -
-                  text_extent(paper->text, &style, "").above;
+    double over = text_extent(paper->text, &style, markup).ascent -
+                  text_extent(paper->text, &style, "").ascent;
     double y = fmax(0.5 * box.height - 0.65 * size * paper->em, over);
     int width = paper_write(paper, face, size, colour,
                             box.x + 0.5 * (int)align * box.width, box.y + y,
@@ -113,7 +113,7 @@ int paper_write_paragraph(Paper *paper, Face face, double size, Colour colour,
 {
     char part[PAPER_TEXT];
     TextStyle style = paper_style(paper, face, size, colour);
-    double y = box.y, above = text_extent(paper->text, &style, "").above;
+    double y = box.y, above = text_extent(paper->text, &style, "").ascent;
     for (int line = 1; *markup && (line <= lines || lines == 0); line++) {
         TextExtent extent;
         size_t count = text_break_line(paper->text, &style, box.width, markup,
@@ -125,10 +125,10 @@ int paper_write_paragraph(Paper *paper, Face face, double size, Colour colour,
             snprintf(part, sizeof part, "%.*s%s", (int)count, markup,
                      *next && line == lines ? "\u2026" : "");
             text_draw(paper->text, &paper->canvas, &style, box.x,
-                      y + extent.above - above, ALIGN_LEFT, part);
+                      y + extent.ascent - above, ALIGN_LEFT, part);
         }
         markup = next;
-        y += extent.above + extent.below;
+        y += extent.ascent + extent.descent;
     }
     return (int)ceil(y - box.y);
 }

@@ -47,7 +47,7 @@ void race_draw(Plot *stage)
             if (!(point->error > 0))
                 continue;
             plot_line(&plot, last, now, 2.2, colour);
-            plot_hollow_disc(&plot, now, 5, point->stable ? 0 : 3, colour);
+            plot_hollow_disc(&plot, now, 5, point->is_stable ? 0 : 3, colour);
             memcpy(last, now, sizeof now);
             memcpy(named[method], now, sizeof now);
         }
@@ -75,7 +75,7 @@ void race_add_values(const Simulation *simulation, LiveValues *values)
     for (int i = 0; i < 2; i++) {
         const RacePoint *best = NULL, *at = race->point;
         for (; at < race->point + race->count; at++)
-            if (at->method->implicit == (i == 1) && at->stable &&
+            if (at->method->is_implicit == (i == 1) && at->is_stable &&
                 at->error <= TARGET_ERROR &&
                 (!best || at->seconds < best->seconds))
                 best = at;

@@ -38,14 +38,14 @@ static ScalarUpdate find_update(const Simulation *simulation, int i)
         .simulation = simulation, .x0 = descent->point[0], .alpha = whole};
     if (i >= 0) {
         const NewtonRecord *record = &descent->record[i];
-        update.x0 = record->from[0];
+        update.x0 = record->x_before[0];
         update.alpha = record->alpha;
         update.refused_lengths = record->trials - (record->alpha > 0);
         update.iterate = i;
         update.is_made = true;
     }
     LocalModel at = evaluate_scalar(simulation, update.x0);
-    update.f = at.value;
+    update.f = at.energy;
     update.slope = at.g[0];
     update.curvature = at.H[0];
     update.x1 = update.x0 - at.g[0] / at.H[0];
@@ -53,15 +53,15 @@ static ScalarUpdate find_update(const Simulation *simulation, int i)
 }
 
 /* Returns f (or f') at x, for plot_graph. */
-static double function_at(const void *data, double x)
+static double evaluate_f(const void *data, double x)
 {
     const ScalarUpdate *update = data;
     LocalModel at = evaluate_scalar(update->simulation, x);
-    return update->shows_derivative ? at.g[0] : at.value;
+    return update->shows_derivative ? at.g[0] : at.energy;
 }
 
 /* Returns the model (or the tangent) at x, for plot_graph. */
-static double model_at(const void *data, double x)
+static double evaluate_model_at(const void *data, double x)
 {
     const ScalarUpdate *update = data;
     double d = x - update->x0, bend = d * update->curvature;
@@ -71,9 +71,10 @@ static double model_at(const void *data, double x)
 }
 
 /* Returns iterate i of 0 ... count; the last one is the present point. */
-static double iterate_at(const Descent *descent, int i)
+static double get_iterate(const Descent *descent, int i)
 {
-    return i == descent->count ? descent->point[0] : descent->record[i].from[0];
+    return i == descent->count ? descent->point[0]
+                               : descent->record[i].x_before[0];
 }
 
 /* ---- function, model and iterates ---------------------------------------- */
@@ -82,9 +83,9 @@ static double iterate_at(const Descent *descent, int i)
 static void draw_scalar_model(const Plot *plot, const ScalarUpdate *update,
                               double width, double radius, Colour colour)
 {
-    const double low[2] = {update->x1, model_at(update, update->x1)};
-    const double high[2] = {update->x1, function_at(update, update->x1)};
-    plot_graph(plot, model_at, update, width, colour);
+    const double low[2] = {update->x1, evaluate_model_at(update, update->x1)};
+    const double high[2] = {update->x1, evaluate_f(update, update->x1)};
+    plot_graph(plot, evaluate_model_at, update, width, colour);
     plot_line(plot, low, high, 1.2, colour);
     plot_hollow_disc(plot, low, radius, 0.6 * radius, COLOUR_P);
 }
@@ -97,7 +98,7 @@ static void draw_iteration(const Plot *plot, const ScalarUpdate *update,
     const Descent *descent = &update->simulation->descent;
     double x1 = update->x1, used[2] = {-1e9, -1e9}, alpha = 1, p[2];
     bool right = x1 > plot->x.high, left = x1 < plot->x.low;
-    plot_graph(plot, function_at, update, 2.4, COLOUR_X);
+    plot_graph(plot, evaluate_f, update, 2.4, COLOUR_X);
     if (model)
         draw_scalar_model(plot, update, 1.6, 6, COLOUR_P);
     const double edge[2] = {right ? plot->x.high : plot->x.low,
@@ -108,13 +109,13 @@ static void draw_iteration(const Plot *plot, const ScalarUpdate *update,
                    right ? " \u2192" : "");
     for (int i = 0; i < update->refused_lengths; i++, alpha *= 0.5) {
         double x = update->x0 + alpha * (x1 - update->x0);
-        plot_hollow_disc(plot, (double[2]){x, function_at(update, x)}, 5, 3.2,
+        plot_hollow_disc(plot, (double[2]){x, evaluate_f(update, x)}, 5, 3.2,
                          COLOUR_WARNING);
     }
     for (int i = 0; i <= descent->count; i++) {
         bool last = i == descent->count;
-        double x = iterate_at(descent, i);
-        const double at[2] = {x, function_at(update, x)};
+        double x = get_iterate(descent, i);
+        const double at[2] = {x, evaluate_f(update, x)};
         Colour colour = last ? COLOUR_TEXT : COLOUR_X;
         bool seen = plot_disc(plot, at, last ? 7 : 5.5, colour);
         plot_to_pixel(plot, at, p);
@@ -148,7 +149,7 @@ static double find_first_length(const Simulation *simulation)
     ScalarUpdate from = find_update(simulation, -1);
     double alpha = 1, p = from.x1 - from.x0;
     while (alpha > DBL_EPSILON &&
-           evaluate_scalar(simulation, from.x0 + alpha * p).value > from.f)
+           evaluate_scalar(simulation, from.x0 + alpha * p).energy > from.f)
         alpha /= 2;
     return alpha;
 }
@@ -195,8 +196,8 @@ static Plot create_tangent_plot(const Plot *stage, int half)
     double high = half ? 2 : 4;
     for (int i = 0; i <= descent->count; i++) {
         LocalModel at =
-            evaluate_scalar(stage->simulation, iterate_at(descent, i));
-        high = fmax(high, half ? at.value : fabs(at.g[0]));
+            evaluate_scalar(stage->simulation, get_iterate(descent, i));
+        high = fmax(high, half ? at.energy : fabs(at.g[0]));
     }
     high = plot_round_axis_end(fmin(high, 1e12));
     Plot part = *stage;
@@ -215,7 +216,7 @@ static Plot create_tangent_plot(const Plot *stage, int half)
 void tangent_draw(Plot *stage)
 {
     const Simulation *simulation = stage->simulation;
-    const double target[2] = {simulation->exhibit.target[0], 0};
+    const double target[2] = {simulation->exhibit.x_tilde[0], 0};
     ScalarUpdate update =
         find_update(simulation, simulation->descent.count - 1);
     const Plot plot[2] = {create_tangent_plot(stage, 0),
@@ -270,7 +271,7 @@ bool iterates_fill_row(const FrameContent *content, int row,
     if (row == 0 || row > simulation->descent.count + 1)
         return row == 0;
     write_digits(find_root(simulation), root);
-    write_digits(iterate_at(&simulation->descent, row - 1), x);
+    write_digits(get_iterate(&simulation->descent, row - 1), x);
     while (x[right] && x[right] == root[right])
         right++;
     snprintf(cells->cell[0], CARD_CELL, "#x{x^{%d}}", row - 1);

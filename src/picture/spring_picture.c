@@ -84,14 +84,14 @@ void spring_draw(Plot *stage)
     double l = sqrt(simulation->system.l2[0]);
     SpringValues spring = evaluate_spring(x, &simulation->system);
     bool shows_answer = !content->lecture.hides_answer;
-    bool projects = spring.across < 0 && shows_answer;
+    bool projects = spring.eigenvalue_across < 0 && shows_answer;
     bool modes = simulation->options.layers & LAYER_MODES;
     draw_length_circle(stage, l, COLOUR_FAINT, "l");
     if (!content->lecture.page || modes)
         draw_length_circle(stage, l / sqrt(3), COLOUR_PROJECT, "l/\u221a3");
     draw_coil(stage, x, projects ? COLOUR_PROJECT : COLOUR_X);
     plot_pin(stage, origin, 6);
-    const double value[2] = {spring.along, spring.across};
+    const double value[2] = {spring.eigenvalue_along, spring.eigenvalue_across};
     int vectors = modes && shows_answer && spring.length > 0 ? 4 : 0;
     for (int i = 0; i < vectors; i++) {
         double n[2] = {x[i / 2] / spring.length, x[1 - i / 2] / spring.length};
@@ -142,7 +142,7 @@ void spring_add_values(const Simulation *simulation, LiveValues *values)
     double l2 = system->l2[0], H[3];
     SpringValues now = evaluate_spring(d, system);
     /* Eigenvalues of the block. */
-    double along = 2 * now.along, across = 2 * now.across;
+    double along = 2 * now.eigenvalue_along, across = 2 * now.eigenvalue_across;
     bool page = simulation->options.page;
     bool folds = simulation->options.projection == PROJECTION_ABS && !page;
     Projection projection = folds ? PROJECTION_ABS : PROJECTION_CLAMP;
@@ -155,8 +155,8 @@ void spring_add_values(const Simulation *simulation, LiveValues *values)
     values_add(values, "strain", now.strain);
     values_add(values, "energy", now.energy);
     values_add_point(values, "force", now.force);
-    values_add(values, "along", now.along);
-    values_add(values, "across", now.across);
+    values_add(values, "along", now.eigenvalue_along);
+    values_add(values, "across", now.eigenvalue_across);
     values_add(values, "block along", along);
     values_add(values, "block across", across);
     values_add(values, "projected along",
@@ -177,7 +177,7 @@ void spring_add_values(const Simulation *simulation, LiveValues *values)
     values_add_flag(values, "pulled",
                     !(simulation->options.layers & LAYER_MODES));
     values_add(values, "tip", root_energy_at_length(system, 0));
-    values_add_flag(values, "shortened", now.across < 0);
+    values_add_flag(values, "shortened", now.eigenvalue_across < 0);
     values_add(values, "root energy", both ? now.root_energy : NAN);
     values_add(values, "root along", both ? now.root_along : NAN);
     values_add(values, "root across", now.root_across);

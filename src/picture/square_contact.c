@@ -28,8 +28,8 @@ static double compute_contact_force(const SquarePen *pen, const EvalPoint *at,
     if (friction && grip > 0) {
         double speed = ((const Friction *)friction->data)->slip_speed;
         double slip = -carry;
-        element_vectors(element, pen->v, v);
-        for (int i = 0; i < 2 * element->vectors; i++)
+        element_get_vectors(element, pen->v, v);
+        for (int i = 0; i < 2 * element->vector_count; i++)
             slip += t[i] * v[i];
         rub = -grip * friction_slope(slip * h, speed * h);
         part = fabs(slip) / speed;
@@ -46,7 +46,7 @@ static void draw_contact_term(const SquarePen *pen, bool between_bodies,
                               double factor, double *most)
 {
     const System *system = pen->system;
-    EvalPoint at = eval_point_at(system, NULL, NULL, pen->x);
+    EvalPoint at = make_eval_point(system, NULL, NULL, pen->x);
     at.term = system_find_term(system, between_bodies ? &self_contact_energy
                                                       : &contact_energy);
     const Term *friction = system_find_term(

@@ -70,8 +70,8 @@ void square_pick(const Plot *stage, double x, double y, Pick *pick)
 /* ---- the note ----------------------------------------------------------- */
 
 /* Writes a text into the lower corner that is farther from the mouse. */
-static void draw_note(const Plot *stage, const LiveValues *values,
-                      const char *text)
+static void draw_mouse_note(const Plot *stage, const LiveValues *values,
+                            const char *text)
 {
     Paper *paper = stage->paper;
     Plot note = *stage;
@@ -97,7 +97,7 @@ static void draw_note(const Plot *stage, const LiveValues *values,
 }
 
 /* Writes the note about a node; the force m g - grad P has no friction. */
-static void note_node(Plot *stage, const Pane *pane, int node)
+static void describe_node(Plot *stage, const Pane *pane, int node)
 {
     const Simulation *simulation = pane->simulation;
     const System *system = &simulation->system;
@@ -106,7 +106,7 @@ static void note_node(Plot *stage, const Pane *pane, int node)
     const double *ghost = pane->trace ? pane->trace->x_tilde : NULL;
     double h = simulation->options.timestep, force[2], tilde[2];
     double *f = calloc(2 * (size_t)system->nodes, sizeof *f);
-    EvalPoint at = eval_point_at(system, all, NULL, all);
+    EvalPoint at = make_eval_point(system, all, NULL, all);
     LiveValues values = {0};
     at.weight = -1;
     for (const TermKind *kind; f && (kind = eval_point_next_term(&at));)
@@ -129,12 +129,12 @@ static void note_node(Plot *stage, const Pane *pane, int node)
                      !simulation_is_draggable(simulation) ? NULL
                      : system->pinned[node]               ? "frees"
                                                           : "pins");
-    draw_note(stage, &values, text_node);
+    draw_mouse_note(stage, &values, text_node);
 }
 
 /* Writes the note about a spring.  The eigenvalues of its 4x4 block are 0, 0
  * and twice those of its 2x2 Hessian. */
-static void note_spring(Plot *stage, const Pane *pane, int s)
+static void describe_spring(Plot *stage, const Pane *pane, int s)
 {
     const System *system = &pane->simulation->system;
     const int *e = system->e + 2 * s;
@@ -161,7 +161,7 @@ static void note_spring(Plot *stage, const Pane *pane, int s)
         values_add(&values, "along after",
                    project_eigenvalue(projection, along));
     }
-    draw_note(stage, &values, text_spring);
+    draw_mouse_note(stage, &values, text_spring);
 }
 
 void square_hover(Plot *stage)
@@ -170,7 +170,7 @@ void square_hover(Plot *stage)
     const Pick *hover = &stage->content->view->hovered;
     const System *system = &pane->simulation->system;
     if (hover->kind == PICK_NODE && hover->index < system->nodes)
-        note_node(stage, pane, hover->index);
+        describe_node(stage, pane, hover->index);
     if (hover->kind == PICK_SPRING && hover->index < system->springs)
-        note_spring(stage, pane, hover->index);
+        describe_spring(stage, pane, hover->index);
 }

@@ -267,8 +267,8 @@ void square_draw_nodes(const SquarePen *pen)
         if (system->pinned[i] && !node_is_fixed(pen, i))
             plot_pin(pen->stage, node_position(pen, i), radius);
     }
-    for (int k = 0; pen->fixed_bodies && k < pen->simulation->mesh.outline;
-         k++) {
+    for (int k = 0;
+         pen->fixed_bodies && k < pen->simulation->mesh.outline_edges; k++) {
         int node[2];
         square_mesh_get_outline_edge(&pen->simulation->mesh, k, node);
         if (node_is_fixed(pen, node[0]))
@@ -282,7 +282,7 @@ void square_draw_outline(const SquarePen *pen, const double *x, bool dashed,
 {
     const SquareMesh *mesh = &pen->simulation->mesh;
     double phase = 0, end[2][2];
-    for (int k = 0; k < mesh->outline; k++) {
+    for (int k = 0; k < mesh->outline_edges; k++) {
         int node[2];
         square_mesh_get_outline_edge(mesh, k, node);
         for (int i = 0; i < 2; i++)

@@ -115,7 +115,7 @@ static void widen_to_obstacles(const Plot *stage, Extent *view)
         widen_to_circle(&seen, hand->target, air, PULL_REACH, view);
     for (int k = 0; contact && k < options->grounds + options->balls; k++) {
         const Obstacle *obstacle = &contact->obstacle[k];
-        bool held = contact->push.on && contact->push.obstacle == k;
+        bool held = contact->hand.held && contact->hand.obstacle == k;
         Gap gap = contact_measure_gap(obstacle, obstacle->o, seen.middle, 0);
         const Point foot = point_along(seen.middle, -gap.d, gap.n);
         if (obstacle->kind == OBSTACLE_BALL)
@@ -171,8 +171,8 @@ static void pan_view(const double box[4], Extent *view)
 
 /* Returns the factor by which the view must grow to show the box.
  *   tall  out, the same factor for the height alone */
-static double find_needed_growth(const double box[4], const Extent *view,
-                                 double *tall)
+static double find_view_growth(const double box[4], const Extent *view,
+                               double *tall)
 {
     double need[2];
     for (int k = 0; k < 2; k++)
@@ -199,7 +199,7 @@ void square_bounds(const Plot *stage, double bounds[4])
     pane_node_bounds(stage->pane, simulation->runs, box);
     if (is_free)
         follow_body(simulation, pane_positions(stage->pane), &view);
-    while (grown < find_needed_growth(box, &view, &tall) * (1 - 1e-12) &&
+    while (grown < find_view_growth(box, &view, &tall) * (1 - 1e-12) &&
            grown < MAX_GROWTH) {
         Extent larger = view;
         grown *= GROWTH;
@@ -678,7 +678,7 @@ static void add_slope_values(const Simulation *simulation, LiveValues *values)
     compute_rest_positions(simulation, x);
     for (int i = 0; i < n; i += 2)
         x[i] *= simulation->options.stretch;
-    EvalPoint at = eval_point_at(system, NULL, NULL, x);
+    EvalPoint at = make_eval_point(system, NULL, NULL, x);
     system_acceleration(system, x, a);
     for (int i = 0; i < n; i++) {
         one[i] = h2;

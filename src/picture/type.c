@@ -45,12 +45,12 @@ typedef struct MarkupPart {
     const char *from, *end; /* first byte, byte after the last one */
 } MarkupPart;
 
-static MarkupPart whole_text(const char *string)
+static MarkupPart whole_markup(const char *string)
 {
     return (MarkupPart){string, string + strlen(string)};
 }
 
-static void set_markup(Pen *pen, MarkupPart part, int depth);
+static void typeset_markup(Pen *pen, MarkupPart part, int depth);
 
 /* ---- letters ------------------------------------------------------------ */
 
@@ -77,7 +77,7 @@ static void pen_extend(Pen *pen, double top, double bottom)
 
 /* Sets one letter.  A combining mark is centred over the letter before it, in
  * bold and large. */
-static void set_letter(Pen *pen, uint32_t letter)
+static void typeset_letter(Pen *pen, uint32_t letter)
 {
     double em = pen->style.size;
     int size = (int)(em + 0.5), base = (int)floor(pen->y + 0.5);
@@ -111,18 +111,18 @@ static void set_letter(Pen *pen, uint32_t letter)
 static TextExtent measure_markup(const Pen *like, MarkupPart part, int depth)
 {
     Pen pen = {.text = like->text, .style = like->style};
-    set_markup(&pen, part, depth);
+    typeset_markup(&pen, part, depth);
     return (TextExtent){pen.x, -pen.top, pen.bottom};
 }
 
 /* Sets a part at (x, y) without moving the pen. */
-static void set_markup_at(Pen *pen, double x, double y, MarkupPart part,
-                          int depth)
+static void typeset_markup_at(Pen *pen, double x, double y, MarkupPart part,
+                              int depth)
 {
     Pen inner = *pen;
     inner.x = x;
     inner.y = y;
-    set_markup(&inner, part, depth);
+    typeset_markup(&inner, part, depth);
     pen_extend(pen, inner.top, inner.bottom);
 }
 
@@ -159,18 +159,18 @@ static void shrink_letters(TextStyle *style, double factor)
 }
 
 /* Sets ^{...} or _{...}, a script. */
-static void set_script(Pen *pen, MarkupPart part, int depth)
+static void typeset_script(Pen *pen, MarkupPart part, int depth)
 {
     Pen inner = *pen;
     inner.y += (part.from[-2] == '^' ? -RAISE : LOWER) * pen->style.size;
     shrink_letters(&inner.style, SCRIPT_SIZE);
-    set_markup(&inner, part, depth);
+    typeset_markup(&inner, part, depth);
     pen_extend(pen, inner.top, inner.bottom);
     pen->x = inner.x;
 }
 
 /* Sets frac{above over below}. */
-static void set_fraction(Pen *pen, MarkupPart part, int depth)
+static void typeset_fraction(Pen *pen, MarkupPart part, int depth)
 {
     static const char over[] = " over ";
     const char *middle = find_outside_braces(part, over);
@@ -183,10 +183,10 @@ static void set_fraction(Pen *pen, MarkupPart part, int depth)
     double thin = SPACE * pen->style.size;
     double wide = fmax(a.width, b.width) + 2 * thin, left = pen->x + thin;
     double y = floor(pen->y - AXIS_HEIGHT * pen->style.size) + 0.5;
-    set_markup_at(&small, left + 0.5 * (wide - a.width), y - thin - a.below,
-                  above, depth);
-    set_markup_at(&small, left + 0.5 * (wide - b.width), y + thin + b.above,
-                  below, depth);
+    typeset_markup_at(&small, left + 0.5 * (wide - a.width),
+                      y - thin - a.descent, above, depth);
+    typeset_markup_at(&small, left + 0.5 * (wide - b.width),
+                      y + thin + b.ascent, below, depth);
     draw_rule(pen, left, y, left + wide, y);
     pen_extend(pen, small.top, small.bottom);
     pen->x = left + wide + thin;
@@ -194,7 +194,7 @@ static void set_fraction(Pen *pen, MarkupPart part, int depth)
 
 /* Reads the next cell of a matrix, without blanks around it, and moves `at`
  * behind the cell.  Returns whether the cell is the last one of its row. */
-static bool read_cell(const char **at, const char *end, MarkupPart *cell)
+static bool read_matrix_cell(const char **at, const char *end, MarkupPart *cell)
 {
     MarkupPart rest = {*at, end};
     const char *row = find_outside_braces(rest, ";");
@@ -207,7 +207,7 @@ static bool read_cell(const char **at, const char *end, MarkupPart *cell)
 }
 
 /* Sets matrix{a & b; c & d}; columns are aligned at their right edge. */
-static void set_matrix(Pen *pen, MarkupPart part, int depth)
+static void typeset_matrix(Pen *pen, MarkupPart part, int depth)
 {
     MarkupPart cell[MAX_ROWS][MAX_COLUMNS] = {{{0}}};
     double em = pen->style.size, above[MAX_ROWS], below[MAX_ROWS],
@@ -221,10 +221,10 @@ static void set_matrix(Pen *pen, MarkupPart part, int depth)
         above[rows] = LETTER_ASCENT * em;
         below[rows] = LETTER_DESCENT * em;
         for (int c = 0; c < MAX_COLUMNS && at < part.end && !last; c++) {
-            last = read_cell(&at, part.end, &cell[rows][c]);
+            last = read_matrix_cell(&at, part.end, &cell[rows][c]);
             TextExtent in = measure_markup(pen, cell[rows][c], depth);
-            above[rows] = fmax(above[rows], in.above);
-            below[rows] = fmax(below[rows], in.below);
+            above[rows] = fmax(above[rows], in.ascent);
+            below[rows] = fmax(below[rows], in.descent);
             wide[c] = fmax(wide[c], in.width);
         }
         high += above[rows] + below[rows] + ROW_GAP * em;
@@ -236,7 +236,8 @@ static void set_matrix(Pen *pen, MarkupPart part, int depth)
         right += wide[c] + COLUMN_GAP * em;
         for (int r = 0; r < rows; r++) {
             double width = measure_markup(pen, cell[r][c], depth).width;
-            set_markup_at(pen, right - width, y + above[r], cell[r][c], depth);
+            typeset_markup_at(pen, right - width, y + above[r], cell[r][c],
+                              depth);
             y += above[r] + below[r] + ROW_GAP * em;
         }
     }
@@ -253,7 +254,7 @@ static void set_matrix(Pen *pen, MarkupPart part, int depth)
 }
 
 /* Sets #name{...} in the colour of this name, unless the whole text is grey. */
-static void set_coloured(Pen *pen, MarkupPart part, int depth)
+static void typeset_coloured(Pen *pen, MarkupPart part, int depth)
 {
     Colour before = pen->style.colour;
     size_t length = 0;
@@ -261,7 +262,7 @@ static void set_coloured(Pen *pen, MarkupPart part, int depth)
         length++;
     if (before != COLOUR_GREY)
         pen->style.colour = colour_find_name(part.from - 1 - length, length);
-    set_markup(pen, part, depth);
+    typeset_markup(pen, part, depth);
     pen->style.colour = before;
 }
 
@@ -273,15 +274,12 @@ static const struct {
     const char *name;
     void (*set_in_braces)(Pen *pen, MarkupPart part, int depth);
     const char *expansion;
-} commands[] = {{"^", set_script, NULL},
-                {"_", set_script, NULL},
-                {"frac", set_fraction, NULL},
-                {"matrix", set_matrix, NULL},
-                {"#", set_coloured, NULL},
-                {"{x}", NULL, "#x{x}"},
-                {"{xt}", NULL, "#xt{x\u0303}"},
-                {"{p}", NULL, "#p{p}"},
-                {"{alpha}", NULL, "#alpha{\u03b1}"}};
+} commands[] = {
+    {"^", typeset_script, NULL},        {"_", typeset_script, NULL},
+    {"frac", typeset_fraction, NULL},   {"matrix", typeset_matrix, NULL},
+    {"#", typeset_coloured, NULL},      {"{x}", NULL, "#x{x}"},
+    {"{xt}", NULL, "#xt{x\u0303}"},     {"{p}", NULL, "#p{p}"},
+    {"{alpha}", NULL, "#alpha{\u03b1}"}};
 enum { COMMANDS = sizeof commands / sizeof *commands };
 
 /* Finds the command that begins at `string`, and its brace.  Returns COMMANDS
@@ -293,7 +291,7 @@ static int find_command(const char *string, const char **brace)
         if (*string != *name || strncmp(string, name, strlen(name)) != 0)
             continue;
         *brace = string + (commands[i].expansion ? 0 : strlen(name));
-        if (commands[i].set_in_braces == set_coloured)
+        if (commands[i].set_in_braces == typeset_coloured)
             *brace += strspn(*brace, "abcdefghijklmnopqrstuvwxyz0123456789");
         if (**brace == '{')
             return i;
@@ -312,13 +310,13 @@ bool text_is_markup_brace(const char *text, const char *brace)
 
 /* Sets the letter or the command at the start of a part.  Returns the byte
  * after it. */
-static const char *set_first(Pen *pen, MarkupPart part, int depth)
+static const char *typeset_first(Pen *pen, MarkupPart part, int depth)
 {
     const char *at = part.from, *brace = at;
-    bool plain = pen->style.plain || depth >= MAX_DEPTH;
+    bool plain = pen->style.is_plain || depth >= MAX_DEPTH;
     int command = plain ? COMMANDS : find_command(at, &brace);
     if (command < COMMANDS && commands[command].expansion) {
-        set_markup(pen, whole_text(commands[command].expansion), depth);
+        typeset_markup(pen, whole_markup(commands[command].expansion), depth);
         return at + strlen(commands[command].name);
     }
     if (command < COMMANDS && brace < part.end) {
@@ -327,14 +325,14 @@ static const char *set_first(Pen *pen, MarkupPart part, int depth)
         commands[command].set_in_braces(pen, inside, depth + 1);
         return inside.end + (inside.end < part.end);
     }
-    set_letter(pen, read_letter(&at));
+    typeset_letter(pen, read_letter(&at));
     return at;
 }
 
-static void set_markup(Pen *pen, MarkupPart part, int depth)
+static void typeset_markup(Pen *pen, MarkupPart part, int depth)
 {
     while (part.from < part.end)
-        part.from = set_first(pen, part, depth);
+        part.from = typeset_first(pen, part, depth);
 }
 
 /* ---- lines -------------------------------------------------------------- */
@@ -361,7 +359,7 @@ TextExtent text_extent(Text *text, const TextStyle *style, const char *markup)
 {
     Pen pen = {.text = text, .style = *style};
     if (style->size >= MIN_SIZE && style->size <= MAX_SIZE)
-        set_markup(&pen, whole_text(markup), 0);
+        typeset_markup(&pen, whole_markup(markup), 0);
     return extent_of_line(&pen);
 }
 
@@ -369,7 +367,7 @@ size_t text_break_line(Text *text, const TextStyle *style, int width,
                        const char *markup, size_t room, TextExtent *extent)
 {
     Pen pen = {.text = text, .style = *style};
-    MarkupPart rest = whole_text(markup);
+    MarkupPart rest = whole_markup(markup);
     size_t fits = 0;
     for (int depth = 0;;) {
         size_t count = (size_t)(rest.from - markup);
@@ -384,7 +382,7 @@ size_t text_break_line(Text *text, const TextStyle *style, int width,
         }
         if (ends)
             return fits;
-        const char *next = set_first(&pen, rest, 0);
+        const char *next = typeset_first(&pen, rest, 0);
         for (; rest.from < next; rest.from++)
             depth += (*rest.from == '{') - (*rest.from == '}');
     }
@@ -404,6 +402,6 @@ int text_draw(Text *text, Canvas *canvas, const TextStyle *style, double x,
                .style = *style,
                .x = floor(start + 0.5),
                .y = y + LINE_ASCENT * style->size};
-    set_markup(&pen, whole_text(markup), 0);
+    typeset_markup(&pen, whole_markup(markup), 0);
     return (int)ceil(pen.x - start);
 }

@@ -96,8 +96,8 @@ long time_line_steps(const FrameContent *content)
 }
 
 /* Draws a bar for each step, or for the largest step of each group. */
-static void draw_bars(Paper *paper, Box bars, double pitch,
-                      const TimeLine *line)
+static void draw_step_bars(Paper *paper, Box bars, double pitch,
+                           const TimeLine *line)
 {
     long group = (long)ceil(MIN_BAR / pitch), most = FULL_BAR_UPDATES;
     int gap = (int)fmax(1, 0.14 * pitch), least = (int)(0.08 * bars.height) + 1;
@@ -138,7 +138,7 @@ static void draw_time_line(Paper *paper, const Layout *layout,
         return;
     draw_zone_ground(paper, zone, false);
     if (line->get_bar)
-        draw_bars(paper, bars, bars.width / room, line);
+        draw_step_bars(paper, bars, bars.width / room, line);
     canvas_line(&paper->canvas, x, top, x, bars.y + bars.height + 0.2 * em,
                 2 * paper->unit, COLOUR_TEXT);
     canvas_disc(&paper->canvas, x, top, (words ? 7 : 5) * paper->unit,

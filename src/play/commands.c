@@ -20,7 +20,7 @@ const CommandRow command_rows[COMMAND_KINDS] = {
 };
 
 /* Whether a key types or deletes a letter. */
-static bool types_text(const char *key)
+static bool key_types_text(const char *key)
 {
     if (strncmp(key, "Shift+", 6) == 0)
         key += 6;
@@ -29,13 +29,13 @@ static bool types_text(const char *key)
 }
 
 /* Whether a list of keys, "A|B", has this key. */
-static bool has_key(const char *keys, const char *key)
+static bool row_has_key(const char *keys, const char *key)
 {
     size_t length = strlen(key);
     for (const char *at = keys; at && length > 0; at = strchr(at, '|')) {
         at += *at == '|';
         if (strcmp(at, "*") == 0 ||
-            (strcmp(at, "letters") == 0 && types_text(key)) ||
+            (strcmp(at, "letters") == 0 && key_types_text(key)) ||
             (strncmp(at, key, length) == 0 &&
              (at[length] == '\0' || at[length] == '|')))
             return true;
@@ -49,7 +49,7 @@ Command command_from_key(const char *key, bool repeats, KeyScope scope)
     for (int i = COMMAND_KINDS - 1; i > 0 && !command.kind; i--) {
         const CommandRow *row = &command_rows[i];
         unsigned listens = row->key_scope ? row->key_scope : AT_PLAY;
-        if (!(listens & scope) || !has_key(row->keys, key))
+        if (!(listens & scope) || !row_has_key(row->keys, key))
             continue;
         if (repeats && !(row->flags & REPEATS))
             break;
@@ -89,7 +89,7 @@ static const char blanks[] = " \t\r\n";
 /* Takes the next word from a line.  Returns false if there is no word, or if it
  * is too long.
  *   word  [COMMAND_TEXT_SIZE] out */
-static bool take_word(const char **line, char *word)
+static bool take_next_word(const char **line, char *word)
 {
     const char *at = *line + strspn(*line, blanks);
     size_t length = strcspn(at, blanks);
@@ -152,7 +152,7 @@ Status command_parse(const char *line, Command *command, Message message)
     line += strspn(line, blanks);
     *command = (Command){.joined = *line == '&'};
     line += command->joined;
-    take_word(&line, word);
+    take_next_word(&line, word);
     while (kind < COMMAND_KINDS && (!command_rows[kind].name ||
                                     strcmp(command_rows[kind].name, word) != 0))
         kind++;
@@ -164,7 +164,7 @@ Status command_parse(const char *line, Command *command, Message message)
     const char *takes = command_rows[kind].args;
     bool good = true;
     for (const char *at = takes; at && good; at = find_next_argument(at))
-        good = take_word(&line, next) && read_argument(next, *at, command);
+        good = take_next_word(&line, next) && read_argument(next, *at, command);
     if (good && line[strspn(line, blanks)] == '\0')
         return STATUS_OK;
     return refuse(message, "write it as '%s%s%s'", word, takes ? " " : "",

@@ -100,7 +100,7 @@ Status film_close(Film *film, FileEnding keep)
     Output *output = &film->output;
     struct stat info;
     Status status = STATUS_OK;
-    if (!film_runs(film))
+    if (!film_is_open(film))
         return STATUS_OK;
     bool well = film->pipe && pclose(film->pipe) == 0;
     bool full = stat(output->part_name, &info) == 0 && info.st_size > 0;

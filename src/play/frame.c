@@ -79,7 +79,7 @@ static void fill_settings(const Player *player, Frame *frame)
         Setting *setting = &content->settings.item[content->settings.count++];
         char now[COMMAND_TEXT_SIZE], start[COMMAND_TEXT_SIZE];
         setting->name = option_label(row);
-        setting->min_letters = row->display.letters;
+        setting->min_letters = row->display.max_letters;
         player_format_value(row, options, player_simulation(player),
                             setting->value, VALUE_SIZE);
         option_write_short(row, options, now, sizeof now);
@@ -150,7 +150,7 @@ static void fill_chips(const Player *player, Frame *frame)
     bool time = simulation->scene->needs & NEEDS_TIME;
     bool nears = options->next == NEXT_NEARER;
     bool newton = simulation_has_updates(simulation) && !nears;
-    bool ended = simulation->done || player->time.mode > MODE_END;
+    bool ended = simulation->is_over || player->time.mode > MODE_END;
     bool stands = player_is_stopped(player);
     if (player->screen.sheet) {
         add_chip(frame, COMMAND_PAGE_ON, 0, false);
@@ -203,8 +203,8 @@ static void format_pane_value(const Player *player, int pane,
 }
 
 /* Whether all of at least three panes but one have this value of an option. */
-static bool is_usual_value(const Player *player, const OptionRow *row,
-                           const char *value)
+static bool most_panes_have_value(const Player *player, const OptionRow *row,
+                                  const char *value)
 {
     int panes = past_panes(&player->past), equal = 0;
     char other[VALUE_SIZE];
@@ -215,7 +215,7 @@ static bool is_usual_value(const Player *player, const OptionRow *row,
     return panes > 2 && equal == panes - 1;
 }
 
-void player_label(const Player *player, int pane, char label[LABEL_SIZE])
+void player_write_label(const Player *player, int pane, char label[LABEL_SIZE])
 {
     const Past *past = &player->past;
     long last = past_find_made_step(past, pane, past->step);
@@ -226,7 +226,7 @@ void player_label(const Player *player, int pane, char label[LABEL_SIZE])
             if (!player_panes_differ(player, row))
                 continue;
             format_pane_value(player, pane, row, value);
-            if (!all && is_usual_value(player, row, value))
+            if (!all && most_panes_have_value(player, row, value))
                 continue;
             append(label, LABEL_SIZE, "%s", label[0] ? ", " : "");
             if (row->slot != OPTION_SLOT(integrator))
@@ -249,7 +249,7 @@ static void fill_pane(const Player *player, int p, Frame *frame)
     const PaneView *view = &player->view_of_pane[p];
     Pane *pane = &frame->content.pane[p];
     past_fill_history(&player->past, p, &frame->history[p]);
-    player_label(player, p, frame->label[p]);
+    player_write_label(player, p, frame->label[p]);
     *pane = (Pane){.simulation = simulation,
                    .history = &frame->history[p],
                    .ghost_x = view->ghost,
@@ -306,7 +306,7 @@ static void fill_time(const Player *player, FrameContent *content)
                ldexp(1, abs(player->time.log_speed)));
     snprintf(content->title_bar.state, VALUE_SIZE, "%s",
              player->time.mode == MODE_REST ? "at rest" : "");
-    if (!past_makes(past) ||
+    if (!past_makes_step(past) ||
         (clock_now() - player->time.work_start <= LONG_WORK &&
          !player_is_slow(player)))
         return;

@@ -61,7 +61,7 @@ static Status obey(Player *player, CommandKind kind, long number)
     return obey_at(player, kind, number, (const double[2]){0, 0});
 }
 
-static Status raise_number(Player *player, const OptionRow *row, int notches)
+static Status change_number(Player *player, const OptionRow *row, int notches)
 {
     Status status = player_enqueue_notches(player, row, notches);
     return status ? status : player_obey_queue(player, true);
@@ -70,7 +70,7 @@ static Status raise_number(Player *player, const OptionRow *row, int notches)
 /* ---- the keyboard -------------------------------------------------------- */
 
 /* Returns the part of the window that gets the keys now. */
-static KeyScope find_focus(const Player *player)
+static KeyScope find_key_scope(const Player *player)
 {
     bool number = player->hands.selected;
     bool list = player_shows_list(player);
@@ -143,8 +143,8 @@ static Status drag_number(Player *player, const MouseTarget *target)
     if (!row)
         return STATUS_OK;
     if (row->count > 1)
-        /* raise_number refuses several numbers. */
-        return raise_number(player, row, 1);
+        /* change_number refuses several numbers. */
+        return change_number(player, row, 1);
     if (row->display.increment > 0 || row->kind == OPTION_NAME)
         notches = rint(notches);
     else if (notches == rint(notches))
@@ -175,7 +175,7 @@ static Status open_cell(Player *player, long cell)
 }
 
 /* Whether drags place nodes and obstacles, instead of pulling and pushing. */
-static bool drag_places_things(const Player *player)
+static bool drag_places_nodes(const Player *player)
 {
     return player->time.mode == MODE_PAUSE || player->time.mode == MODE_END;
 }
@@ -218,9 +218,9 @@ static Status press_target(Player *player, const MouseTarget *target)
             PICK_NODE) /* a click ends the highlight of a spring */
             player->screen.view.hovered.kind = PICK_NONE;
         mouse->item = target->pick.nearest_node;
-        mouse->drag = mouse->item < 0              ? COMMAND_PAN
-                      : drag_places_things(player) ? COMMAND_PLACE
-                                                   : COMMAND_GRAB;
+        mouse->drag = mouse->item < 0             ? COMMAND_PAN
+                      : drag_places_nodes(player) ? COMMAND_PLACE
+                                                  : COMMAND_GRAB;
         return STATUS_OK;
     }
 }
@@ -253,7 +253,7 @@ static Status drag_obstacle(Player *player, const double at[2])
     Past *past = &player->past;
     int number = player->hands.mouse.item;
     double part = 1, from[2];
-    if (player->hands.holding || !drag_places_things(player)) {
+    if (player->hands.holding || !drag_places_nodes(player)) {
         Status status = player->hands.holding
                             ? STATUS_OK
                             : obey(player, COMMAND_PUSH, number);
@@ -320,7 +320,7 @@ static Status go_on_dragging(Player *player)
 /* ---- events -------------------------------------------------------------- */
 
 /* Stores what is under the mouse; runs a cell of the envelope at once. */
-static Status note_hover(Player *player)
+static Status note_hovered_thing(Player *player)
 {
     View *view = &player->screen.view;
     MouseTarget target = find_mouse_target(player);
@@ -392,7 +392,7 @@ static Status press_left_button(Player *player, const MouseTarget *target,
     case ZONE_LIST:
         index = frame_find_row(&player->screen.frame.content, &target->layout,
                                player->hands.mouse.x, player->hands.mouse.y);
-        if (find_focus(player) != AT_LIST || index < 0)
+        if (find_key_scope(player) != AT_LIST || index < 0)
             return STATUS_OK;
         key = player->screen.frame.content.list.row[index].key;
         snprintf(line, sizeof line, "%.7s", key + (key[0] == '>'));
@@ -466,7 +466,7 @@ static Status release_button(Player *player)
         player_deselect(player); /* after a click the number stays selected */
     if (drag == COMMAND_SET && !mouse->has_moved && mouse->item >= 0 &&
         player->hands.selected && player->hands.selected->kind == OPTION_NAME)
-        return raise_number(player, player->hands.selected, 1);
+        return change_number(player, player->hands.selected, 1);
     return STATUS_OK;
 }
 
@@ -475,9 +475,9 @@ static Status turn_wheel(Player *player, double amount)
     MouseTarget target = find_mouse_target(player);
     if (target.hit.zone == ZONE_SETTING &&
         target.hit.index < player->screen.frame.options)
-        return raise_number(player,
-                            player->screen.frame.option[target.hit.index],
-                            amount > 0 ? 1 : -1);
+        return change_number(player,
+                             player->screen.frame.option[target.hit.index],
+                             amount > 0 ? 1 : -1);
     if (target.hit.zone == ZONE_TIME)
         return obey(player, amount > 0 ? COMMAND_BACK : COMMAND_NEXT, 0);
     if (target.hit.zone != ZONE_STAGE)
@@ -505,7 +505,7 @@ static Status obey_mouse(Player *player, const Input *input)
         return turn_wheel(player, input->wheel_notches);
     if (mouse->drag != COMMAND_NONE)
         return go_on_dragging(player);
-    return rests ? STATUS_OK : note_hover(player);
+    return rests ? STATUS_OK : note_hovered_thing(player);
 }
 
 /* A drag is one gesture.  Successive turns of the wheel are one, too. */
@@ -532,8 +532,8 @@ Status player_obey_input(Player *player, const Input *input)
     player->commands.gesture = mouse->gesture;
     switch (input->kind) {
     case INPUT_KEY:
-        command =
-            command_from_key(input->key, input->is_repeat, find_focus(player));
+        command = command_from_key(input->key, input->is_repeat,
+                                   find_key_scope(player));
         command.joined = true;
         if (command.kind)
             status = player_obey(player, &command);

@@ -46,7 +46,7 @@ Status obey_film(Player *player, const Command *command)
 {
     char name[80], message[OUTPUT_MESSAGE] = "";
     Film *film = &player->recording.film;
-    bool ends = film_runs(film);
+    bool ends = film_is_open(film);
     if (!player->screen.draws_frames)
         return player_refuse(player, "nothing is drawn that could be filmed");
     find_free_name(player, ".mp4", name, sizeof name);
@@ -121,7 +121,7 @@ static char *write_command_line(const Player *player, const char *script)
         free(line);
         return NULL;
     }
-    make_one_line(line);
+    replace_line_breaks(line);
     return line;
 }
 

@@ -59,7 +59,7 @@ static Status check_target(Player *player, const Command *command)
 }
 
 /* Returns the command for a script that a key stands for now. */
-static Command resolve_command(const Player *player, const Command *asked)
+static Command resolve_key_command(const Player *player, const Command *asked)
 {
     const double *x = player_simulation(player)->run[0].x;
     Command meant = *asked;
@@ -97,7 +97,7 @@ Status player_obey_queue(Player *player, bool now)
         bool pulls = command->kind == COMMAND_RELEASE &&
                      !player_is_stopped(player) &&
                      past->step <= player->hands.pulled_step;
-        if (!now && (past_works(past) || pulls))
+        if (!now && (past_is_working(past) || pulls))
             break;
         player->tour.obeys_page = obeys_page || queue.is_of_page;
         status = player_obey(player, command);
@@ -159,9 +159,9 @@ static void begin_command(Player *player, const Command *command)
 static bool waits_for_step(Player *player, const Command *command)
 {
     bool drags = player->hands.mouse.drag || command->kind == COMMAND_DRAG;
-    if (past_works(&player->past) && command->kind == COMMAND_NEXT)
+    if (past_is_working(&player->past) && command->kind == COMMAND_NEXT)
         return true;
-    if (!past_makes(&player->past) || !drags ||
+    if (!past_makes_step(&player->past) || !drags ||
         !(command_rows[command->kind].flags & REPLACES))
         return false;
     player_enqueue(player, command);
@@ -171,7 +171,7 @@ static bool waits_for_step(Player *player, const Command *command)
 Status player_obey(Player *player, const Command *command)
 {
     Past *past = &player->past;
-    Command meant = resolve_command(player, command);
+    Command meant = resolve_key_command(player, command);
     const unsigned flags = command_rows[meant.kind].flags;
     long step = past->step, newest = past_newest(past);
     int now = past->current;
@@ -185,7 +185,7 @@ Status player_obey(Player *player, const Command *command)
         status = player_reveal_answer(player, NULL); /* instead of a step */
         return status ? status : player_obey_queue(player, false);
     }
-    if (past_works(past) && !(flags & KEEPS_STEP)) {
+    if (past_is_working(past) && !(flags & KEEPS_STEP)) {
         stops = meant.kind == COMMAND_ESCAPE;
         status = abandon_step(player);
     }
@@ -198,9 +198,9 @@ Status player_obey(Player *player, const Command *command)
         script_add(&player->commands.journal, step, &meant,
                    player->commands.gesture))
         return STATUS_OUT_OF_MEMORY;
-    bool worked = past_works(past);
+    bool worked = past_is_working(past);
     player_sample_line_energy(player); /* a card may draw E along p now */
-    if (past_works(past) && (!worked || !(flags & KEEPS_STEP))) {
+    if (past_is_working(past) && (!worked || !(flags & KEEPS_STEP))) {
         Status shown = player_work(player);
         status = status ? status : shown;
     }

@@ -23,7 +23,7 @@ void print_line(FILE *file, const char *format, ...)
 {
     char line[1024];
     write_formatted(line, sizeof line, format);
-    make_one_line(line);
+    replace_line_breaks(line);
     fprintf(file, "%s\n", line);
 }
 

@@ -161,7 +161,7 @@ static void drop_branches(Past *past, int from)
 
 /* Whether an entry keeps its state when the run of its pane leaves the step.
  * In a thinned branch entry 0 keeps only a state of a start or a drag. */
-static bool keeps_state(const Branch *branch, const Entry *entry)
+static bool branch_keeps_state(const Branch *branch, const Entry *entry)
 {
     long i = (entry - branch->entry) / branch->panes;
     return i % branch->stride == 0 && (i > 0 || branch->stride == 1 ||
@@ -170,7 +170,7 @@ static bool keeps_state(const Branch *branch, const Entry *entry)
 
 /* Drops every second state of the branch with the smallest stride; the present
  * branch has its turn last.  Returns false if no state is left to drop. */
-static bool thin_states(Past *past)
+static bool halve_states(Past *past)
 {
     Branch *finest = NULL;
     for (int b = 0; b < past->branches; b++) {
@@ -184,7 +184,7 @@ static bool thin_states(Past *past)
         return false;
     finest->stride *= 2;
     for (long i = 0; i < finest->capacity * finest->panes; i++)
-        if (!keeps_state(finest, &finest->entry[i]))
+        if (!branch_keeps_state(finest, &finest->entry[i]))
             drop_state(past, &finest->entry[i]);
     return true;
 }
@@ -214,7 +214,7 @@ static Status store_state(Past *past, int pane, bool set, Entry *entry)
     /* Memory for the state and for the sample, which is made next. */
     size_t both = size + sizeof *entry->sample;
     drop_state(past, entry);
-    while (past->used_bytes + both > past->max_bytes && thin_states(past))
+    while (past->used_bytes + both > past->max_bytes && halve_states(past))
         continue;
     State *state = malloc(size);
     if (!state)
@@ -237,12 +237,12 @@ static void pane_run_leave_step(Past *past, int pane)
     while (run->step < branch->first_step && !branch->from_options)
         branch--;
     Entry *entry = find_entry(past, pane, run->step);
-    if (!keeps_state(branch, entry))
+    if (!branch_keeps_state(branch, entry))
         drop_state(past, entry);
     run->has_state = false;
 }
 
-static void leave_all_steps(Past *past)
+static void leave_steps_of_panes(Past *past)
 {
     for (int p = 0; p < past_panes(past); p++)
         pane_run_leave_step(past, p);
@@ -308,7 +308,7 @@ static const Newton *find_traced_newton(const Simulation *simulation)
 {
     for (int r = 0; r < simulation->runs && !simulation->scene->step; r++)
         if (simulation->run[r].newton)
-            return r == simulation->stepping ? simulation->run[r].newton : NULL;
+            return r == simulation->step_run ? simulation->run[r].newton : NULL;
     return NULL;
 }
 
@@ -338,7 +338,7 @@ static void pane_run_forget_step(PaneRun *run)
 {
     run->has_trace = run->has_failed = false;
     run->substeps = 0;
-    run->trace.places = run->records.count = 0;
+    run->trace.place_count = run->records.count = 0;
     run->records.is_incomplete = false;
 }
 
@@ -454,7 +454,7 @@ static void abandon_work(Past *past)
             run->has_state = false;
         run->is_iterating = false;
         run->substeps = 0;
-        if (!past_makes(past))
+        if (!past_makes_step(past))
             continue;
         drop_state(past, find_entry(past, p, new));
         if (present_branch(past)->entries >= present_branch(past)->copies)
@@ -487,7 +487,7 @@ static Status end_failed_pane(Past *past, int pane, Status why)
     run->substeps = 0;
     run->outcome = past_entry(past, pane, last)->outcome;
     run->outcome.status = past->worst_status = why;
-    if (past_makes(past))
+    if (past_makes_step(past))
         past->work_stage = WORK_MADE;
     return pane_run_finish_step(past, pane);
 }
@@ -496,8 +496,8 @@ static Status end_failed_pane(Past *past, int pane, Status why)
 static Status pane_run_fail(Past *past, int pane, Status status)
 {
     PaneRun *run = &past->pane[pane];
-    if (past_makes(past) && past->panes_fail_alone && past_panes(past) > 1 &&
-        !is_out_of_memory(status)) {
+    if (past_makes_step(past) && past->panes_fail_alone &&
+        past_panes(past) > 1 && !is_out_of_memory(status)) {
         status = end_failed_pane(past, pane, status);
         if (status == STATUS_RUNNING)
             return status;
@@ -527,7 +527,7 @@ static Status pane_run_finish_step(Past *past, int pane)
         to->substeps = run->substeps;
         to->outcome = run->outcome;
     }
-    if (past_makes(past) && run->substeps > 0)
+    if (past_makes_step(past) && run->substeps > 0)
         past->work_stage = WORK_MADE;
     run->substeps = 0;
     pane_run_leave_step(past, pane);
@@ -560,11 +560,11 @@ static Status pane_run_end_iteration(Past *past, int pane, Status status)
     for (int r = 0; r < simulation->runs && !simulation->scene->step; r++)
         if (simulation->run[r].newton)
             outcome->energy_change += simulation->run[r].newton->change;
-    if (status && !moved && (is_out_of_memory(status) || !simulation->done))
+    if (status && !moved && (is_out_of_memory(status) || !simulation->is_over))
         return pane_run_fail(past, pane, status);
     run->has_trace = past->stores_states;
     run->substeps += moved;
-    if (past_makes(past) && status)
+    if (past_makes_step(past) && status)
         past->worst_status = status;
     double middle = simulation_time(simulation) + 0.5 * find_pane_timestep(run);
     const Entry *to = past_entry(past, pane, run->step + 1);
@@ -625,9 +625,9 @@ static Status begin_new_step(Past *past)
 
 /* Ends the work when all panes are at `aim_step`.  If no pane could make a new
  * step, as its scene is over or it has failed, the newest step is shown. */
-static Status end_work(Past *past)
+static Status end_past_work(Past *past)
 {
-    Status worst = past_makes(past) ? past->worst_status : STATUS_OK;
+    Status worst = past_makes_step(past) ? past->worst_status : STATUS_OK;
     if (past->work_stage == WORK_MADE) {
         present_branch(past)->entries++;
     } else if (past->work_stage == WORK_MAKES) {
@@ -656,11 +656,11 @@ Status past_iterate(Past *past)
     /* Each pane in turn repeats known steps and makes its part of a new one. */
     long newest = past_newest(past);
     long aim = past->aim_step,
-         goal = past_makes(past) || aim < newest ? aim : newest;
+         goal = past_makes_step(past) || aim < newest ? aim : newest;
     for (pane = 0; pane < panes; pane++)
         if (past->pane[pane].is_iterating || past->pane[pane].step < goal)
             return pane_run_iterate(past, pane);
-    return goal < past->aim_step ? begin_new_step(past) : end_work(past);
+    return goal < past->aim_step ? begin_new_step(past) : end_past_work(past);
 }
 
 Status past_finish_work(Past *past)
@@ -704,7 +704,7 @@ void past_choose_step(Past *past, long step, bool again)
     past->load_step = past->aim_step - 1;
     for (int p = 0; p < past_panes(past); p++)
         step_trace_clear(&past->pane[p].trace);
-    leave_all_steps(past);
+    leave_steps_of_panes(past);
 }
 
 /* ---- edits --------------------------------------------------------------- */
@@ -713,10 +713,10 @@ void past_choose_step(Past *past, long step, bool again)
  * step and, if the state has changed, all rows of this step. */
 static void invalidate_tables(Past *past, long step, bool changed)
 {
-    if (past->written > step - changed)
-        past->written = step - changed;
-    if (past->booked > step - 1)
-        past->booked = step - 1;
+    if (past->written_to > step - changed)
+        past->written_to = step - changed;
+    if (past->booked_to > step - 1)
+        past->booked_to = step - 1;
 }
 
 /* Brings the simulations of all panes to the step that is shown. */
@@ -733,7 +733,7 @@ Status past_begin_runs(Past *past, const Options *options, int panes,
         .from_options = true, .panes = panes, .gesture = gesture};
     Status status = STATUS_OK;
     abandon_work(past);
-    leave_all_steps(past);
+    leave_steps_of_panes(past);
     for (int p = 0; p < panes && !status; p++) {
         PaneRun *run = &past->pane[p];
         status = pane_run_create(run, &options[p]);
@@ -817,8 +817,8 @@ static const Control *make_edited_control(const Control *from,
     return control;
 }
 
-static Status edit_entry(Past *past, int pane, const Command *edit,
-                         Entry *entry)
+static Status edit_pane_entry(Past *past, int pane, const Command *edit,
+                              Entry *entry)
 {
     Simulation *simulation = &past->pane[pane].simulation;
     if (!edit_sets_state(edit)) {
@@ -870,8 +870,8 @@ Status past_edit(Past *past, const Command *edit, int from, int to, bool again,
     invalidate_tables(past, past->step, edit_changes_state(edit));
     for (long i = branch->entries - 1; i < branch->entries + again; i++)
         for (int p = from; p < to && !status; p++)
-            status = edit_entry(past, p, edit,
-                                &branch->entry[i * branch->panes + p]);
+            status = edit_pane_entry(past, p, edit,
+                                     &branch->entry[i * branch->panes + p]);
     return status || again ? status : finish_shown_step(past);
 }
 
@@ -890,7 +890,7 @@ const Command *past_undo(Past *past, int way)
                           past->branch[b].from_options ||
                               edit_changes_state(&past->branch[b].edit));
     abandon_work(past);
-    leave_all_steps(past);
+    leave_steps_of_panes(past);
     present_branch(past)->left_step = past->step;
     past->current = to;
     past->step = present_branch(past)->left_step;
@@ -903,8 +903,8 @@ void past_create(bool stores_states, bool panes_fail_alone, Past *past)
     *past = (Past){.current = -1,
                    .stores_states = stores_states,
                    .panes_fail_alone = panes_fail_alone,
-                   .written = -1,
-                   .booked = -1,
+                   .written_to = -1,
+                   .booked_to = -1,
                    .max_bytes = PAST_BYTES,
                    .line_pane = -1};
 }

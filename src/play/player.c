@@ -22,7 +22,7 @@ Status player_draw(Player *player)
     player->screen.must_redraw = false;
     if (!player->screen.draws_frames)
         return STATUS_OK;
-    if (past_works(&player->past) && !past_makes(&player->past)) {
+    if (past_is_working(&player->past) && !past_makes_step(&player->past)) {
         /* The frame is drawn when the work has led to its step. */
         player->screen.must_redraw = true;
         return STATUS_OK;
@@ -36,7 +36,7 @@ Status player_draw(Player *player)
     Status status =
         player->screen.paper_size[0] ? STATUS_OK : window_show(&paper->canvas);
     int slow = player->time.log_speed < 0 ? -player->time.log_speed : 0;
-    if (!status && (fresh || film_runs(&player->recording.film)))
+    if (!status && (fresh || film_is_open(&player->recording.film)))
         status = recording_write_frame(&player->recording, &paper->canvas,
                                        player->past.step, 1 << slow);
     return status;
@@ -51,10 +51,11 @@ bool player_ended(const Player *player)
     bool counted = options->steps >= 0;
     if (player->is_quitting || *player->setup.stop_signal)
         return true;
-    if (!script_is_over(&player->setup.script) || past_works(&player->past))
+    if (!script_is_over(&player->setup.script) ||
+        past_is_working(&player->past))
         return false;
     return (counted && player->past.step >= options->steps) ||
-           ((!player->screen.has_window || counted) && simulation->done) ||
+           ((!player->screen.has_window || counted) && simulation->is_over) ||
            (!player->screen.has_window && player_is_stopped(player));
 }
 
@@ -62,7 +63,7 @@ static Status obey_script(Player *player)
 {
     Status status = STATUS_OK;
     while (!status && !player->is_quitting) {
-        bool done = player->past.pane[0].simulation.done;
+        bool done = player->past.pane[0].simulation.is_over;
         const Command *command =
             script_due(&player->setup.script, player->past.step,
                        !player_is_stopped(player) && !done);
@@ -95,11 +96,11 @@ static Status make_due_steps(Player *player)
     for (int i = 0; i < count && !status; i++) {
         if (i > 0 && (player_ended(player) || clock_now() - begin > SLICE))
             break;
-        if (player_is_stopped(player) && !past_works(past))
+        if (player_is_stopped(player) && !past_is_working(past))
             break;
-        status = past_works(past) ? player_continue(player)
-                                  : player_make_step(player);
-        if (past_works(past))
+        status = past_is_working(past) ? player_continue(player)
+                                       : player_make_step(player);
+        if (past_is_working(past))
             break;
         if (!status)
             status = obey_script(player);
@@ -120,14 +121,14 @@ Status player_frame(Player *player)
             break;
         status = player_show_refusal(player, player_obey_input(player, &input));
     }
-    if (!status && !past_works(&player->past))
+    if (!status && !past_is_working(&player->past))
         status = obey_script(player);
     double now = player->screen.has_window ? clock_now() : 0;
     if (player->screen.drawn_step < 0) /* draw a run before its first step */
         player->time.due = now + period;
     bool due = !player->screen.has_window || now >= player->time.due - EARLY;
     bool first = player->screen.drawn_step < 0 && player->screen.draws_frames;
-    bool works = past_works(&player->past);
+    bool works = past_is_working(&player->past);
     /* Work that begins in this frame waits until the frame is drawn. */
     bool begins = works && player->time.work_start > start;
     bool lives = player->screen.sheet && player->screen.has_window;
@@ -150,7 +151,7 @@ Status player_frame(Player *player)
 bool player_is_idle(const Player *player)
 {
     return player->screen.has_window && player_is_stopped(player) &&
-           !player->screen.sheet && !past_works(&player->past) &&
+           !player->screen.sheet && !past_is_working(&player->past) &&
            script_is_over(&player->setup.script);
 }
 
@@ -159,7 +160,7 @@ int player_find_wait_time(const Player *player)
     double wait = 1e3 * (player->time.due - clock_now());
     if (player_is_idle(player))
         return IDLE_WAIT;
-    if (!player->screen.has_window || past_works(&player->past) ||
+    if (!player->screen.has_window || past_is_working(&player->past) ||
         (player_is_stopped(player) && !script_is_over(&player->setup.script)))
         return 0;
     return (int)fmax(fmin(ceil(wait), IDLE_WAIT), 0);
@@ -265,9 +266,9 @@ Status player_finish(Player *player, Status status)
         Status rest = player_write_remaining(player);
         status = status ? status : rest;
     }
-    FileEnding keep = player->past.written < 0 ? KEEP_NOTHING
-                      : status                 ? KEEP_PART
-                                               : KEEP_WHOLE;
+    FileEnding keep = player->past.written_to < 0 ? KEEP_NOTHING
+                      : status                    ? KEEP_PART
+                                                  : KEEP_WHOLE;
     close_view(player);
     Status closed = recording_close(&player->recording, keep);
     return status ? status : closed;

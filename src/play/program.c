@@ -106,7 +106,7 @@ static int report_failure(const Player *player, Status status)
     print_line(file, "%-20s" format, name, __VA_ARGS__)
 
 /* Prints the last step's solver, why not multigrid, and Newton's work. */
-static void print_newton(FILE *file, const Simulation *simulation)
+static void print_newton_counters(FILE *file, const Simulation *simulation)
 {
     const Newton *newton = simulation->run[0].newton;
     NewtonCounters sum = simulation_sum_counters(simulation);
@@ -126,15 +126,15 @@ static void print_newton(FILE *file, const Simulation *simulation)
     if (newton && needs & NEEDS_SPRINGS)
         print_quantity(file, "solver", "%s%s%s",
                        solver_name(newton->active_solver),
-                       newton->refusal ? "; no multigrid: " : "",
-                       newton->refusal ? newton->refusal : "");
+                       newton->refusal_reason ? "; no multigrid: " : "",
+                       newton->refusal_reason ? newton->refusal_reason : "");
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
         if (rows[i].value > 0)
             print_quantity(file, rows[i].name, "%lld", rows[i].value);
 }
 
 /* Prints by how much the total energy has risen in steps of backward Euler. */
-static void print_gain(FILE *file, const Simulation *simulation)
+static void print_energy_gain(FILE *file, const Simulation *simulation)
 {
     EnergyGain sum = {0};
     for (int r = 0; r < simulation->runs; r++) {
@@ -158,26 +158,26 @@ static void print_summary(FILE *file, const Player *player)
         const Simulation *simulation = &player->past.pane[p].simulation;
         bool in_time = simulation->scene->needs & NEEDS_TIME;
         char label[LABEL_SIZE];
-        player_label(player, p, label);
+        player_write_label(player, p, label);
         if (panes > 1)
             fprintf(file, "pane %-14d %s\n", p + 1, label);
         print_quantity(file, "steps", "%ld", simulation->steps);
         if (in_time)
             print_quantity(file, "simulated time", "%g s",
                            simulation_time(simulation));
-        print_newton(file, simulation);
+        print_newton_counters(file, simulation);
         if (in_time) {
             print_quantity(file, "energy at start", "%.9g J",
                            simulation->ledger[0].start + 0.0); /* no -0 */
             print_quantity(file, "energy at end", "%.9g J",
                            simulation_energies(simulation, 0).total);
-            print_gain(file, simulation);
+            print_energy_gain(file, simulation);
         }
         fprintf(file, "steps not converged %ld", simulation->unconverged);
         for (int i = 0; i < STATUS_COUNT; i++)
-            if (simulation->reasons[i] > 0)
+            if (simulation->status_counts[i] > 0)
                 fprintf(file, "\n  %-17s %d", status_name((Status)i),
-                        simulation->reasons[i]);
+                        simulation->status_counts[i]);
         fputs(panes > 1 ? "\n\n" : "\n", file);
     }
     print_quantity(file, "wall time", "%.3f s",
@@ -232,7 +232,7 @@ int program_end(Player *player, Status status)
     for (int i = 0; i < past_panes(&player->past) && code == EXIT_FINE; i++) {
         const Simulation *simulation = &player->past.pane[i].simulation;
         if (simulation->unconverged > 0 ||
-            (simulation->done && simulation->status))
+            (simulation->is_over && simulation->status))
             return EXIT_UNCONVERGED;
     }
     return code;

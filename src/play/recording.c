@@ -166,8 +166,8 @@ static Status open_table(const Options *options, Recording *recording, int t)
     table_add_columns(table, kinds[t].columns);
     for (const OptionRow *row = option_rows; row->name; row++)
         if (t == RECORDING_ENERGIES && row->term) {
-            table_add_columns(table, row->term->energy);
-            table_add_columns(table, row->term->loss);
+            table_add_columns(table, row->term->energy_name);
+            table_add_columns(table, row->term->loss_name);
         }
     if (t == RECORDING_ENERGIES)
         table_add_columns(table, "work,dissipated,run:whole");
@@ -198,7 +198,8 @@ Status recording_write_frame(Recording *recording, const Canvas *canvas,
 {
     Film *film = &recording->film;
     char name[OUTPUT_NAME];
-    Status status = film_runs(film) ? film_add(film, canvas, times) : STATUS_OK;
+    Status status =
+        film_is_open(film) ? film_add(film, canvas, times) : STATUS_OK;
     if (status || !recording->folder)
         return status;
     snprintf(name, sizeof name, "%s/frame_%06ld.png", recording->folder, step);

@@ -107,7 +107,7 @@ void player_sample_line_energy(Player *player)
     Past *past = &player->past;
     const PaneRun *run = player_active_run(player);
     past->line_pane = is_drawn ? player->active : -1;
-    bool lacks = is_drawn && run->has_trace && !past_works(past) &&
+    bool lacks = is_drawn && run->has_trace && !past_is_working(past) &&
                  step_trace_lacks_samples(
                      &run->trace, player->view_of_pane[player->active].place);
     for (int p = 0; p < past_panes(past); p++)

@@ -55,7 +55,7 @@ Status obey_sheet(Player *player, const Command *command)
 }
 
 /* Begins the scene of a cell; a cell that fails stays empty. */
-static void begin_cell(Sheet *sheet, int i)
+static void begin_cell_scene(Sheet *sheet, int i)
 {
     char message[256];
     Options options;
@@ -82,8 +82,8 @@ void sheet_advance(Player *player)
         int cell = sheet->next_cell, age = sheet->turns[cell]++;
         Simulation *simulation = &sheet->simulation[cell];
         if (age % CELL_LIFE == 0)
-            begin_cell(sheet, cell);
-        else if (simulation->scene && !simulation->done &&
+            begin_cell_scene(sheet, cell);
+        else if (simulation->scene && !simulation->is_over &&
                  !status_is_failure(simulation->status) &&
                  ((simulation->scene->needs & NEEDS_TIME) ||
                   age % CELL_PAUSE == 0))
@@ -102,7 +102,7 @@ void sheet_fill(const Player *player, FrameContent *content)
         const Simulation *simulation = &sheet->simulation[i];
         content->sheet.cell[i] =
             (SheetCell){.name = i > 0 ? scene->name : "the guided tour",
-                        .heading = i == 1 ? NULL : scene->group,
+                        .heading = i == 1 ? NULL : scene->group_heading,
                         .simulation = simulation->scene ? simulation : NULL};
         if (i == player->screen.view.cell)
             snprintf(content->title_bar.sentence, SENTENCE_SIZE, "%s: %s",

@@ -86,7 +86,7 @@ Status player_restart_runs(Player *player, const Options *options, int panes,
     const Control *before = control_retain(past_control(&player->past, 0));
     const LecturePage *page = options->page;
     Options own; /* opening commands need the page's own nodes */
-    bool opens = edit->kind == COMMAND_RESTART && page && page->open &&
+    bool opens = edit->kind == COMMAND_RESTART && page && page->on_open &&
                  !lecture_make_options(page, &own, MESSAGE(player->message)) &&
                  own.segments == options->segments;
     Status status = player_begin_runs(player, options, opens ? 1 : panes, edit);
@@ -134,7 +134,7 @@ Status player_enqueue_page(Player *player)
 {
     const LecturePage *page = player_active_options(player)->page;
     player->commands.queue.is_of_page = true;
-    return player_enqueue_lines(player, page ? page->open : NULL);
+    return player_enqueue_lines(player, page ? page->on_open : NULL);
 }
 
 void player_store_own_options(Player *player, const Options *options)
@@ -147,7 +147,7 @@ void player_store_own_options(Player *player, const Options *options)
 bool player_hides_answer(const Player *player)
 {
     const LecturePage *page = player_active_options(player)->page;
-    return page && page->ask && player->tour.revealed != page &&
+    return page && page->question && player->tour.revealed != page &&
            player->setup.asks_guess && !player->tour.obeys_page;
 }
 
@@ -184,7 +184,7 @@ Status player_reveal_answer(Player *player, const char *typed)
                          : ": no, ",
                  number.text);
     player->commands.queue.is_of_page = true;
-    return player_enqueue_lines(player, page->tell);
+    return player_enqueue_lines(player, page->on_answer);
 }
 
 /* Opens a page by its name, the next page, or the previous page.  Outside of
@@ -235,14 +235,15 @@ Status obey_predict(Player *player, const Command *command)
 {
     double at[2];
     Simulation *simulation = &player->past.pane[player->active].simulation;
-    if (simulation->done || simulation_find_point(simulation, at) == 0)
+    if (simulation->is_over || simulation_find_point(simulation, at) == 0)
         return player_refuse(player, "nothing to predict here");
     player_pause(player);
     scene_predict(simulation, command->x, command->y);
     const Prediction *guess = &simulation->prediction;
     if (!player_hides_answer(player))
         return STATUS_OK;
-    double way = math_hypot(guess->end[0] - at[0], guess->end[1] - at[1]);
+    double way =
+        math_hypot(guess->reached[0] - at[0], guess->reached[1] - at[1]);
     bool right = guess->distance <= 0.1 * way;
     Status status = player_reveal_answer(player, NULL);
     player->tour.guesses++;

@@ -34,7 +34,7 @@ void step_trace_clear(StepTrace *trace)
     free(trace->x_tilde);
     free(trace->end_x);
     trace->x_tilde = trace->end_x = NULL;
-    trace->records.count = trace->places = 0;
+    trace->records.count = trace->place_count = 0;
     trace->used_bytes = 0;
 }
 
@@ -181,7 +181,7 @@ void step_trace_add_round(StepTrace *trace, const Newton *newton,
 
 static void append_place(StepTrace *trace, int round, StepLine line, int trials)
 {
-    trace->place[trace->places++] = (TracePlace){round, line, trials};
+    trace->place[trace->place_count++] = (TracePlace){round, line, trials};
 }
 
 void step_trace_end(StepTrace *trace, const Options *options)
@@ -190,7 +190,7 @@ void step_trace_end(StepTrace *trace, const Options *options)
     TracePlace *place =
         realloc(trace->place,
                 ((size_t)count + 1) * (TRIALS_WALKED + 8) * sizeof *place);
-    trace->places = 0;
+    trace->place_count = 0;
     if (!place)
         return;
     trace->place = place;
@@ -218,7 +218,7 @@ void step_trace_end(StepTrace *trace, const Options *options)
 
 int step_trace_walk(const StepTrace *trace, TimeUnit unit, int place, int way)
 {
-    for (int i = place + way; 0 <= i && i < trace->places; i += way) {
+    for (int i = place + way; 0 <= i && i < trace->place_count; i += way) {
         StepLine line = trace->place[i].at_line;
         if (unit == UNIT_LINE || line == LINE_START || line == LINE_TEST ||
             line == LINE_END)
@@ -229,15 +229,15 @@ int step_trace_walk(const StepTrace *trace, TimeUnit unit, int place, int way)
 
 int step_trace_find_place(const StepTrace *trace, int round, StepLine line)
 {
-    for (int i = trace->places - 1; i >= 0; i--)
+    for (int i = trace->place_count - 1; i >= 0; i--)
         if (trace->place[i].round == round && trace->place[i].at_line <= line)
             return i;
-    return trace->places - 1;
+    return trace->place_count - 1;
 }
 
 /* Rounding changes `sum` by some units in the last place of the highest E, far
  * less than the tenth of E that decides. */
-int step_trace_peak(const StepTrace *trace)
+int step_trace_find_peak(const StepTrace *trace)
 {
     enum { FAR = 10 };
     double sum = 0, rise = 0;
@@ -282,7 +282,7 @@ const double *step_trace_fill(const StepTrace *trace, int place, Trace *shown)
 {
     int count = trace->records.count;
     const NewtonRecord *row = trace->records.record, *last = row + count - 1;
-    bool over = place < 0 || place >= trace->places;
+    bool over = place < 0 || place >= trace->place_count;
     bool given_up = count > 0 && last->status != STATUS_OK &&
                     last->status != STATUS_RUNNING;
     const TracePlace at =

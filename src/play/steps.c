@@ -37,7 +37,7 @@ static Status record_step(Player *player)
     const Simulation *simulation[OPTIONS_MAX_PANES];
     int panes = past_panes(past);
     long step = past->step;
-    bool due = step == past->booked + 1, again = step <= past->written;
+    bool due = step == past->booked_to + 1, again = step <= past->written_to;
     for (int p = 0; p < panes; p++) {
         const PaneRun *run = &past->pane[p];
         simulation[p] = &run->simulation;
@@ -48,9 +48,9 @@ static Status record_step(Player *player)
         return STATUS_OK;
     Status status =
         step > 0 && !again ? record_iterations(player, step) : STATUS_OK;
-    past->booked = step;
+    past->booked_to = step;
     if (!again)
-        past->written = step;
+        past->written_to = step;
     return status ? status
                   : recording_write_states(&player->recording, again,
                                            simulation, panes, step);
@@ -64,18 +64,18 @@ Status player_write_remaining(Player *player)
     bool failed = false, again = true;
     for (int p = 0; p < past_panes(past); p++)
         failed = failed || past->pane[p].has_failed;
-    if (failed && shown == past->written)
+    if (failed && shown == past->written_to)
         status = record_iterations(player, shown + 1);
     if (!past->stores_states || !player->recording.has_tables)
         return status;
-    while (past->booked < past_newest(past) && !status &&
+    while (past->booked_to < past_newest(past) && !status &&
            !*player->setup.stop_signal) {
-        long next = past->booked + 1;
+        long next = past->booked_to + 1;
         past_choose_step(past, next, again);
         status = past_finish_work(past);
         if (!status_is_failure(status))
             status = record_step(player);
-        again = past->booked < next;
+        again = past->booked_to < next;
     }
     past_choose_step(past, shown, false);
     past_finish_work(past);
@@ -178,7 +178,7 @@ Status player_edit(Player *player, const Command *change, int from, int to,
 /* ---- where a run stops by itself ----------------------------------------- */
 
 /* Reports that the run is at rest, and why cells may stay folded. */
-static void report_rest(Player *player)
+static void report_at_rest(Player *player)
 {
     const Past *past = &player->past;
     int folded = 0;
@@ -235,7 +235,7 @@ static void stop_run_if_over(Player *player)
         if (past_find_made_step(past, p, past->step) < past->step)
             continue;
         going++;
-        ended = ended && (simulation->done || run->has_failed);
+        ended = ended && (simulation->is_over || run->has_failed);
         rests = rests && (simulation->scene->needs & NEEDS_TIME) &&
                 simulation->runs == 1 && !control_hand_holds(run->control) &&
                 simulation_is_at_rest(simulation);
@@ -253,7 +253,7 @@ static void stop_run_if_over(Player *player)
         options->page == player->tour.revealed)
         player->time.mode = MODE_PAUSE;
     if (player->time.mode == MODE_REST)
-        report_rest(player);
+        report_at_rest(player);
 }
 
 /* ---- inside a step ------------------------------------------------------- */
@@ -266,10 +266,10 @@ static void enter_line_walk(Player *player, AfterWork after)
         const StepTrace *trace = &player->past.pane[p].trace;
         Trace shown;
         double far = 0;
-        int place = trace->places <= 2          ? -1 /* no lines */
+        int place = trace->place_count <= 2     ? -1 /* no lines */
                     : after == AFTER_SHOW_FIRST ? 0
-                    : after == AFTER_SHOW_LAST  ? trace->places - 1
-                                                : step_trace_peak(trace);
+                    : after == AFTER_SHOW_LAST  ? trace->place_count - 1
+                                                : step_trace_find_peak(trace);
         if (place < 0)
             continue;
         player->time.mode = MODE_PAUSE;
@@ -332,7 +332,7 @@ static void compare_outcomes(Player *player)
     const StepTrace *trace = &player_active_run(player)->trace;
     const TracePlace *at = &player->time.wanted_place;
     char has[256];
-    if (at->round >= 0 && trace->places > 2) {
+    if (at->round >= 0 && trace->place_count > 2) {
         player->time.mode = MODE_PAUSE;
         player->view_of_pane[player->active].place =
             step_trace_find_place(trace, at->round, at->at_line);
@@ -418,24 +418,24 @@ Status player_work(Player *player)
     if (player->time.work_start == 0)
         player->time.work_start = begin;
     player_sample_line_energy(player);
-    while (past_works(past) && !player->is_quitting) {
+    while (past_is_working(past) && !player->is_quitting) {
         long before = past->step;
-        bool made = past_makes(past);
+        bool made = past_makes_step(past);
         Status status = past_iterate(past);
-        if (!past_works(past) || (status && status != STATUS_RUNNING)) {
+        if (!past_is_working(past) || (status && status != STATUS_RUNNING)) {
             status = finish_work(player, status, before, made);
             if (status)
                 return status;
             player_sample_line_energy(player);
         }
         player->is_quitting = player->is_quitting || *player->setup.stop_signal;
-        bool begins = past_makes(past) && !made && player_is_slow(player);
+        bool begins = past_makes_step(past) && !made && player_is_slow(player);
         if (player->screen.has_window &&
             (begins || clock_now() - begin > SLICE))
             break;
     }
     player->screen.must_redraw = true;
-    if (!past_works(past))
+    if (!past_is_working(past))
         player->time.work_start = 0;
     return STATUS_OK;
 }
@@ -529,7 +529,7 @@ Status obey_back(Player *player, const Command *command)
     return player_seek(player, step - 1, AFTER_SHOW_LAST);
 }
 
-Status obey_finer(Player *player, const Command *command)
+Status obey_walk_unit(Player *player, const Command *command)
 {
     static const char *const paces[] = {
         "whole steps", "updates of Newton's method", "lines of Algorithm 3"};

@@ -65,7 +65,7 @@ static Input inputs[INPUTS];
 static int first_input, input_count;
 
 /* Appends an input; a movement replaces a movement before it. */
-static void put_input(const Input *input)
+static void queue_input(const Input *input)
 {
     int last = (first_input + input_count - 1) % INPUTS;
     if (input_count > 0 && input->kind == INPUT_MOVE &&
@@ -79,7 +79,7 @@ EMSCRIPTEN_KEEPALIVE void web_key(const char *key, int repeats)
 {
     Input input = {.kind = INPUT_KEY, .is_repeat = repeats != 0};
     snprintf(input.key, sizeof input.key, "%s", key);
-    put_input(&input);
+    queue_input(&input);
 }
 
 /* Queues an input of any InputKind but INPUT_KEY. */
@@ -88,7 +88,7 @@ EMSCRIPTEN_KEEPALIVE void web_mouse(int kind, double x, double y, int button,
 {
     const Input input = {(InputKind)kind, "", false, button,
                          clicks,          x,  y,     amount};
-    put_input(&input);
+    queue_input(&input);
 }
 
 Input window_read_input(void)

@@ -18,8 +18,8 @@
 /* A word of --pin, and where its nodes are. */
 static const struct PinWord {
     const char *word;
-    int all_of; /* each node is on all these sides; 0: any node */
-    int any_of; /* each node is on one of these, too; 0: any node */
+    int on_all_sides; /* each node is on all these sides; 0: any node */
+    int on_one_side;  /* each node is on one of these, too; 0: any node */
 } pin_words[] = {{"top-corners", MESH_TOP, MESH_LEFT | MESH_RIGHT},
                  {"top", MESH_TOP, 0},
                  {"bottom", MESH_BOTTOM, 0},
@@ -54,8 +54,8 @@ const char *pins_read(const char *text, const SquareMesh *shape,
             int own = i, sides = square_mesh_get_sides(shape, i);
             bool in_body = !digits[0] ||
                            square_mesh_locate_body(shape, &own) + 1 == number;
-            bool on_side = (sides & word->all_of) == word->all_of &&
-                           (!word->any_of || (sides & word->any_of));
+            bool on_side = (sides & word->on_all_sides) == word->on_all_sides &&
+                           (!word->on_one_side || (sides & word->on_one_side));
             pinned[i] |= name[0] ? in_body && on_side : i == number;
         }
         text += end;
@@ -117,7 +117,7 @@ static Status create_system(const Options *options, System *system)
     if (shape.rows == shape.segments && ball < 0 && shape.bodies == 1)
         system->segments = shape.segments;
     system->gravity[1] = -options->gravity;
-    square_mesh_order_nodes(&shape, system->order);
+    square_mesh_order_nodes(&shape, system->elimination_order);
     if (options->pin && pins_read(options->pin, &shape, system->pinned))
         return STATUS_INVALID_INPUT;
     for (int i = 0; i < shape.nodes && numbers; i++) {
@@ -340,7 +340,7 @@ static void cut_notch(const Options *options, const SquareMesh *mesh,
 static Status create_body(Simulation *simulation, int run)
 {
     const Options options = make_run_options(&simulation->options, run);
-    System *system = run ? &simulation->more[run] : &simulation->system;
+    System *system = run ? &simulation->run_system[run] : &simulation->system;
     double *x;
     Status status = build_body(&options, run, system, &x, (Message){0});
     simulation->mesh = body_make_mesh(&options);
@@ -440,7 +440,7 @@ static Status check_gaps_and_cells(const Options *options, const System *system,
                                    Message message)
 {
     const SquareMesh shape = body_make_mesh(options);
-    EvalPoint at = eval_point_at(system, NULL, NULL, x);
+    EvalPoint at = make_eval_point(system, NULL, NULL, x);
     for (const TermKind *kind; (kind = eval_point_next_term(&at));) {
         if (!kind->element || !kind->element->max_step)
             continue;
@@ -505,11 +505,11 @@ static Status check_clearance(const Simulation *simulation,
     for (int run = 0; run < simulation->runs && !status; run++) {
         const Options own = make_run_options(options, run);
         System system = *simulation->run[run].system;
-        Contact contact = {.barrier = make_barrier(&own), .ball = -1};
+        Contact contact = {.barrier = make_barrier(&own), .free_ball = -1};
         int count = list_obstacles(&own, contact.obstacle);
         contact.obstacles = (int)(own.grounds + own.balls);
         if (count > 0 && contact.obstacle[count - 1].node >= 0)
-            contact.ball = count - 1;
+            contact.free_ball = count - 1;
         system.terms = 1;
         system.term[0] = (Term){&contact_energy, &contact};
         status = check_gaps_and_cells(&own, &system, simulation->run[run].x,
@@ -594,7 +594,7 @@ static Status check_crossing_outlines(const Options *options, const double *x,
 {
     const SquareMesh shape = body_make_mesh(options);
     int edge[2], other[2];
-    for (int k = 0; k < shape.outline && options->self_contact; k++) {
+    for (int k = 0; k < shape.outline_edges && options->self_contact; k++) {
         square_mesh_get_outline_edge(&shape, k, edge);
         for (int l = 0; l < k; l++) {
             square_mesh_get_outline_edge(&shape, l, other);

@@ -44,8 +44,8 @@ bool control_hand_holds(const Control *control)
 }
 
 /* Returns the lift of an obstacle of a run, m.  Balls are not lifted. */
-static double get_lift(const Simulation *simulation, int run,
-                       const Obstacle *obstacle)
+static double get_run_lift(const Simulation *simulation, int run,
+                           const Obstacle *obstacle)
 {
     return obstacle->kind == OBSTACLE_WALL
                ? body_find_lift(&simulation->options, run)
@@ -58,7 +58,7 @@ void simulation_find_obstacle(const Simulation *simulation, int run, int number,
     const Contact *contact = contact_of(simulation->run[run].system);
     const Obstacle *obstacle = &contact->obstacle[number];
     at[0] = obstacle->o[0];
-    at[1] = obstacle->o[1] - get_lift(simulation, run, obstacle);
+    at[1] = obstacle->o[1] - get_run_lift(simulation, run, obstacle);
 }
 
 void control_store_obstacle(Control *control, int number,
@@ -92,7 +92,7 @@ void control_release(const Control *control)
 
 /* Stores the energy that each run has dissipated so far.
  *   out  [runs] J */
-static void store_dissipated(const Simulation *simulation, double *out)
+static void copy_dissipated_energy(const Simulation *simulation, double *out)
 {
     for (int r = 0; r < simulation->runs; r++)
         out[r] = simulation_energies(simulation, r).dissipated;
@@ -151,7 +151,7 @@ static Status apply_options(Simulation *simulation, const Options *options)
     if (options->stiffness != before.stiffness ||
         options->integrator != before.integrator)
         simulation->prediction = (Prediction){0};
-    if (simulation->scene->find_direction && !simulation->done &&
+    if (simulation->scene->find_direction && !simulation->is_over &&
         (options->projection != before.projection ||
          options->line_search != before.line_search))
         simulation->scene->find_direction(simulation);
@@ -171,7 +171,7 @@ static Status apply_hand(Simulation *simulation, const Control *control)
     static const double STIFFER = 1000; /* hand's stiffness over the body's */
     System *system = &simulation->system;
     const SquareMesh *mesh = &simulation->mesh;
-    EvalPoint at = eval_point_at(system, NULL, NULL, NULL);
+    EvalPoint at = make_eval_point(system, NULL, NULL, NULL);
     int node = control->held_node;
     if (node < 0) {
         system_remove_term(system, &hand_energy);
@@ -185,9 +185,9 @@ static Status apply_hand(Simulation *simulation, const Control *control)
         &(Pull){.node = node,
                 .cell = mesh->nodes > 0 ? mesh->spacing : INFINITY,
                 .side = mesh->side,
-                .mouse = {control->target[0], control->target[1]},
+                .mouse_xy = {control->target[0], control->target[1]},
                 .target = {x[0], x[1]},
-                .strength = k > 0 ? STIFFER * k : 1e5 * system->m[node]});
+                .stiffness = k > 0 ? STIFFER * k : 1e5 * system->m[node]});
 }
 
 /* Pushes the obstacle that the mouse holds, if there is one, in each run. */
@@ -198,14 +198,14 @@ static void apply_push(Simulation *simulation, const Control *control)
         if (!contact)
             continue;
         int held = control->held_obstacle;
-        contact->push =
-            (Push){.on = 0 <= held && held < contact->obstacles,
+        contact->hand =
+            (Push){.held = 0 <= held && held < contact->obstacles,
                    .obstacle = held,
                    .target = {control->target[0], control->target[1]},
-                   .shape = simulation->mesh};
-        if (contact->push.on)
-            contact->push.target[1] +=
-                get_lift(simulation, r, &contact->obstacle[held]);
+                   .mesh = simulation->mesh};
+        if (contact->hand.held)
+            contact->hand.target[1] +=
+                get_run_lift(simulation, r, &contact->obstacle[held]);
     }
 }
 
@@ -213,7 +213,7 @@ Status control_apply(Simulation *simulation, const Control *control)
 {
     System *system = &simulation->system;
     double dissipated[SIMULATION_MAX_RUNS];
-    store_dissipated(simulation, dissipated);
+    copy_dissipated_energy(simulation, dissipated);
     Status status = apply_options(simulation, &control->options);
     /* A node stops when it is pinned and when its pin is taken away. */
     for (int i = 0; i < system->nodes; i++) {
@@ -242,17 +242,17 @@ Status simulation_place_node(Simulation *simulation, int node, double x,
         !isfinite(y))
         return STATUS_INVALID_INPUT;
     double dissipated[SIMULATION_MAX_RUNS];
-    store_dissipated(simulation, dissipated);
-    memcpy(before, run->x, run->size * sizeof *before);
+    copy_dissipated_energy(simulation, dissipated);
+    memcpy(before, run->x, run->x_length * sizeof *before);
     run->x[2 * node] = x;
     run->x[2 * node + 1] = y;
     bool allowed =
-        system_is_feasible(eval_point_at(run->system, NULL, NULL, run->x));
-    for (size_t i = 0; i < run->size; i++)
+        system_is_feasible(make_eval_point(run->system, NULL, NULL, run->x));
+    for (size_t i = 0; i < run->x_length; i++)
         p[i] = run->x[i] - before[i];
     allowed = allowed && system_path_is_free(run->system, before, p);
     if (!allowed || !moves) {
-        memcpy(run->x, before, run->size * sizeof *before);
+        memcpy(run->x, before, run->x_length * sizeof *before);
         return allowed ? STATUS_OK : STATUS_INVALID_INPUT;
     }
     stop_node(run, node);

@@ -27,20 +27,20 @@ Energies simulation_energies(const Simulation *simulation, int run)
     energies.total = energies.kinetic + energies.gravity;
     add_energy(&energies, "total", 0);
     add_energy(&energies, "kinetic", energies.kinetic);
-    EvalPoint at = eval_point_at(system, NULL, NULL, x);
+    EvalPoint at = make_eval_point(system, NULL, NULL, x);
     for (const TermKind *kind; (kind = eval_point_next_term(&at));) {
-        double value = kind->energy ? kind->value(&at) : 0;
+        double value = kind->energy_name ? kind->value(&at) : 0;
         energies.total += value;
-        if (kind->energy)
-            add_energy(&energies, kind->energy, value);
+        if (kind->energy_name)
+            add_energy(&energies, kind->energy_name, value);
     }
     add_energy(&energies, "gravity", energies.gravity);
     for (int t = 0; t < system->terms; t++)
-        if (system->term[t].kind->loss)
-            add_energy(&energies, system->term[t].kind->loss, 0);
-    for (int i = 0; i < SYSTEM_MAX_TERMS && system->lost[i].name; i++) {
-        add_energy(&energies, system->lost[i].name, system->lost[i].energy);
-        lost += system->lost[i].energy;
+        if (system->term[t].kind->loss_name)
+            add_energy(&energies, system->term[t].kind->loss_name, 0);
+    for (int i = 0; i < SYSTEM_MAX_TERMS && system->losses[i].name; i++) {
+        add_energy(&energies, system->losses[i].name, system->losses[i].energy);
+        lost += system->losses[i].energy;
     }
     energies.row[0].value = energies.total;
     energies.dissipated =

@@ -12,7 +12,7 @@ int exhibit_list_handles(const Simulation *simulation,
     int count = 0;
     for (; kind && kind[count]; count++)
         for (int k = 0; k < 2; k++)
-            at[count][k] = kind[count] == 't'   ? simulation->exhibit.target[k]
+            at[count][k] = kind[count] == 't'   ? simulation->exhibit.x_tilde[k]
                            : kind[count] == 'v' ? run->x[k] + run->v[k]
                                                 : run->x[k];
     return count;
@@ -31,7 +31,7 @@ void exhibit_drag_handle(Simulation *simulation, int handle, double x, double y)
         return;
     simulation->prediction = (Prediction){0};
     if (!(scene->needs & NEEDS_TIME)) {
-        memcpy(kind == 't' ? simulation->exhibit.target : run->x, to,
+        memcpy(kind == 't' ? simulation->exhibit.x_tilde : run->x, to,
                sizeof to);
         scene->restart(simulation);
         return;

@@ -122,7 +122,7 @@ void option_write_short(const OptionRow *row, const Options *options,
     enum { MOST_DIGITS = 6, MOST_LETTERS = 20 };
     int count = row->count > 1 ? row->count : 1, times = 1;
     if (row->max_times)
-        times = (int)options->number[row->counter];
+        times = (int)options->number[row->count_slot];
     const double *value = options->number + row->slot + (times - 1) * count;
     if (times < 1 ||
         *value < row->low) /* no value, or a default out of range */

@@ -63,7 +63,7 @@ REASON(why_no_table, options->state,
 REASON(why_nothing_yields, options->yield > 0,
        "the springs do not yield; --yield lets them")
 REASON(why_nothing_minimised,
-       options_method(options)->implicit || !options->headless ||
+       options_method(options)->is_implicit || !options->headless ||
            options->script || options->panes > 1,
        "an explicit integrator minimises nothing; choose an implicit one, such "
        "as backward-euler")
@@ -108,7 +108,7 @@ REASON(why_nothing_drawn,
  * the label of an option with lists of values.  SHOWN puts the option into the
  * window's row of numbers: place, length of the values, increment. */
 #define NEEDS(what)             .needs = NEEDS_##what
-#define TIMES(n, field)         .max_times = n, .counter = OPTION_SLOT(field)
+#define TIMES(n, field)         .max_times = n, .count_slot = OPTION_SLOT(field)
 #define FEWER(bits, others)     .short_counts = bits, .omitted = others
 #define LIST(text)              .label = text
 #define LIVE                    .effect = EFFECT_LIVE
@@ -309,7 +309,7 @@ const OptionRow *option_find(const char *name)
 
 const char *names_get(NameTable names, int i)
 {
-    const char *row = (const char *)names.table + (size_t)i * names.size;
+    const char *row = (const char *)names.rows + (size_t)i * names.row_size;
     return *(const char *const *)row;
 }
 
@@ -353,7 +353,7 @@ bool option_is_on(const OptionRow *row, const Options *options)
 {
     bool on = false;
     if (row->max_times > 0)
-        return options->number[row->counter] > 0;
+        return options->number[row->count_slot] > 0;
     for (int i = 0; i < row->count || i == 0; i++)
         on = on || options->number[row->slot + i] != 0;
     return on;

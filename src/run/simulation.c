@@ -27,7 +27,7 @@ Status simulation_start_run(Simulation *simulation, int run,
                             const double *x, const double *v)
 {
     NewtonSettings settings = {.observer = simulation->observer,
-                               .user = simulation->user};
+                               .user_data = simulation->user_data};
     options_fill_newton_settings(&simulation->options, &settings);
     return time_integrator_create(method, system, &settings, x, v,
                                   &simulation->run[run]);
@@ -39,7 +39,7 @@ Status simulation_create(const Options *options, NewtonObserver observer,
     *simulation = (Simulation){.scene = options->scene,
                                .options = *options,
                                .observer = observer,
-                               .user = user};
+                               .user_data = user};
     Status status = options->scene->create(simulation);
     for (int i = 0; i < SCENE_MAX_SWITCHES && !status; i++)
         if ((unsigned)options->flips >> i & 1)
@@ -54,7 +54,7 @@ void simulation_free(Simulation *simulation)
 {
     for (int i = 0; i < SIMULATION_MAX_RUNS; i++) {
         time_integrator_free(&simulation->run[i]);
-        system_free(&simulation->more[i]);
+        system_free(&simulation->run_system[i]);
     }
     system_free(&simulation->system);
     *simulation = (Simulation){0};
@@ -85,16 +85,16 @@ static Status finish_step(Simulation *simulation, Status status)
         *guess = (Prediction){0};
     if (status) {
         simulation->unconverged++;
-        simulation->reasons[status]++;
+        simulation->status_counts[status]++;
     }
     return status;
 }
 
 /* Books the energy that backward Euler has gained in a step of the present run.
  * A gain below 1e-8 of all energies is due to rounding and the tolerance. */
-static void book_gain(Simulation *simulation)
+static void book_energy_gain(Simulation *simulation)
 {
-    int run = simulation->stepping;
+    int run = simulation->step_run;
     Ledger *ledger = &simulation->ledger[run];
     const Energies now = simulation_energies(simulation, run);
     double kept = now.total - now.work, gained = kept - ledger->kept;
@@ -112,8 +112,8 @@ static void book_gain(Simulation *simulation)
 /* Each run steps in turn.  Returns their last status that is not OK. */
 Status simulation_advance(Simulation *simulation)
 {
-    while (simulation->stepping < simulation->runs) {
-        TimeIntegrator *run = &simulation->run[simulation->stepping];
+    while (simulation->step_run < simulation->runs) {
+        TimeIntegrator *run = &simulation->run[simulation->step_run];
         Status status = run->status;
         if (status != STATUS_RUNNING)
             status = time_integrator_begin(run);
@@ -121,24 +121,24 @@ Status simulation_advance(Simulation *simulation)
             status = time_integrator_advance(run);
         if (status == STATUS_RUNNING)
             return status;
-        simulation->worst = status ? status : simulation->worst;
+        simulation->worst_status = status ? status : simulation->worst_status;
         if (status_is_failure(status))
             break;
-        book_gain(simulation);
-        simulation->stepping++;
+        book_energy_gain(simulation);
+        simulation->step_run++;
     }
-    return finish_step(simulation, simulation->worst);
+    return finish_step(simulation, simulation->worst_status);
 }
 
 Status simulation_begin_step(Simulation *simulation)
 {
     const struct Scene *scene = simulation->scene;
-    if (simulation->done)
+    if (simulation->is_over)
         return STATUS_OK;
     if (scene->step)
         return finish_step(simulation, scene->step(simulation));
-    simulation->stepping = 0;
-    simulation->worst = STATUS_OK;
+    simulation->step_run = 0;
+    simulation->worst_status = STATUS_OK;
     for (int r = 0; r < simulation->runs; r++)
         simulation->run[r].status = STATUS_OK;
     return STATUS_RUNNING;
@@ -156,7 +156,7 @@ double simulation_time(const Simulation *simulation)
 {
     if (!(simulation->scene->needs & NEEDS_TIME))
         return 0;
-    return simulation->run[0].clock.now;
+    return simulation->run[0].clock.time;
 }
 
 bool simulation_is_draggable(const Simulation *simulation)
@@ -273,7 +273,7 @@ double simulation_find_fastest_mode(const Simulation *simulation,
                                     const double *x, double *mode)
 {
     const System *system = &simulation->system;
-    EvalPoint at = eval_point_at(system, NULL, NULL, x);
+    EvalPoint at = make_eval_point(system, NULL, NULL, x);
     double omega2 = NAN;
     int n = 2 * system->nodes;
     if (n > ROOM)

@@ -35,7 +35,7 @@ static void visit_system(Cursor *cursor, System *system)
     size_t springs = (size_t)system->springs * sizeof(double);
     Plasticity *plasticity = system_term_data(system, &plastic_energy);
     Contact *contact = contact_of(system);
-    VISIT(system->lost);
+    VISIT(system->losses);
     if (plasticity) {
         visit_piece(cursor, plasticity->ep, springs);
         visit_piece(cursor, plasticity->kappa, springs);
@@ -73,13 +73,13 @@ static void visit_state(Cursor *cursor, Simulation *simulation)
     VISIT(simulation->steps);
     VISIT(simulation->unconverged);
     VISIT(simulation->ledger);
-    VISIT(simulation->reasons);
+    VISIT(simulation->status_counts);
     VISIT(simulation->status);
-    VISIT(simulation->done);
+    VISIT(simulation->is_over);
     visit_exhibit(cursor, simulation);
     for (int r = 0; r < simulation->runs; r++) {
         TimeIntegrator *run = &simulation->run[r];
-        size_t array = run->size * sizeof(double);
+        size_t array = run->x_length * sizeof(double);
         VISIT(run->steps);
         VISIT(run->clock);
         VISIT(run->moved_part);
@@ -88,7 +88,7 @@ static void visit_state(Cursor *cursor, Simulation *simulation)
         visit_piece(cursor, run->x, array);
         visit_piece(cursor, run->v, array);
         VISIT(run->memory_h);
-        visit_piece(cursor, run->memory, (size_t)run->method->memory * array);
+        visit_piece(cursor, run->memory, (size_t)run->method->arrays * array);
         if (r == 0 || run->system != simulation->run[0].system)
             visit_system(cursor, run->system);
         if (cursor->is_restoring)
@@ -125,8 +125,8 @@ uint64_t state_hash(const Simulation *simulation, uint64_t seed)
     uint64_t hash = hash_bytes(seed, &steps, sizeof steps);
     for (int r = 0; r < simulation->runs; r++) {
         const TimeIntegrator *run = &simulation->run[r];
-        hash = hash_bytes(hash, run->x, run->size * sizeof(double));
-        hash = hash_bytes(hash, run->v, run->size * sizeof(double));
+        hash = hash_bytes(hash, run->x, run->x_length * sizeof(double));
+        hash = hash_bytes(hash, run->v, run->x_length * sizeof(double));
     }
     return hash;
 }

@@ -38,7 +38,7 @@ static LocalModel log_two_cosh(const Simulation *simulation, double x)
     double g = tanh(x);
     double H = 1 / (cosh(x) * cosh(x));
     (void)simulation;
-    return (LocalModel){.value = f, .g = {g}, .H = {H}};
+    return (LocalModel){.energy = f, .g = {g}, .H = {H}};
 }
 
 /* Evaluates E, g and H of the scene "tangent" at position x. */
@@ -46,14 +46,14 @@ static LocalModel evaluate_tangent_energy(const Simulation *simulation,
                                           double x)
 {
     double m = SMALL_MASS, l2 = LINE_LENGTH * LINE_LENGTH;
-    double h = simulation->run[0].h, x_tilde = simulation->exhibit.target[0];
+    double h = simulation->run[0].h, x_tilde = simulation->exhibit.x_tilde[0];
     double d = x - x_tilde, k = h * h * LINE_STIFFNESS;
     double s = spring_strain(x * x, l2);
     double E = m / 2 * d * d + spring_energy(l2, k, s);
     double g = m * d + spring_gradient_factor(k, s) * x;
     double H =
         m + spring_hessian_factor(l2, k) * spring_eigenvalue_along(x * x, l2);
-    return (LocalModel){.value = E, .g = {g}, .H = {H}};
+    return (LocalModel){.energy = E, .g = {g}, .H = {H}};
 }
 
 /* Returns parts of E with their derivatives in landscape and dial; in overshoot
@@ -66,10 +66,10 @@ static LocalModel evaluate_landscape(const Simulation *simulation,
     if (simulation->descent.scalar)
         return simulation->descent.scalar(simulation, x);
     const System *system = &simulation->system;
-    const double *pins = simulation->run[0].x, *o = simulation->exhibit.target;
+    const double *pins = simulation->run[0].x, *o = simulation->exhibit.x_tilde;
     double m = system->m[0], h = simulation->run[0].h, w = h * h, P = 0;
     const double u[2] = {x - o[0], y - o[1]};
-    LocalModel E = {.value = 0};
+    LocalModel E = {.energy = 0};
     if (parts & PART_INERTIA)
         E = (LocalModel){0.5 * m * (u[0] * u[0] + u[1] * u[1]),
                          {m * u[0], m * u[1]},
@@ -89,7 +89,7 @@ static LocalModel evaluate_landscape(const Simulation *simulation,
         for (int i = 0; i < 3; i++)
             E.H[i] += w * H[i];
     }
-    E.value += w * P;
+    E.energy += w * P;
     return E;
 }
 
@@ -103,7 +103,7 @@ LocalModel descent_evaluate(const Simulation *simulation, Projection projection,
 double landscape_evaluate_parts(const Simulation *simulation, unsigned parts,
                                 double x, double y)
 {
-    return evaluate_landscape(simulation, parts, PROJECTION_NONE, x, y).value;
+    return evaluate_landscape(simulation, parts, PROJECTION_NONE, x, y).energy;
 }
 
 int descent_hessian_index(const Simulation *simulation, double x, double y)
@@ -155,7 +155,7 @@ static double descent_energy_difference(const void *function, double alpha)
     const double *x = descent->point, *p = descent->direction;
     return descent_evaluate(simulation, PROJECTION_NONE, x[0] + alpha * p[0],
                             x[1] + alpha * p[1])
-               .value -
+               .energy -
            descent->value;
 }
 
@@ -183,9 +183,9 @@ static Status evaluate_iterate(Simulation *simulation, Status status)
     double *p = descent->direction;
     memcpy(descent->point, run->x, sizeof descent->point);
     LocalModel E = evaluate_local_model(simulation);
-    descent->value = E.value;
+    descent->value = E.energy;
     if (descent->scalar)
-        descent->point[1] = run->x[1] = E.value;
+        descent->point[1] = run->x[1] = E.energy;
     descent->slope = newton_direction(&E, descent->scalar, p);
     descent->residual = descent->by_gradient
                             ? math_hypot(E.g[0], E.g[1])
@@ -196,7 +196,7 @@ static Status evaluate_iterate(Simulation *simulation, Status status)
         status = descent->value > limit ? STATUS_DIVERGED : STATUS_OK;
     else if (status == STATUS_RUNNING && !isfinite(descent->slope))
         status = descent->scalar ? STATUS_DIVERGED : STATUS_SINGULAR;
-    simulation->done = status != STATUS_RUNNING;
+    simulation->is_over = status != STATUS_RUNNING;
     if (status == STATUS_OK || !isfinite(descent->slope))
         p[0] = p[1] = descent->slope = 0;
     return status;
@@ -220,7 +220,7 @@ void descent_find_direction(Simulation *simulation)
     choose_stopping_test(simulation);
     descent->start_value = INFINITY; /* E at the start is computed below */
     Status status = evaluate_iterate(simulation, STATUS_RUNNING);
-    simulation->status = simulation->done ? status : STATUS_OK;
+    simulation->status = simulation->is_over ? status : STATUS_OK;
     if (!descent->scalar)
         descent->start_value = descent->value;
 }
@@ -237,7 +237,7 @@ Status step_descent(Simulation *simulation)
                            .factorised = true,
                            .projected =
                                evaluate_local_model(simulation).projected,
-                           .from = {descent->point[0], descent->point[1]}};
+                           .x_before = {descent->point[0], descent->point[1]}};
     const double *p = descent->direction;
     double *x = simulation->run[0].x;
     Status status = STATUS_RUNNING;
@@ -258,12 +258,12 @@ Status step_descent(Simulation *simulation)
     for (int i = 0; i < 2; i++)
         x[i] += record.alpha * p[i];
     record.status = evaluate_iterate(simulation, status);
-    memcpy(record.to, x, sizeof record.to);
+    memcpy(record.x_after, x, sizeof record.x_after);
     if (descent->count < DESCENT_MAX)
         descent->record[descent->count++] = record;
     if (simulation->observer)
-        simulation->observer(simulation->user, &record);
-    return simulation->done ? record.status : STATUS_OK;
+        simulation->observer(simulation->user_data, &record);
+    return simulation->is_over ? record.status : STATUS_OK;
 }
 
 void descent_restart(Simulation *simulation)
@@ -307,7 +307,7 @@ Status create_overshoot(Simulation *simulation)
 
 Status create_tangent(Simulation *simulation)
 {
-    simulation->exhibit.target[0] = LINE_TARGET;
+    simulation->exhibit.x_tilde[0] = LINE_TARGET;
     simulation->descent.scalar = evaluate_tangent_energy;
     return begin_descent(simulation);
 }
@@ -316,7 +316,7 @@ Status create_tangent(Simulation *simulation)
  * column node 0 moves up or down. */
 Status create_landscape(Simulation *simulation)
 {
-    memcpy(simulation->exhibit.target, LANDSCAPE_TARGET,
+    memcpy(simulation->exhibit.x_tilde, LANDSCAPE_TARGET,
            sizeof LANDSCAPE_TARGET);
     simulation->exhibit.switches = PART_BOTH;
     return begin_descent(simulation);
@@ -337,7 +337,7 @@ static void minimise_landscape(const Simulation *simulation, double h,
         point[1] = copysign(DIAL_OFF_LINE, point[1]);
     for (int i = 0; i < 2; i++) {
         run->x[i] = point[i];
-        newton->u_tilde[i] = simulation->exhibit.target[i] - point[i];
+        newton->u_tilde[i] = simulation->exhibit.x_tilde[i] - point[i];
     }
     newton_start(newton, run->x, NULL, h * h,
                  DIAL_SHORT_P / newton->settings.h);
@@ -352,7 +352,7 @@ void dial_restart(Simulation *simulation)
 {
     DialCurve *dial = &simulation->exhibit.dial;
     double point[2], h = simulation->options.timestep;
-    memcpy(point, simulation->exhibit.target, sizeof point);
+    memcpy(point, simulation->exhibit.x_tilde, sizeof point);
     memcpy(simulation->descent.point, point, sizeof point);
     for (int i = 0; i < DIAL_POINTS; i++) {
         dial->h[i] = DIAL_FIRST * pow(10, i / DIAL_PER_TEN);
@@ -375,7 +375,7 @@ Status create_dial(Simulation *simulation)
         return status;
     simulation->run[0].newton->settings.observer = NULL; /* shows no updates */
     dial_restart(simulation);
-    simulation->done = simulation->options.timestep >= DIAL_LAST;
+    simulation->is_over = simulation->options.timestep >= DIAL_LAST;
     simulation->status = STATUS_OK;
     return STATUS_OK;
 }
@@ -385,7 +385,7 @@ Status step_dial(Simulation *simulation)
     double h = simulation->options.timestep * pow(10, 1 / DIAL_PER_TEN);
     h = fmin(h, DIAL_LAST);
     simulation->options.timestep = simulation->run[0].h = h;
-    simulation->done = h >= DIAL_LAST;
+    simulation->is_over = h >= DIAL_LAST;
     dial_restart(simulation);
     return STATUS_OK;
 }

@@ -78,7 +78,7 @@ static Status create_bend(Simulation *simulation)
 const Scene scenes[] = {
     {"square", "A stretched square", "the stretched square relaxes", SQUARE,
      NULL, create_square, .speed = 0.25, .needs_dissipation = true,
-     .group = "Time steps and Newton's method"},
+     .group_heading = "Time steps and Newton's method"},
     {"circle", "Stability on a circle",
      "one circle, three Euler methods: out, in, or on it", PICTURE_CIRCLE,
      NEEDS_TIME, "--timestep 0.02", .create = create_circle},
@@ -104,7 +104,7 @@ const Scene scenes[] = {
      "--segments 12 --stiffness 1e4 --stretch 1 --timestep 0.01 "
      "--tolerance 1e-3 --gravity 9.81",
      create_square, .pin = "top-corners",
-     .group = "Gravity, contact, inelasticity, fracture"},
+     .group_heading = "Gravity, contact, inelasticity, fracture"},
     {"drop", "Contact: a square thrown down",
      "it falls on a corner, tumbles, and comes to rest", SQUARE,
      FALL "--segments 16 --timestep 0.005 --turn 25 --at -0.3,0.75 "
@@ -179,7 +179,7 @@ const Scene scenes[] = {
      /* motion without chaos; a tolerance below the error of every time step */
      "--stretch 1.1 --tolerance 1e-8", create_race, .step_name = "run",
      .step = step_race, .switch_labels = {"error over h"},
-     .group = "Measured now"},
+     .group_heading = "Measured now"},
     {"envelope", "How far it can be trusted",
      "where the square converges: h across, k upwards", PICTURE_ENVELOPE,
      NEEDS_MESH | NEEDS_SPRINGS | NEEDS_MINIMUM | NEEDS_STEP, NULL,
@@ -232,7 +232,7 @@ void scene_predict(Simulation *simulation, double x, double y)
     int count = simulation_find_point(simulation, at);
     const double iterate[2] = {at[0] + p[0], at[1] + p[1]}, *end = iterate;
     MassStep step;
-    if (simulation->done || count == 0)
+    if (simulation->is_over || count == 0)
         return;
     if (scene->step == step_dial)
         end = simulation->exhibit.dial.point[DIAL_POINTS - 1];
@@ -241,9 +241,9 @@ void scene_predict(Simulation *simulation, double x, double y)
         end = step.new_x;
     }
     simulation->prediction = (Prediction){
-        .made = true,
+        .has_guess = true,
         .guess_step = simulation->steps,
-        .at = {x, y},
-        .end = {end[0], end[1]},
+        .guess = {x, y},
+        .reached = {end[0], end[1]},
         .distance = math_hypot(end[0] - x, count == 1 ? 0 : end[1] - y)};
 }

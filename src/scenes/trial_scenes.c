@@ -66,7 +66,7 @@ static Status advance_exactly(TimeIntegrator *run, double H, double *from,
                               double *to)
 {
     enum { COLUMNS = 6 };
-    size_t both = 2 * run->size, bytes = both * sizeof *to;
+    size_t both = 2 * run->x_length, bytes = both * sizeof *to;
     Status status = STATUS_OK;
     memcpy(from, run->x, bytes); /* x and v are one array */
     memcpy(to, run->x, bytes);
@@ -98,12 +98,12 @@ Status race_make_reference(Simulation *simulation, double time)
                              &simulation->system, start->x, start->v);
     if (!status && !(intervals <= max_intervals))
         status = STATUS_NOT_FINITE;
-    double *scratch = malloc(4 * start->size * sizeof *scratch);
+    double *scratch = malloc(4 * start->x_length * sizeof *scratch);
     if (!scratch)
         return STATUS_OUT_OF_MEMORY;
     for (int k = 0; k < intervals && !status; k++)
         status = advance_exactly(run, time / intervals, scratch,
-                                 scratch + 2 * start->size);
+                                 scratch + 2 * start->x_length);
     free(scratch);
     return status;
 }
@@ -114,7 +114,7 @@ Status create_race(Simulation *simulation)
     if (!status)
         status = race_make_reference(simulation, RACE_TIME);
     if (status == STATUS_NOT_FINITE) { /* without a reference the race ends */
-        simulation->done = true;
+        simulation->is_over = true;
         simulation->status = status;
         return STATUS_OK;
     }
@@ -130,12 +130,12 @@ static double find_energy(const TimeIntegrator *run)
 
 /* Whether the energy of a run stays bounded.  Implicit methods count as stable.
  */
-static bool is_stable(const Simulation *simulation, TimeIntegrator *run)
+static bool run_is_stable(const Simulation *simulation, TimeIntegrator *run)
 {
-    for (int i = 0; i < RACE_EXTRA_STEPS && !run->method->implicit; i++)
+    for (int i = 0; i < RACE_EXTRA_STEPS && !run->method->is_implicit; i++)
         if (time_integrator_step(run))
             return false;
-    return run->method->implicit ||
+    return run->method->is_implicit ||
            find_energy(run) <=
                RACE_MAX_ENERGY * find_energy(&simulation->run[0]);
 }
@@ -144,7 +144,7 @@ static bool is_stable(const Simulation *simulation, TimeIntegrator *run)
 static double find_energy_ratio(const Simulation *simulation,
                                 TimeIntegrator *run)
 {
-    while (run->clock.now + 0.5 * run->h < 1)
+    while (run->clock.time + 0.5 * run->h < 1)
         if (status_is_failure(time_integrator_step(run)))
             return NAN;
     return find_energy(run) / find_energy(&simulation->run[0]);
@@ -158,21 +158,22 @@ static Status measure_run_time(Simulation *simulation,
                                long steps, TimeIntegrator *run, double *seconds)
 {
     const double shortest = 1e-3;          /* s, shortest measurement */
-    double end = clock_processor() + 0.01; /* s, no measurement begins later */
+    double end =
+        clock_processor_time() + 0.01; /* s, no measurement begins later */
     Options options = simulation->options;
     Status status = STATUS_OK;
     options.timestep = h;
     *seconds = INFINITY;
     for (int i = 0;
-         (i < 2 || clock_processor() < end) && !status_is_failure(status);
+         (i < 2 || clock_processor_time() < end) && !status_is_failure(status);
          i++) {
-        double start = clock_processor(), taken = 0;
+        double start = clock_processor_time(), taken = 0;
         int runs = 0;
         while (!status_is_failure(status) && taken < shortest) {
             time_integrator_free(run);
             status = make_trial_run(&options, method, &simulation->system,
                                     &simulation->run[0], steps, run);
-            taken = clock_processor() - start;
+            taken = clock_processor_time() - start;
             runs++;
         }
         *seconds = fmin(*seconds, taken / runs);
@@ -195,7 +196,7 @@ Status race_measure_method(Simulation *simulation,
     if (status_is_failure(status))
         return status;
     point->error = 0;
-    for (size_t i = 0; i < run->size; i += 2)
+    for (size_t i = 0; i < run->x_length; i += 2)
         point->error =
             fmax(point->error, math_hypot(run->x[i] - exact[i],
                                           run->x[i + 1] - exact[i + 1]));
@@ -223,13 +224,13 @@ Status step_race(Simulation *simulation)
     if (!status) {
         if (race->count / RACE_METHODS == RACE_SHOWN_ROW)
             point->energy_after_second = find_energy_ratio(simulation, &run);
-        point->stable = is_stable(simulation, &run);
+        point->is_stable = run_is_stable(simulation, &run);
     }
     time_integrator_free(&run);
     if (status && status != STATUS_NOT_FINITE)
         return status;
     race->count++;
-    simulation->done = race->count == RACE_METHODS * RACE_STEP_SIZES;
+    simulation->is_over = race->count == RACE_METHODS * RACE_STEP_SIZES;
     return STATUS_OK;
 }
 
@@ -268,8 +269,8 @@ Status envelope_run_cell(Simulation *simulation, int column, int row)
     if (worst == STATUS_OUT_OF_MEMORY)
         return worst;
     int updates = (int)run->newton->counters.iterations;
-    map->cell[row][column] =
-        (EnvelopeCell){.known = true, .worst = worst, .updates = updates};
+    map->cell[row][column] = (EnvelopeCell){
+        .is_known = true, .worst_status = worst, .updates = updates};
     map->column = column;
     map->row = row;
     return STATUS_OK;
@@ -301,6 +302,6 @@ Status step_envelope(Simulation *simulation)
         status = envelope_run_cell(simulation, column, row);
     if (!status)
         status = envelope_run_cell(simulation, shown[0], shown[1]);
-    simulation->done = row + 1 >= ENVELOPE_ROWS;
+    simulation->is_over = row + 1 >= ENVELOPE_ROWS;
     return status;
 }

@@ -33,7 +33,7 @@ static cholmod_sparse sparse_view(const Sparse *A)
         .nrow = (size_t)A->size,
         .ncol = (size_t)A->size,
         .nzmax = (size_t)A->entries,
-        .p = A->start,
+        .p = A->column_start,
         .i = A->row,
         .x = A->value,
         .stype = -1, /* the lower triangle */

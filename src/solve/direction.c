@@ -38,10 +38,11 @@ static Status assemble_hessian(Newton *newton, Projection projection,
     bool grown;
     Status status = incremental_potential_extend(&newton->at, &grown);
     *projected = 0;
-    if (!status && (!direction->cholesky || direction->factor_kind != kind ||
-                    grown || direction->pattern != system->pattern)) {
+    if (!status &&
+        (!direction->cholesky || direction->factor_kind != kind || grown ||
+         direction->analysed_pattern != system->pattern_version)) {
         direction_free_matrix(direction);
-        direction->pattern = system->pattern;
+        direction->analysed_pattern = system->pattern_version;
         direction->factor_kind = kind;
         status = incremental_potential_pattern(system, &direction->A);
         if (!status)
@@ -104,7 +105,7 @@ static Status assemble_and_factor(Newton *newton)
         status = factor_hessian(newton);
     record->factorised = true;
     record->shift = newton->direction.shift;
-    newton->direction.way_since_factor = 0;
+    newton->direction.moved_since_factor = 0;
     if (!status && newton->direction.factor_kind == CHOLESKY_INDEFINITE)
         record->negative_pivots =
             cholesky_negative_pivots(newton->direction.cholesky);
@@ -120,7 +121,7 @@ static Status assemble_and_factor(Newton *newton)
  * Returns OK, NOT_FINITE, SINGULAR. */
 static Status apply_factor(Newton *newton, const double *r, double *z)
 {
-    const int *order = newton->system->order;
+    const int *order = newton->system->elimination_order;
     double *b = newton->direction.b;
     for (int i = 0; i < newton->system->nodes; i++) {
         int place = order[i];
@@ -228,7 +229,7 @@ static Status direction_error_bound(Newton *newton, double *error)
     const Iterate *at = &newton->at;
     double *r = direction->r, *z = direction->z, square = 0;
     Projection projection = direction->projection;
-    if (projection == PROJECTION_NONE && direction->way_since_factor > 0)
+    if (projection == PROJECTION_NONE && direction->moved_since_factor > 0)
         projection = PROJECTION_CLAMP;
     incremental_potential_product(at, projection, at->p, direction->q);
     for (int i = 0; i < 2 * system->nodes; i++)
@@ -336,7 +337,7 @@ static bool refine_with_last_factor(Newton *newton)
  * each node has m |p_i|^2 <= |p|_M^2, and |p_x| + |p_y| <= sqrt(2) |p_i|. */
 static double bound_largest_movement(const Newton *newton, double norm)
 {
-    return sqrt(2 / newton->rounding.lightest) * norm;
+    return sqrt(2 / newton->rounding.min_mass) * norm;
 }
 
 /* Computes the residual of p, and tests it.
@@ -398,7 +399,7 @@ static bool factor_is_near(const Newton *newton)
     const SearchDirection *direction = &newton->direction;
     return direction->shift == 0 &&
            newton->settings.projection != PROJECTION_NONE &&
-           direction->way_since_factor <= NEARBY * newton->rounding.shortest;
+           direction->moved_since_factor <= NEARBY * newton->rounding.shortest;
 }
 
 /* Computes p with a new factor, and the residual of p. */

@@ -13,11 +13,11 @@
  * lines left free between two arrays. */
 enum { LINE = 64, SMALL_PAGE = 4096, LARGE_PAGE = 2 << 20, STAGGER = 5 };
 
-Rows lay_out_rows(int nodes)
+RowLayout lay_out_rows(int nodes)
 {
     int even = (nodes + 1) / 2;
     int half = (even + LANES) / LANES * LANES; /* with room for a ghost */
-    return (Rows){.nodes = nodes,
+    return (RowLayout){.nodes = nodes,
                   .count = {even, nodes / 2},
                   .half = half,
                   .pitch = 2 * half,
@@ -76,7 +76,7 @@ void grid_lay_out(int segments, Memory *memory, Grid *grid)
 
 /* Removes rows that equal the row before them.
  *   shift  [nodes] out, distance from a row's place to its stored numbers */
-static void share_rows(const Rows *rows, double *const *array, int arrays,
+static void share_rows(const RowLayout *rows, double *const *array, int arrays,
                        int *shift)
 {
     size_t bytes = (size_t)rows->pitch * sizeof **array;
@@ -100,8 +100,8 @@ double power_of_two_scale(double a)
 void grid_read_system(Grid *grid, const Iterate *at, const double *m)
 {
     const System *system = at->E.system;
-    const EvalPoint point = eval_point_at(system, at->E.x_n, at->u, at->x);
-    const Rows *rows = &grid->rows;
+    const EvalPoint point = make_eval_point(system, at->E.x_n, at->u, at->x);
+    const RowLayout *rows = &grid->rows;
     double *const masses[] = {grid->m, grid->inverse_m};
     double unit, *springs[2 * KINDS];
     grid->lightest = INFINITY;
@@ -109,12 +109,12 @@ void grid_read_system(Grid *grid, const Iterate *at, const double *m)
     for (int k = 0; k < rows->nodes * rows->nodes; k++)
         if (!system->pinned[k])
             grid->lightest = fmin(grid->lightest, m[2 * k]);
-    grid->mass = power_of_two_scale(grid->lightest);
-    grid->lightest *= grid->mass;
+    grid->mass_unit = power_of_two_scale(grid->lightest);
+    grid->lightest *= grid->mass_unit;
     for (int i = 0, node = 0; i < rows->nodes; i++)
         for (int j = 0; j < rows->nodes; j++, node++) {
             int q = node_place(rows, i, j);
-            grid->m[q] = grid->mass * m[2 * node];
+            grid->m[q] = grid->mass_unit * m[2 * node];
             grid->inverse_m[q] = system->pinned[node] ? 0 : 1 / grid->m[q];
             grid->single_m[q] = system->pinned[node] ? 0 : (float)grid->m[q];
         }
@@ -123,9 +123,9 @@ void grid_read_system(Grid *grid, const Iterate *at, const double *m)
         springs[kind] = grid->c[kind];
         springs[KINDS + kind] = grid->l2[kind];
     }
-    grid->length = power_of_two_scale(sqrt(point.l2[system->springs - 1]));
-    unit = grid->length * grid->length;
-    grid->energy = grid->mass * unit;
+    grid->length_unit = power_of_two_scale(sqrt(point.l2[system->springs - 1]));
+    unit = grid->length_unit * grid->length_unit;
+    grid->energy_unit = grid->mass_unit * unit;
     for (int s = 0; s < system->springs; s++) {
         const int *e = system->e + 2 * s;
         int a = e[0] < e[1] ? e[0] : e[1], b = e[0] < e[1] ? e[1] : e[0];
@@ -136,7 +136,7 @@ void grid_read_system(Grid *grid, const Iterate *at, const double *m)
                                           : ANTIDIAGONAL;
         double c =
             spring_hessian_factor(point.l2[s], at->E.weight * point.k[s]);
-        grid->c[kind][q] = grid->mass / unit * c;
+        grid->c[kind][q] = grid->mass_unit / unit * c;
         grid->l2[kind][q] = unit * point.l2[s];
     }
     share_rows(rows, springs, 2 * KINDS, grid->spring_shift + 1);
@@ -151,9 +151,9 @@ void grid_read_system(Grid *grid, const Iterate *at, const double *m)
 
 void grid_read_state(Grid *grid, const Iterate *at, const double *u_tilde)
 {
-    const Rows *rows = &grid->rows;
+    const RowLayout *rows = &grid->rows;
     const unsigned char *pinned = at->E.system->pinned;
-    const double unit = grid->length;
+    const double unit = grid->length_unit;
     for (int i = 0, node = 0; i < rows->nodes; i++)
         for (int j = 0; j < rows->nodes; j++, node++) {
             int q = node_place(rows, i, j);
@@ -170,8 +170,8 @@ void grid_read_state(Grid *grid, const Iterate *at, const double *u_tilde)
 
 void grid_write_state(const Grid *grid, Iterate *at)
 {
-    const Rows *rows = &grid->rows;
-    const double metre = 1 / grid->length;
+    const RowLayout *rows = &grid->rows;
+    const double metre = 1 / grid->length_unit;
     for (int i = 0, node = 0; i < rows->nodes; i++)
         for (int j = 0; j < rows->nodes; j++, node++) {
             int q = node_place(rows, i, j);

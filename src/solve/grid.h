@@ -35,26 +35,27 @@ enum { LANES = 8 };
 enum { BAND = 8 };
 
 /* Layout of a plane: where the number of each node is stored. */
-typedef struct Rows {
+typedef struct RowLayout {
     int nodes;    /* number of nodes in a row, and of rows: n + 1 */
     int count[2]; /* number of even and of odd columns */
     int half;     /* distance from a row's even columns to its odd ones */
     int pitch;    /* distance from one row to the next */
     int plane;    /* length of a plane, with the ghosts */
-} Rows;
+} RowLayout;
 
-Rows lay_out_rows(int nodes);
+RowLayout lay_out_rows(int nodes);
 
 /* Returns the index of node (i, j) in a plane. */
-static inline int node_place(const Rows *rows, int i, int j)
+static inline int node_place(const RowLayout *rows, int i, int j)
 {
     return (i + 1) * rows->pitch + (j & 1) * rows->half + j / 2;
 }
 
 typedef struct Grid {
-    Rows rows;
+    RowLayout rows;
     int segments, bands;
-    double length, mass, energy; /* grid units in a m, kg, J s^2 */
+    double length_unit, mass_unit,
+        energy_unit; /* grid units in a m, kg, J s^2 */
     /* Equal rows of masses are stored once, and so are equal rows of springs.
      * Node q in row i has the mass m[q + node_shift[i]]; the springs that start
      * there have the index q + spring_shift[i + 1]; [0] is for row -1. */

@@ -34,7 +34,7 @@ typedef struct NodeRun {
     int node;          /* index shift of the masses */
 } NodeRun;
 
-INLINE NodeRun nodes_in_row(const Rows *rows, int i, int odd)
+INLINE NodeRun nodes_in_row(const RowLayout *rows, int i, int odd)
 {
     int first = (i + 1) * rows->pitch + odd * rows->half;
     int before = odd ? -rows->half : rows->half - 1;

@@ -9,7 +9,7 @@
 static EvalPoint eval_point_of(const IncrementalPotential *E, const double *u,
                                const double *x)
 {
-    EvalPoint at = eval_point_at(E->system, E->x_n, u, x);
+    EvalPoint at = make_eval_point(E->system, E->x_n, u, x);
     at.weight = E->weight;
     return at;
 }
@@ -43,7 +43,7 @@ void incremental_potential_gradient(const IncrementalPotential *E,
 /* Adds the triplets of the masses and of all terms. */
 static void add_triplets(const System *system, Triplets *triplets)
 {
-    EvalPoint at = eval_point_at(system, NULL, NULL, NULL);
+    EvalPoint at = make_eval_point(system, NULL, NULL, NULL);
     for (int i = 0; i < system->nodes; i++)
         term_add_diagonal(system, i, triplets);
     for (const TermKind *kind; (kind = eval_point_next_term(&at));)
@@ -65,11 +65,11 @@ Status incremental_potential_pattern(const System *system, Sparse *A)
     /* Entries of terms in rows or columns of pinned nodes are dropped, into the
      * last value of A.  A column begins with its diagonal entry, which is 1
      * here in a pinned column. */
-    for (int t = 0; t < triplets.count && !status; t++)
+    for (int t = 0; t < triplets.entries && !status; t++)
         if (t < masses)
             A->value[A->slot[t]] = system->pinned[t / 2];
-        else if (A->value[A->start[triplets.row[t]]] != 0 ||
-                 A->value[A->start[triplets.column[t]]] != 0)
+        else if (A->value[A->column_start[triplets.row[t]]] != 0 ||
+                 A->value[A->column_start[triplets.column[t]]] != 0)
             A->slot[t] = A->entries;
     triplets_free(&triplets);
     return status;
@@ -94,8 +94,8 @@ Status incremental_potential_extend(const Iterate *iterate, bool *grown)
     Status status = STATUS_OK;
     *grown = false;
     for (const TermKind *kind; !status && (kind = eval_point_next_term(&at));)
-        if (kind->grow)
-            status = kind->grow(&at, grown);
+        if (kind->extend_pattern)
+            status = kind->extend_pattern(&at, grown);
     return status;
 }
 
@@ -127,7 +127,7 @@ LineEnergy incremental_potential_prepare_line(const Iterate *iterate)
     const System *system = iterate->E.system;
     const double *g = iterate->g, *p = iterate->p;
     EvalPoint at = eval_point_of(&iterate->E, iterate->u, iterate->x);
-    LineEnergy along = {.at = iterate};
+    LineEnergy along = {.iterate = iterate};
     double *q = along.polynomial.q;
     for (int i = 0; i < 2 * system->nodes; i++) {
         q[0] += g[i] * p[i];
@@ -147,7 +147,7 @@ double line_energy_difference(const void *function, double alpha)
     double sum = quartic_value(&along->polynomial, alpha);
     if (!along->has_remainder)
         return sum;
-    const Iterate *iterate = along->at;
+    const Iterate *iterate = along->iterate;
     EvalPoint at = eval_point_of(&iterate->E, iterate->u, iterate->x);
     for (const TermKind *kind; (kind = eval_point_next_term(&at));)
         if (kind->line_remainder)

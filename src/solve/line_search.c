@@ -24,7 +24,7 @@ typedef struct SearchContext {
  * does not allow the point, or where E, evaluated at both points, rises by more
  * than rounding although the change is negative.  The point is left in u_trial
  * and x_trial. */
-static double step_difference(const void *function, double alpha)
+static double step_energy_difference(const void *function, double alpha)
 {
     const SearchContext *search = function;
     Newton *newton = search->newton;
@@ -55,8 +55,8 @@ Status find_step_length(Newton *newton)
     record->alpha = incremental_potential_max_step(&newton->at);
     record->slope = search.line.polynomial.q[0];
     record->trials = 0;
-    Status status =
-        line_search_backtrack(step_difference, &search, &record->alpha, &tries);
+    Status status = line_search_backtrack(step_energy_difference, &search,
+                                          &record->alpha, &tries);
     if (!status)
         return STATUS_OK;
     record->change = 0;

@@ -39,12 +39,12 @@ struct Multigrid {
     double gradient_norm2;   /* |g|_(M^-1)^2 */
     double p_bound;          /* m, upper bound of |p_x| + |p_y|, from g alone */
     double last_p_bound;     /* m, p_bound in the iteration before */
-    double size;             /* m, upper bound of |p_x| + |p_y|, once p is
-                                conjugate to last_p */
-    double way_since_setup;  /* m, upper bound of a node's displacement since
-                                the V-cycle's matrices were computed */
+    double p_size;           /* m, upper bound of |p_x| + |p_y|, once p is
+                              conjugate to last_p */
+    double moved_since_setup; /* m, upper bound of a node's displacement since
+                               the V-cycle's matrices were computed */
     double largest_change;   /* J s^2, largest change of E in this step, < 0 */
-    Quartic line;            /* E(x + alpha p) - E(x), J s^2 */
+    Quartic line_E;          /* E(x + alpha p) - E(x), J s^2 */
     unsigned version;        /* System.version in the grid */
     double weight;           /* s^2, weight of P in the grid */
     bool is_slow;            /* a direction of this step was poor */
@@ -118,8 +118,8 @@ bool multigrid_accepts(Newton *newton)
     bool wanted = solver == SOLVER_AUTO
                       ? newton->system->segments > AUTO_NEWTON_SEGMENTS
                       : solver == SOLVER_MULTIGRID;
-    newton->refusal = wanted ? find_refusal_reason(newton) : NULL;
-    return wanted && !newton->refusal;
+    newton->refusal_reason = wanted ? find_refusal_reason(newton) : NULL;
+    return wanted && !newton->refusal_reason;
 }
 
 /* Computes g at x, and p_bound from g.  Returns OK, NOT_FINITE. */
@@ -128,7 +128,7 @@ static Status multigrid_evaluate_gradient(Multigrid *mg)
     mg->gradient_norm2 = grid_gradient(&mg->grid, mg->g);
     mg->last_p_bound = mg->p_bound;
     mg->p_bound =
-        sqrt(2 / mg->grid.lightest * mg->gradient_norm2) / mg->grid.length;
+        sqrt(2 / mg->grid.lightest * mg->gradient_norm2) / mg->grid.length_unit;
     return isfinite(mg->gradient_norm2) ? STATUS_OK : STATUS_NOT_FINITE;
 }
 
@@ -145,7 +145,7 @@ static Status multigrid_read_problem(Newton *newton)
         return status;
     Multigrid *mg = newton->multigrid;
     mg->is_slow = mg->has_relaxed = mg->change_was_hidden = false;
-    mg->largest_change = mg->size = 0;
+    mg->largest_change = mg->p_size = 0;
     incremental_potential_absorb_pulls(at, m, u_tilde);
     if (mg->weight != at->E.weight || mg->version != system->version) {
         grid_read_system(&mg->grid, at, m);
@@ -154,7 +154,7 @@ static Status multigrid_read_problem(Newton *newton)
     mg->weight = at->E.weight;
     mg->version = system->version;
     grid_read_state(&mg->grid, at, u_tilde);
-    mg->p_bound = mg->way_since_setup = INFINITY;
+    mg->p_bound = mg->moved_since_setup = INFINITY;
     return multigrid_evaluate_gradient(mg);
 }
 
@@ -170,11 +170,11 @@ static Status multigrid_find_direction(Newton *newton)
     newton->passes_test = false;
     if (status)
         return status;
-    if (mg->way_since_setup > NEARBY * newton->rounding.shortest) {
+    if (mg->moved_since_setup > NEARBY * newton->rounding.shortest) {
         mg->cycle.is_set_up = false;
-        mg->way_since_setup = 0;
+        mg->moved_since_setup = 0;
     }
-    const double h = newton->settings.h * mg->grid.length;
+    const double h = newton->settings.h * mg->grid.length_unit;
     const double longest = h * newton->tolerance;
     double largest;
     if (v_cycle_solve(&mg->cycle, mg->g, mg->gradient_norm2, longest,
@@ -212,9 +212,9 @@ static double minimise_quartic(const Quartic *quartic, int *trials)
 /* Computes the change of E along p. */
 static void multigrid_compute_line(Multigrid *mg)
 {
-    grid_line_polynomial(&mg->grid, mg->p, mg->line.q);
+    grid_line_polynomial(&mg->grid, mg->p, mg->line_E.q);
     for (int i = 0; i < 4; i++)
-        mg->line.q[i] /= mg->grid.energy;
+        mg->line_E.q[i] /= mg->grid.energy_unit;
 }
 
 /* Makes p conjugate to the direction before, unless tiles have relaxed since.
@@ -226,18 +226,18 @@ static Status multigrid_find_step_length(Newton *newton)
     double beta = 0;
     if (record->iteration > 0 && !mg->has_relaxed)
         beta = grid_conjugate(&mg->grid, mg->g, mg->last_g, mg->last_p,
-                              mg->line.q[0] * mg->grid.energy, mg->p);
-    mg->size = record->residual * newton->settings.h + beta * mg->size;
+                              mg->line_E.q[0] * mg->grid.energy_unit, mg->p);
+    mg->p_size = record->residual * newton->settings.h + beta * mg->p_size;
     multigrid_compute_line(mg);
-    record->slope = mg->line.q[0];
+    record->slope = mg->line_E.q[0];
     if (!isfinite(record->slope))
         return STATUS_NOT_FINITE;
     if (!(record->slope <= 0))
         return STATUS_NOT_DESCENT;
-    record->alpha = minimise_quartic(&mg->line, &record->trials);
+    record->alpha = minimise_quartic(&mg->line_E, &record->trials);
     if (!(record->alpha > 0))
         return STATUS_LINE_SEARCH_LIMIT;
-    record->change = quartic_value(&mg->line, record->alpha);
+    record->change = quartic_value(&mg->line_E, record->alpha);
     return STATUS_OK;
 }
 
@@ -246,11 +246,11 @@ static Status multigrid_update_iterate(Newton *newton)
 {
     Multigrid *mg = newton->multigrid;
     NewtonRecord *record = &newton->record;
-    const double unit = mg->grid.energy;
+    const double unit = mg->grid.energy_unit;
     const int tiles = mg->tiles.rows * mg->tiles.columns;
     double *g = mg->g, *p = mg->p;
     grid_add_step(&mg->grid, record->alpha, p);
-    mg->way_since_setup += record->alpha * mg->size;
+    mg->moved_since_setup += record->alpha * mg->p_size;
     newton->counters.iterations++;
     if (newton->passes_test)
         return STATUS_OK;
@@ -260,11 +260,11 @@ static Status multigrid_update_iterate(Newton *newton)
     if (mg->has_relaxed) {
         tiles_relax(&mg->tiles, PACE * record->change * unit / tiles, p);
         multigrid_compute_line(mg);
-        double alpha = minimise_quartic(&mg->line, &(int){0});
+        double alpha = minimise_quartic(&mg->line_E, &(int){0});
         if (alpha > 0) { /* not if numbers overflowed in single precision */
             grid_add_step(&mg->grid, alpha, p);
-            record->change += quartic_value(&mg->line, alpha);
-            mg->way_since_setup = INFINITY;
+            record->change += quartic_value(&mg->line_E, alpha);
+            mg->moved_since_setup = INFINITY;
         }
     }
     newton->counters.tile_sweeps = mg->tiles.sweeps;
@@ -290,7 +290,8 @@ static Status multigrid_test_iterate(Newton *newton, Status status)
     bool ends = newton->passes_test ||
                 (!stuck && mg->p_bound <= negligible_direction_size(newton));
     if (ends && system_falls_freely(newton->system))
-        record->change += grid_correct_momentum(&mg->grid) / mg->grid.energy;
+        record->change +=
+            grid_correct_momentum(&mg->grid) / mg->grid.energy_unit;
     /* In no other case is newton->at read. */
     if (ends || stuck || small || last || newton->settings.observer) {
         swap_iterates(newton);
@@ -305,7 +306,7 @@ static Status multigrid_test_iterate(Newton *newton, Status status)
     if (stuck || (hidden && mg->change_was_hidden)) {
         newton->active_solver = SOLVER_NEWTON;
         newton->rounding.E = NAN;
-        newton->counters.handed_over++;
+        newton->counters.handed_to_newton++;
     }
     mg->change_was_hidden = hidden;
     return last ? STATUS_ITERATION_LIMIT : STATUS_RUNNING;

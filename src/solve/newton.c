@@ -22,7 +22,7 @@ void newton_start(Newton *newton, const double *x_n, const double *u,
     newton->status = STATUS_RUNNING;
     newton->record = (NewtonRecord){.step = newton->step, .iteration = -1};
     newton->has_gradient = false;
-    newton->direction.way_since_factor = INFINITY; /* no factor yet */
+    newton->direction.moved_since_factor = INFINITY; /* no factor yet */
     newton->clamps_left = 0;
     newton->change_sum = newton->change_abs_sum = 0;
     rounding_start(newton);
@@ -52,7 +52,7 @@ static Status update_iterate(Newton *newton)
         return STATUS_ROUNDING_LIMIT;
     }
     swap_iterates(newton);
-    newton->direction.way_since_factor +=
+    newton->direction.moved_since_factor +=
         newton->record.alpha * newton->record.residual * newton->settings.h;
     newton->rounding.E = newton->rounding.E_trial;
     newton->has_gradient = false;
@@ -166,7 +166,7 @@ Status newton_minimise(Newton *newton)
         newton->change_abs_sum += fabs(record->change);
         record->seconds = clock_now() - start;
         pauses = newton->settings.observer &&
-                 !newton->settings.observer(newton->settings.user, record);
+                 !newton->settings.observer(newton->settings.user_data, record);
     }
     if (newton->status != STATUS_RUNNING)
         book_change(newton);

@@ -31,28 +31,28 @@ void rounding_start(Newton *newton)
     const Iterate *at = &newton->at;
     const System *system = newton->system;
     Rounding *rounding = &newton->rounding;
-    if (rounding->known_version != system->version + 1) {
-        rounding->known_version = system->version + 1;
-        rounding->lightest = INFINITY;
+    if (rounding->bounds_version != system->version + 1) {
+        rounding->bounds_version = system->version + 1;
+        rounding->min_mass = INFINITY;
         for (int i = 0; i < system->nodes; i++)
-            rounding->lightest = fmin(rounding->lightest, system->m[i]);
+            rounding->min_mass = fmin(rounding->min_mass, system->m[i]);
         double l2 = system->springs ? INFINITY : 1;
         for (int s = 0; s < system->springs; s++)
             l2 = fmin(l2, system->l2[s]);
         rounding->shortest = sqrt(l2);
-        rounding->stiffest = system_curvature_bound(system);
+        rounding->max_curvature = system_curvature_bound(system);
     }
     rounding->best_residual = INFINITY;
     rounding->stagnant_iterations = 0;
     rounding->E = NAN;
-    double stiffness = at->E.weight * rounding->stiffest;
-    rounding->stiff = stiffness > STIFF_MASSES * rounding->lightest;
+    double stiffness = at->E.weight * rounding->max_curvature;
+    rounding->stiff = stiffness > STIFF_MASSES * rounding->min_mass;
     rounding->factor_is_inexact =
-        stiffness > INEXACT_MASSES * rounding->lightest;
+        stiffness > INEXACT_MASSES * rounding->min_mass;
     rounding->energy_limit = INFINITY;
     rounding->start_energy = NAN;
     if (newton->settings.line_search != LINE_SEARCH_NONE &&
-        stiffness <= HIDDEN_MASSES * rounding->lightest)
+        stiffness <= HIDDEN_MASSES * rounding->min_mass)
         return;
     rounding->start_energy = incremental_potential_value(&at->E, at->u, at->x);
     rounding->energy_limit =

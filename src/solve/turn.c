@@ -12,7 +12,7 @@ bool turns_may_follow(const Newton *newton)
     for (int i = 0; i < 2 * newton->system->nodes; i++)
         torque += fabs(at->p[i] * at->g[i]);
     return torque > newton->tolerance * newton->settings.h *
-                        newton->rounding.lightest * newton->rounding.shortest;
+                        newton->rounding.min_mass * newton->rounding.shortest;
 }
 
 double turn_free_body(Newton *newton)
@@ -62,7 +62,7 @@ double turn_free_body(Newton *newton)
     memcpy(u, new_u, (size_t)size * sizeof *u);
     memcpy(x, new_x, (size_t)size * sizeof *x);
     newton->has_gradient = false;
-    newton->direction.way_since_factor = INFINITY;
+    newton->direction.moved_since_factor = INFINITY;
     newton->rounding.E = NAN;
     return change;
 }

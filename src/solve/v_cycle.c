@@ -105,7 +105,7 @@ INLINE void invert_diagonal_row(const Level *of, int i)
 
 /* Stores LANES columns of coarse row I, from column `first` on, even
  * columns apart from odd ones. */
-INLINE void split_even_odd(const Rows *rows, int I, int first,
+INLINE void split_even_odd(const RowLayout *rows, int I, int first,
                            const float *line, float *to)
 {
     float *even = to + node_place(rows, I, first), *odd = even + rows->half;
@@ -125,7 +125,7 @@ INLINE void split_even_odd(const Rows *rows, int I, int first,
 /* A coarse tensor is the mean of the four finer ones it stands for. */
 INLINE void coarsen_row(const Level *level, const Level *coarse, int I)
 {
-    const Rows fine = level->rows, rows = coarse->rows;
+    const RowLayout fine = level->rows, rows = coarse->rows;
     for (int first = 0; first < rows.nodes; first += LANES)
         for (int t = 0; t < 3; t++) {
             float line[LANES];
@@ -149,10 +149,10 @@ INLINE void coarsen_row(const Level *level, const Level *coarse, int I)
 }
 
 /* Restricts a plane of the finer level to coarse row I: to = P^T from. */
-INLINE void restrict_row(const Rows *finer, const Rows *coarse, int I,
+INLINE void restrict_row(const RowLayout *finer, const RowLayout *coarse, int I,
                          const float *from, float *to)
 {
-    const Rows fine = *finer;
+    const RowLayout fine = *finer;
     for (int first = 0; first < coarse->nodes; first += LANES) {
         float line[LANES];
         FINER(from);
@@ -278,10 +278,10 @@ INLINE void visit_row(const Level *of, int i, int colour, PassResult result,
 
 /* Interpolates the coarse plane `from` to row i and adds the result to the
  * plane `to`; held nodes stay 0. */
-INLINE void prolong_row(const Level *level, const Rows *coarse, int i,
+INLINE void prolong_row(const Level *level, const RowLayout *coarse, int i,
                         const float *from, float *to)
 {
-    const Rows fine = level->rows;
+    const RowLayout fine = level->rows;
     const float *const a = from + node_place(coarse, i / 2, 0);
     const float *const z = from + node_place(coarse, (i + 1) / 2, 0);
     const int half = coarse->half, at = node_place(&fine, i, 0);

@@ -23,7 +23,7 @@
 enum { MAX_LEVELS = 24 };
 
 typedef struct Level {
-    Rows rows;
+    RowLayout rows;
     struct Level *coarse; /* next coarser level; NULL: there is none */
     /* [plane] blocks of A that join two nodes, by kind of spring: parts xx, xy,
      * yy, stored at the spring's first node */

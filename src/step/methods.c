@@ -12,14 +12,14 @@ static void kick(TimeIntegrator *run)
 {
     double *new_v = run->new_v;
     system_acceleration(run->system, run->x, new_v);
-    for (size_t i = 0; i < run->size; i++)
+    for (size_t i = 0; i < run->x_length; i++)
         new_v[i] = run->v[i] + run->h * new_v[i];
 }
 
 /* x_(n+1) = x_n + h v */
 static void drift(TimeIntegrator *run, const double *v)
 {
-    for (size_t i = 0; i < run->size; i++)
+    for (size_t i = 0; i < run->x_length; i++)
         run->new_x[i] = run->x[i] + run->h * v[i];
 }
 
@@ -46,12 +46,12 @@ static void verlet_finish(TimeIntegrator *run)
     double *new_x = run->new_x, *new_v = run->new_v;
     if (run->memory_h == 0)
         system_acceleration(run->system, run->x, a);
-    for (size_t i = 0; i < run->size; i++) {
+    for (size_t i = 0; i < run->x_length; i++) {
         new_v[i] = run->v[i] + 0.5 * h * a[i];
         new_x[i] = run->x[i] + h * new_v[i];
     }
     system_acceleration(run->system, new_x, a);
-    for (size_t i = 0; i < run->size; i++)
+    for (size_t i = 0; i < run->x_length; i++)
         new_v[i] += 0.5 * h * a[i];
     run->memory_h = h;
 }
@@ -64,7 +64,7 @@ static void set_drift_target(TimeIntegrator *run, double h, const double *v,
                              double weight)
 {
     run->weight = weight;
-    for (size_t i = 0; i < run->size; i++)
+    for (size_t i = 0; i < run->x_length; i++)
         run->newton->u_tilde[i] = h * v[i];
 }
 
@@ -83,8 +83,8 @@ static void backward_euler_finish(TimeIntegrator *run)
 {
     const Iterate *end = &run->newton->at;
     double h = run->h;
-    memcpy(run->new_x, end->x, run->size * sizeof *run->new_x);
-    for (size_t i = 0; i < run->size; i++)
+    memcpy(run->new_x, end->x, run->x_length * sizeof *run->new_x);
+    for (size_t i = 0; i < run->x_length; i++)
         run->new_v[i] = end->u[i] / h;
 }
 
@@ -95,13 +95,13 @@ static void backward_euler_finish(TimeIntegrator *run)
 static void bdf2_set_target(TimeIntegrator *run)
 {
     double h = run->h, *v = run->v;
-    double *du = run->memory, *v_old = du + run->size;
+    double *du = run->memory, *v_old = du + run->x_length;
     if (run->memory_h != h) {
         backward_euler_set_target(run);
         return;
     }
     run->weight = 4 * h * h / 9;
-    for (size_t i = 0; i < run->size; i++)
+    for (size_t i = 0; i < run->x_length; i++)
         run->newton->u_tilde[i] = du[i] / 3 + 2 * h / 9 * (4 * v[i] - v_old[i]);
 }
 
@@ -109,15 +109,15 @@ static void bdf2_finish(TimeIntegrator *run)
 {
     const Iterate *end = &run->newton->at;
     double h = run->h, *v = run->v;
-    double *du = run->memory, *v_old = du + run->size;
+    double *du = run->memory, *v_old = du + run->x_length;
     if (run->memory_h != h)
         backward_euler_finish(run);
-    for (size_t i = 0; run->memory_h == h && i < run->size; i++) {
+    for (size_t i = 0; run->memory_h == h && i < run->x_length; i++) {
         run->new_x[i] = end->x[i];
         run->new_v[i] = (3 * end->u[i] - du[i]) / (2 * h);
     }
-    memcpy(du, end->u, run->size * sizeof *du);
-    memcpy(v_old, v, run->size * sizeof *v_old);
+    memcpy(du, end->u, run->x_length * sizeof *du);
+    memcpy(v_old, v, run->x_length * sizeof *v_old);
     run->memory_h = h;
 }
 
@@ -137,7 +137,7 @@ static void sdirk2_set_target(TimeIntegrator *run)
         return;
     }
     run->weight = gh * gh;
-    for (size_t i = 0; i < run->size; i++) {
+    for (size_t i = 0; i < run->x_length; i++) {
         double a = (s[i] - v[i]) / gh;
         run->newton->u_tilde[i] = rest * s[i] + gh * (v[i] + rest * a);
     }
@@ -149,7 +149,7 @@ static void sdirk2_finish(TimeIntegrator *run)
     double h = run->h, gh = SDIRK_G * h, rest = (1 - SDIRK_G) * h;
     double *s = run->new_v;
     bool first = run->stage == 0;
-    for (size_t i = 0; i < run->size; i++) {
+    for (size_t i = 0; i < run->x_length; i++) {
         run->new_x[i] = end->x[i];
         s[i] = (first ? end->u[i] : end->u[i] - rest * s[i]) / gh;
     }
@@ -167,26 +167,26 @@ static void midpoint_set_target(TimeIntegrator *run)
 static void midpoint_finish(TimeIntegrator *run)
 {
     const double *u = run->newton->at.u;
-    for (size_t i = 0; i < run->size; i++) {
+    for (size_t i = 0; i < run->x_length; i++) {
         run->new_x[i] = run->x[i] + 2 * u[i];
         run->new_v[i] = 4 * u[i] / run->h - run->v[i];
     }
 }
 
 const IntegratorMethod integrator_methods[] = {
-    {"backward-euler", "backward Euler", 1, .implicit = true,
+    {"backward-euler", "backward Euler", 1, .is_implicit = true,
      .ends_at_minimiser = true, .damps = true, .stages = 1,
      .set_target = backward_euler_set_target, .finish = backward_euler_finish},
     {"symplectic-euler", "symplectic Euler", 1,
      .finish = symplectic_euler_finish},
     {"forward-euler", "forward Euler", 1, .finish = forward_euler_finish},
-    {"verlet", "velocity Verlet", 2, .memory = 1, .finish = verlet_finish},
-    {"midpoint", "implicit midpoint", 2, .implicit = true, .stages = 1,
+    {"verlet", "velocity Verlet", 2, .arrays = 1, .finish = verlet_finish},
+    {"midpoint", "implicit midpoint", 2, .is_implicit = true, .stages = 1,
      .set_target = midpoint_set_target, .finish = midpoint_finish},
-    {"bdf2", "BDF2", 2, .implicit = true, .damps = true, .only_by_name = true,
-     .memory = 2, .stages = 1, .set_target = bdf2_set_target,
-     .finish = bdf2_finish},
-    {"sdirk2", "SDIRK2", 2, .implicit = true, .damps = true,
+    {"bdf2", "BDF2", 2, .is_implicit = true, .damps = true,
+     .only_by_name = true, .arrays = 2, .stages = 1,
+     .set_target = bdf2_set_target, .finish = bdf2_finish},
+    {"sdirk2", "SDIRK2", 2, .is_implicit = true, .damps = true,
      .only_by_name = true, .stages = 2, .set_target = sdirk2_set_target,
      .finish = sdirk2_finish},
     {.name = NULL},

@@ -33,7 +33,7 @@ enum { HAND_HALVINGS = 6, HAND_PARTS = 8 };
 static bool obstacle_moves(const Contact *contact, int k)
 {
     const double *v = contact->obstacle[k].v;
-    bool stopped = contact->push.stopped && k == contact->push.obstacle;
+    bool stopped = contact->hand.stopped && k == contact->hand.obstacle;
     return !stopped && (v[0] != 0 || v[1] != 0);
 }
 
@@ -44,7 +44,7 @@ bool prescribed_begin(TimeIntegrator *run)
     run->moved_part = 0;
     run->remaining_part = 1;
     run->parts_made = 0;
-    run->blocked = false;
+    run->is_blocked = false;
     run->iterations_before = run->newton ? run->newton->counters.iterations : 0;
     for (int k = 0; contact && k < contact->obstacles; k++) {
         Obstacle *obstacle = &contact->obstacle[k];
@@ -52,7 +52,7 @@ bool prescribed_begin(TimeIntegrator *run)
         double from = 0; /* part of the step, as `to` */
         obstacle->v[0] = obstacle->v[1] = 0;
         for (int i = 0; i < motion->phases; i++) {
-            double left = motion->phase_end[i] - run->clock.now;
+            double left = motion->phase_end[i] - run->clock.time;
             double to = fmin(fmax(left / run->h, from), 1);
             for (int c = 0; c < 2; c++)
                 obstacle->v[c] += (to - from) * motion->v[i][c];
@@ -78,9 +78,9 @@ static void move_obstacles(Contact *contact, double way)
  *   way     s, time for which the obstacles have moved
  *   before  [2n] m, positions of the nodes before this motion
  *   u       [2n] m, in/out, displacements of the nodes */
-static void carry_nodes(const System *system, const Contact *contact,
-                        double way, const double *x_n, const double *before,
-                        double *u)
+static void move_carried_nodes(const System *system, const Contact *contact,
+                               double way, const double *x_n,
+                               const double *before, double *u)
 {
     for (int k = 0; contact && k < contact->obstacles; k++) {
         const Obstacle *obstacle = &contact->obstacle[k];
@@ -108,7 +108,7 @@ static void carry_nodes(const System *system, const Contact *contact,
 /* Moves obstacles, pins and carried nodes by a part of the step.  Sets new_x to
  * u: Newton's displacement plus this motion.  Returns whether all terms allow u
  * and no body passes through another.  If not, moves the obstacles back. */
-static bool move_part(TimeIntegrator *run, double part)
+static bool move_by_part(TimeIntegrator *run, double part)
 {
     const System *system = run->system;
     Contact *contact = contact_of(run->system);
@@ -122,7 +122,7 @@ static bool move_part(TimeIntegrator *run, double part)
             u[i] += way * system->pin_v[i];
     }
     move_obstacles(contact, way);
-    carry_nodes(system, contact, way, x_n, before, u);
+    move_carried_nodes(system, contact, way, x_n, before, u);
     for (int i = 0; i < 2 * system->nodes; i++) {
         x[i] = x_n[i] + u[i];
         p[i] = u[i] - p[i];
@@ -146,7 +146,7 @@ static double move_farthest(TimeIntegrator *run, double part, int halvings,
                             int parts)
 {
     for (int i = 0; i < halvings && run->parts_made < parts; i++, part /= 2)
-        if (move_part(run, part))
+        if (move_by_part(run, part))
             return part;
     return 0;
 }
@@ -155,22 +155,22 @@ void prescribed_start(TimeIntegrator *run)
 {
     Contact *contact = contact_of(run->system);
     double part = 0;
-    if (contact && contact->push.on &&
-        obstacle_moves(contact, contact->push.obstacle)) {
+    if (contact && contact->hand.held &&
+        obstacle_moves(contact, contact->hand.obstacle)) {
         part = move_farthest(
             run, fmin(run->remaining_part, push_max_step(contact, run->h)),
             HAND_HALVINGS, HAND_PARTS);
-        contact->push.stopped = part == 0;
-        contact->push.moved = run->moved_part;
+        contact->hand.stopped = part == 0;
+        contact->hand.moved_part = run->moved_part;
     }
     bool others = run->system->pin_v != NULL;
     for (int k = 0; contact && k < contact->obstacles; k++)
         others = others || obstacle_moves(contact, k);
     if (part == 0 && others)
         part = move_farthest(run, run->remaining_part, MAX_HALVINGS, MAX_PARTS);
-    run->blocked = part == 0 && others;
+    run->is_blocked = part == 0 && others;
     if (part == 0) /* no further motion in this step */
-        move_part(run, 0);
+        move_by_part(run, 0);
     else
         run->moved_part += part;
     run->remaining_part = part == 0 ? 0 : run->remaining_part - part;
@@ -182,7 +182,7 @@ void prescribed_start(TimeIntegrator *run)
 }
 
 /* Reports a step that prescribed motion has ended: a record of no iteration. */
-static void report_end(const Newton *newton, Status status)
+static void report_motion_end(const Newton *newton, Status status)
 {
     const NewtonSettings *settings = &newton->settings;
     const NewtonRecord end = {.step = newton->step,
@@ -192,7 +192,7 @@ static void report_end(const Newton *newton, Status status)
                               .status = status,
                               .solver = newton->record.solver};
     if (settings->observer)
-        settings->observer(settings->user, &end);
+        settings->observer(settings->user_data, &end);
 }
 
 bool prescribed_end_part(TimeIntegrator *run, Status *status)
@@ -201,7 +201,7 @@ bool prescribed_end_part(TimeIntegrator *run, Status *status)
     long updates = newton->counters.iterations - run->iterations_before;
     if (status_is_failure(*status))
         return false;
-    if (run->blocked && !*status)
+    if (run->is_blocked && !*status)
         *status = STATUS_BLOCKED;
     if (run->remaining_part > 0 && updates < newton_most_iterations(newton))
         return true;
@@ -209,7 +209,7 @@ bool prescribed_end_part(TimeIntegrator *run, Status *status)
     if (run->remaining_part > 0)
         *status = STATUS_ITERATION_LIMIT;
     if (*status != newton->status)
-        report_end(newton, *status);
+        report_motion_end(newton, *status);
     return false;
 }
 
@@ -219,11 +219,11 @@ double prescribed_work(const TimeIntegrator *run)
     const Contact *contact = contact_of(system);
     const Newton *newton = run->newton;
     const double *u = newton->at.u, *x = newton->at.x;
-    EvalPoint at = eval_point_at(system, newton->at.E.x_n, u, x);
+    EvalPoint at = make_eval_point(system, newton->at.E.x_n, u, x);
     double *g = run->new_x, pins = 0, sum = 0;
     at.weight = newton->at.E.weight;
     if (system->pin_v) {
-        memset(g, 0, run->size * sizeof *g);
+        memset(g, 0, run->x_length * sizeof *g);
         inertia_energy_gradient(system->nodes, u, newton->u_tilde, system->m,
                                 g);
         for (const TermKind *kind; (kind = eval_point_next_term(&at));)
@@ -239,8 +239,8 @@ double prescribed_work(const TimeIntegrator *run)
              elements_next(&walk);) {
             int k = walk.element.partner;
             const double *v = contact->obstacle[k].v, *n = walk.element.n;
-            bool stopped = contact->push.stopped && k == contact->push.obstacle;
-            sum += (stopped ? contact->push.moved : run->moved_part) *
+            bool stopped = contact->hand.stopped && k == contact->hand.obstacle;
+            sum += (stopped ? contact->hand.moved_part : run->moved_part) *
                    contact_normal_force(&contact->barrier, walk.element.s) *
                    (n[0] * v[0] + n[1] * v[1]);
         }

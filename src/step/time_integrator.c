@@ -32,12 +32,12 @@ Status time_integrator_create(const IntegratorMethod *method, System *system,
 {
     size_t size = 2 * (size_t)system->nodes;
     *run = (TimeIntegrator){
-        .method = method, .system = system, .size = size, .h = settings->h};
-    if (!system_is_feasible(eval_point_at(system, x, NULL, x)) ||
+        .method = method, .system = system, .x_length = size, .h = settings->h};
+    if (!system_is_feasible(make_eval_point(system, x, NULL, x)) ||
         integrator_method_refuses(method, system) ||
         (system->pin_v && !method->ends_at_minimiser))
         return STATUS_INVALID_INPUT;
-    run->x = calloc((4 + (size_t)method->memory) * size, sizeof *x);
+    run->x = calloc((4 + (size_t)method->arrays) * size, sizeof *x);
     if (!run->x)
         return STATUS_OUT_OF_MEMORY;
     run->v = run->x + size;
@@ -46,7 +46,7 @@ Status time_integrator_create(const IntegratorMethod *method, System *system,
     run->memory = run->new_v + size;
     memcpy(run->x, x, size * sizeof *x);
     memcpy(run->v, v, size * sizeof *v);
-    if (!method->implicit)
+    if (!method->is_implicit)
         return STATUS_OK;
     run->newton = calloc(1, sizeof *run->newton);
     return run->newton ? newton_create(system, settings, run->newton)
@@ -73,13 +73,13 @@ void time_integrator_free(TimeIntegrator *run)
 static void count_step(StepClock *clock, double h)
 {
     if (h != clock->h)
-        *clock = (StepClock){.last_change = clock->now, .h = h};
+        *clock = (StepClock){.last_change = clock->time, .h = h};
     clock->steps++;
-    clock->now = clock->last_change + (double)clock->steps * h;
+    clock->time = clock->last_change + (double)clock->steps * h;
 }
 
 /* Lets the terms begin a step: friction, for one, reads contacts at x_n. */
-static Status begin_terms(TimeIntegrator *run)
+static Status begin_term_steps(TimeIntegrator *run)
 {
     System *system = run->system;
     Status status = STATUS_OK;
@@ -91,7 +91,7 @@ static Status begin_terms(TimeIntegrator *run)
 }
 
 /* Lets the terms end a step; plastic springs, for example, flow. */
-static void end_terms(TimeIntegrator *run)
+static void end_term_steps(TimeIntegrator *run)
 {
     System *system = run->system;
     for (int t = 0; t < system->terms; t++)
@@ -101,7 +101,7 @@ static void end_terms(TimeIntegrator *run)
 }
 
 /* Sets the target of the hand for this step. */
-static void begin_hand(TimeIntegrator *run)
+static void begin_hand_step(TimeIntegrator *run)
 {
     System *system = run->system;
     Pull *hand = system_term_data(system, &hand_energy);
@@ -125,10 +125,10 @@ static void begin_stage(TimeIntegrator *run)
     Newton *newton = run->newton;
     run->method->set_target(run);
     if (system_has_gravity(system))
-        for (size_t i = 0; i < run->size; i++)
+        for (size_t i = 0; i < run->x_length; i++)
             newton->u_tilde[i] += run->weight * system->gravity[i % 2];
     newton->step = run->steps + 1;
-    if (run->moves)
+    if (run->has_motion)
         prescribed_start(run);
     else
         newton_start(newton, run->x, NULL, run->weight,
@@ -138,7 +138,7 @@ static void begin_stage(TimeIntegrator *run)
 /* Ends the step.  x and v become new_x and new_v unless the step failed. */
 static Status end_step(TimeIntegrator *run, Status status)
 {
-    size_t both = 2 * run->size; /* x and v are one array */
+    size_t both = 2 * run->x_length; /* x and v are one array */
     run->status = status;
     if (status_is_failure(status))
         return status;
@@ -153,23 +153,23 @@ static Status end_step(TimeIntegrator *run, Status status)
     memcpy(run->x, run->new_x, both * sizeof(double));
     run->steps++;
     count_step(&run->clock, run->h);
-    if (run->moves)
+    if (run->has_motion)
         run->work += prescribed_work(run);
-    end_terms(run);
+    end_term_steps(run);
     return run->status;
 }
 
 Status time_integrator_begin(TimeIntegrator *run)
 {
-    run->worst = STATUS_OK;
+    run->worst_status = STATUS_OK;
     run->stage = 0;
     if (run->newton)
         run->newton->change = 0;
-    run->moves = prescribed_begin(run);
-    Status status = begin_terms(run);
+    run->has_motion = prescribed_begin(run);
+    Status status = begin_term_steps(run);
     if (status)
         return end_step(run, status);
-    begin_hand(run);
+    begin_hand_step(run);
     if (run->newton)
         begin_stage(run);
     return run->status = STATUS_RUNNING;
@@ -185,13 +185,13 @@ Status time_integrator_advance(TimeIntegrator *run)
             return status;
 
         /* Move walls and pins by the next part of their way */
-        if (run->moves && prescribed_end_part(run, &status)) {
+        if (run->has_motion && prescribed_end_part(run, &status)) {
             prescribed_start(run);
             continue;
         }
         if (status_is_failure(status))
             return end_step(run, status);
-        run->worst = status ? status : run->worst;
+        run->worst_status = status ? status : run->worst_status;
 
         /* Compute x and v, or begin the next stage */
         method->finish(run);
@@ -200,7 +200,7 @@ Status time_integrator_advance(TimeIntegrator *run)
     }
     if (method->stages == 0)
         method->finish(run);
-    return end_step(run, run->worst);
+    return end_step(run, run->worst_status);
 }
 
 Status time_integrator_step(TimeIntegrator *run)

@@ -97,7 +97,7 @@ static void put_page_texts(Writer *to, const FrameContent *content)
     const LiveValues *values = &active_pane(content)->values;
     put_text(to, values, "text", page->text);
     put_text(to, values, "formula", page->formula);
-    put_text(to, values, "ask", page->ask);
+    put_text(to, values, "ask", page->question);
     if (content->lecture.hides_answer) {
         double at[2];
         print(to, "asks\t%s\t%d\n",
@@ -107,13 +107,13 @@ static void put_page_texts(Writer *to, const FrameContent *content)
               simulation_find_point(active_pane(content)->simulation, at));
     } else {
         put_text(to, values, "look", content->lecture.look_text);
-        put_text(to, values, "try", page->touch);
+        put_text(to, values, "try", page->try);
     }
     put_text(to, values, "claim", page->claim);
     put_text(to, values, "notes", page->notes);
     for (int i = 0; page->code[i]; i++)
         print(to, "code\t%d\t%s\n",
-              strstr(page->code[i], lecture_lit_code(content)) != NULL,
+              strstr(page->code[i], lecture_marked_code(content)) != NULL,
               page->code[i]);
 }
 
@@ -127,7 +127,7 @@ static void put_algorithm(Writer *to, const FrameContent *content, int card,
     for (; row->shown_if; row++) {
         if (!text_has_line(&pane->values, row->shown_if))
             continue;
-        const ShownRow now = listing_show_row(pane, row);
+        const ShownRow now = listing_fill_row(pane, row);
         print(to, "row\t%d\t%d\t%d\t%d\t%s\t%s\n", card, now.highlighted,
               now.is_struck, row->indented, now.text.text, now.value.text);
     }
@@ -265,9 +265,9 @@ static void put_numbers(Writer *to, const Player *player)
         for (int k = 0; named && names_get(row[i]->names, k); k++)
             print(to, "%s%s", k ? "|" : "", names_get(row[i]->names, k));
         print(to, "\t%s\t%s\t%s\n", row[i]->help, idle ? idle : "",
-              !shown                                                ? "others"
-              : !named && page && asks_to_drag(page->touch, row[i]) ? "tried"
-                                                                    : "row");
+              !shown                                              ? "others"
+              : !named && page && asks_to_drag(page->try, row[i]) ? "tried"
+                                                                  : "row");
     }
 }
 
@@ -280,7 +280,7 @@ static void put_handles_and_switches(Writer *to, const Simulation *simulation)
     for (int i = 0; i < handles; i++)
         print(to, "point\t%d\t%.4g\t%.4g\n", i, at[i][0], at[i][1]);
     for (int i = 0; i < switches; i++)
-        print(to, "switch\t%d\t%d\t%s\n", i, part[i].on, part[i].label);
+        print(to, "switch\t%d\t%d\t%s\n", i, part[i].is_on, part[i].label);
 }
 
 /* ---- what is seen, and what happened ------------------------------------- */

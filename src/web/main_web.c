@@ -194,16 +194,16 @@ EMSCRIPTEN_KEEPALIVE void web_print_page(int page, int width, int height)
         return;
     Status status = lecture_make_options(row, &options, MESSAGE(message));
     options.headless = options.quiet = true;
-    options.steps = row->picture;
+    options.steps = row->print_step;
     status = status ? status : player_create(&options, 1, NULL, &never, player);
     player->screen.draws_frames = true;
     status = status ? status : player_enqueue_page(player);
     status = status ? status : player_obey_queue(player, false);
-    status = status ? status : player_enqueue_lines(player, row->tell);
+    status = status ? status : player_enqueue_lines(player, row->on_answer);
     status = status ? status : player_obey_queue(player, false);
-    for (int i = 0; i < row->lines && !status; i++)
+    for (int i = 0; i < row->presses && !status; i++)
         status = player_obey(player, &next);
-    if (!status && !row->lines)
+    if (!status && !row->presses)
         player_run(player);
     player->screen.has_window = true; /* fills the texts as for a window */
     player->screen.paper_size[0] = width;

@@ -16,7 +16,7 @@ static Jet energy(const Moment *moment, const double *u, const double *way,
                   Random *jitter)
 {
     const IncrementalPotential *E = &moment->E;
-    EvalPoint at = eval_point_at(E->system, E->x_n, u, NULL);
+    EvalPoint at = make_eval_point(E->system, E->x_n, u, NULL);
     Spot spot = {.at = &at,
                  .h = sqrtl(E->weight),
                  .p = way,

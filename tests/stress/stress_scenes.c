@@ -284,7 +284,7 @@ static bool many_steps(Tally *tally, char *reason)
     TimeIntegrator *run = &simulation.run[0];
     bool good = watch_create(run, tally, &watch);
     for (long step = 0; step < 300000 && good; step++) {
-        for (size_t i = 0; step % 50 == 0 && i < run->size; i++)
+        for (size_t i = 0; step % 50 == 0 && i < run->x_length; i++)
             run->v[i] += random_uniform(&random, -3, 3);
         watch.residuals = step % 500 < 3;
         good = watch_step(&watch) != VERDICT_WRONG;

@@ -103,7 +103,7 @@ static void spring(Spot *spot, Jet *sum, const void *data, int s)
     if (flow) {
         kappa = flow->kappa[s];
         hard = 1 - jittered(spot, 1 / (1 + (Real)flow->hardening));
-        Real yield = flow->yield + flow->hardening * (Real)kappa;
+        Real yield = flow->yield_strain + flow->hardening * (Real)kappa;
         held = fminl(held, yield);
         over = fabsl(e) - held;
         flows = fabsl(e) - yield > edge_of_flow(spot, E.f);
@@ -148,8 +148,9 @@ static Jet gap(Spot *spot, const Contact *contact, int i, int k, Real n[2])
         s = plus((Jet){0}, n[0], d[0]);
         s = plus(s, n[1], d[1]);
     }
-    if (contact->ball >= 0 && contact->obstacle[contact->ball].node == i)
-        s.f -= contact->obstacle[contact->ball].radius;
+    if (contact->free_ball >= 0 &&
+        contact->obstacle[contact->free_ball].node == i)
+        s.f -= contact->obstacle[contact->free_ball].radius;
     return plus((Jet){0}, 1 / (Real)contact->barrier.d_hat, s);
 }
 
@@ -245,7 +246,7 @@ static Outline outline_of(const System *system)
     static double *bytes;
     if (!self_contact_of(system))
         return (Outline){0};
-    const SquareMesh *shape = &self_contact_of(system)->boundary.shape;
+    const SquareMesh *shape = &self_contact_of(system)->boundary.mesh;
     int n = system->nodes, high = shape->rows + 1, wide = shape->segments + 1;
     bytes = realloc(bytes, (size_t)n * (25 + 9 * sizeof(int)));
     CHECK(bytes != NULL);
@@ -373,7 +374,7 @@ static void meeting(Spot *spot, Jet *sum, const void *data, int i)
 static bool triangle(Spot *spot, const Cells *cells, int t, Jet *J)
 {
     const double *k = spot->at->system->k;
-    const int *node = cells->triangles.node[t], *side = cells->spring[t];
+    const int *node = cells->triangles.node[t], *side = cells->sides[t];
     Jet e[2][2];
     if (k[side[0]] == 0 || k[side[1]] == 0 || k[side[2]] == 0)
         return false;
@@ -642,7 +643,7 @@ Jet oracle_step(Spot *spot, const double *u_tilde)
 
 Real exact_potential(const System *system, const double *x)
 {
-    EvalPoint at = eval_point_at(system, x, NULL, x);
+    EvalPoint at = make_eval_point(system, x, NULL, x);
     Spot spot = {.at = &at};
     return oracle_energy(&spot, NULL).f;
 }
@@ -756,7 +757,7 @@ static void walk_blocks(const Spot *there, const double *u,
 void exact_blocks(const IncrementalPotential *E, const double *u, int lifts,
                   void (*take)(void *to, const Block *block), void *to)
 {
-    EvalPoint at = eval_point_at(E->system, E->x_n, u, NULL);
+    EvalPoint at = make_eval_point(E->system, E->x_n, u, NULL);
     at.weight = E->weight;
     const Spot spot = {.at = &at, .h = sqrtl(E->weight)};
     walk_blocks(&spot, u, E->u_tilde, lifts, take, to);
@@ -808,7 +809,7 @@ void exact_derivatives(const IncrementalPotential *E, const double *u,
     size_t n = 2 * (size_t)E->system->nodes;
     Real *size = calloc(n, sizeof *size);
     CHECK(size != NULL);
-    EvalPoint at = eval_point_at(E->system, E->x_n, u, x);
+    EvalPoint at = make_eval_point(E->system, E->x_n, u, x);
     at.weight = E->weight;
     const Spot spot = {.at = &at, .h = h};
     const Assembly to = {g, size, H, (int)n, lifts};
@@ -860,7 +861,7 @@ double exact_rise(const IncrementalPotential *E, const double *from,
 {
     Real energy[2];
     for (int i = 0; i < 2; i++) {
-        EvalPoint at = eval_point_at(E->system, E->x_n, i ? to : from, NULL);
+        EvalPoint at = make_eval_point(E->system, E->x_n, i ? to : from, NULL);
         at.weight = E->weight;
         Spot spot = {.at = &at, .h = sqrtl(E->weight), .moved = moved};
         energy[i] = oracle_step(&spot, E->u_tilde).f;
@@ -911,7 +912,7 @@ static double residual_by_side(const IncrementalPotential *E, const double *u,
     Real *g = calloc(n * (n + 2), sizeof *g), blur = 0;
     Random random = {1};
     CHECK(place != NULL && g != NULL);
-    EvalPoint at = eval_point_at(E->system, E->x_n, u, x);
+    EvalPoint at = make_eval_point(E->system, E->x_n, u, x);
     at.weight = E->weight;
     const Spot spot = {
         .at = &at, .h = sqrtl(E->weight), .moved = moved, .side = side};
@@ -1000,7 +1001,7 @@ long exact_crossings(const System *system, const double *x)
 double exact_gap(const System *system, const double *x, int node, int obstacle)
 {
     const Contact *contact = contact_of(system);
-    EvalPoint at = eval_point_at(system, x, NULL, x);
+    EvalPoint at = make_eval_point(system, x, NULL, x);
     Spot spot = {.at = &at};
     Real n[2];
     return (double)(contact->barrier.d_hat *
@@ -1022,7 +1023,7 @@ double smallest_cell(const System *system, const double *x)
 {
     const Cells *cells = system_term_data(system, &cell_energy);
     const NeoHookean *solid = neo_hookean_of(system);
-    EvalPoint at = eval_point_at(system, x, NULL, x);
+    EvalPoint at = make_eval_point(system, x, NULL, x);
     Spot spot = {.at = &at};
     double smallest = INFINITY;
     Jet J;

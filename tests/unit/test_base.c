@@ -21,7 +21,7 @@ typedef struct Problem {
 
 static void problem_create(CholeskyKind kind, Problem *problem)
 {
-    problem->triplets = (Triplets){.size = SIZE, .count = ENTRIES};
+    problem->triplets = (Triplets){.size = SIZE, .entries = ENTRIES};
     CHECK_OK(triplets_allocate(&problem->triplets));
     for (int i = 0; i < SIZE; i++) {
         triplets_add(&problem->triplets, i, i);
@@ -44,7 +44,7 @@ static void problem_free(Problem *problem)
 /* Entry (row, column), row >= column. */
 static double *entry(Problem *problem, int row, int column)
 {
-    for (int s = problem->A.start[column];; s++)
+    for (int s = problem->A.column_start[column];; s++)
         if (problem->A.row[s] == row)
             return problem->A.value + s;
 }
@@ -55,7 +55,7 @@ static void problem_fill(Random *random, Problem *problem)
     Sparse *A = &problem->A;
     double sum[SIZE] = {0};
     for (int c = 0; c < SIZE; c++)
-        for (int s = A->start[c]; s < A->start[c + 1]; s++) {
+        for (int s = A->column_start[c]; s < A->column_start[c + 1]; s++) {
             A->value[s] = random_uniform(random, -1, 1);
             sum[c] += fabs(A->value[s]);
             sum[A->row[s]] += fabs(A->value[s]);
@@ -99,7 +99,7 @@ static void spoil(Problem *problem, Spoil how, int trial)
     static const double bad[] = {NAN, INFINITY, -INFINITY};
     Sparse *A = &problem->A;
     for (int c = 0; c < SIZE; c++)
-        for (int s = A->start[c]; s < A->start[c + 1]; s++) {
+        for (int s = A->column_start[c]; s < A->column_start[c + 1]; s++) {
             double *value = A->value + s;
             int r = A->row[s];
             if (r == c && ((how == NEGATE_ONE && c == trial) ||

@@ -72,9 +72,9 @@ TEST(a_page_keeps_its_answer_until_the_guess)
         write_document();
         check_lines();
         assert_true(count_lines("topic") == 1 && count_lines("text") > 0);
-        CHECK((count_lines("ask") > 0) == (page->ask != NULL));
-        assert_int_equal(count_lines("asks"), page->ask != NULL);
-        if (page->ask)
+        CHECK((count_lines("ask") > 0) == (page->question != NULL));
+        assert_int_equal(count_lines("asks"), page->question != NULL);
+        if (page->question)
             assert_int_equal(count_lines("look") + count_lines("try"), 0);
         CHECK_OK(player_reveal_answer(&player, NULL));
         CHECK_OK(player_obey_queue(&player, false));

@@ -71,7 +71,7 @@ static void let_go(double h, const double *x, const double *v)
 /* J, what the first term that loses any has taken out of them. */
 static double lost(void)
 {
-    return few.lost[0].energy;
+    return few.losses[0].energy;
 }
 
 static void step(void)
@@ -115,7 +115,7 @@ static Obstacle *push_wall(void)
 {
     Contact *contact = contact_of(&few);
     contact->obstacle[0].o[0] = -0.1;
-    contact->push = (Push){.on = true, .target = {1, 0}, .shape = {.side = 1}};
+    contact->hand = (Push){.held = true, .target = {1, 0}, .mesh = {.side = 1}};
     return &contact->obstacle[0];
 }
 
@@ -136,7 +136,7 @@ TEST(a_hand_pushes_with_a_bounded_speed)
     }
     CHECK_NEAR(wall->o[0], 1, 1e-12);
     CHECK(run.v[0] > 1 && run.work >= 0.5 * run.v[0] * run.v[0]);
-    contact_of(&few)->push.on = false;
+    contact_of(&few)->hand.held = false;
     double work = run.work;
     step();
     CHECK(wall->o[0] == 1 && run.work == work);
@@ -160,7 +160,7 @@ TEST(a_fixed_body_stops_the_hand)
                          {.n = {left[0], 0}, .o = {0.05, 0}, .node = -1}};
     CHECK_OK(contact_configure(&few, &(Barrier){0.01, 1}, 2, walls));
     wall = push_wall();
-    contact_of(&few)->push.target[0] = 0.05; /* short ways in the end */
+    contact_of(&few)->hand.target[0] = 0.05; /* short ways in the end */
     let_go(0.01, still, still);
     for (int i = 0; i < 300; i++)
         step();
@@ -178,7 +178,7 @@ TEST(a_ball_that_is_pushed_jumps_over_nothing)
     few_masses(1, 0);
     CHECK_OK(contact_configure(&few, &(Barrier){0.002, 1}, 1, &ball));
     Contact *contact = contact_of(&few);
-    contact->push = (Push){.on = true, .target = {9, 0}, .shape = {.side = 1}};
+    contact->hand = (Push){.held = true, .target = {9, 0}, .mesh = {.side = 1}};
     let_go(0.01, still, still);
     for (int i = 0; i < 50; i++) {
         step();
@@ -263,7 +263,7 @@ static double dissipated_in(const TimeIntegrator *it, double *k,
         dx[c] = it->x[c] - x_n[c];
         sum += 0.5 * whole.m[c / 2] * dv * dv;
     }
-    EvalPoint at = eval_point_at(&whole, x_n, NULL, it->x);
+    EvalPoint at = make_eval_point(&whole, x_n, NULL, it->x);
     Spot spot = {.at = &at, .h = it->h, .p = dx};
     sum -= oracle_energy(&spot, NULL).f;
     at.u = dx; /* with what damping does */
@@ -296,8 +296,8 @@ TEST(the_ledger_adds_up)
                 TimeIntegrator *it = &scene->run[r];
                 Energies start = simulation_energies(scene, r);
                 Real P = exact_potential(it->system, it->x);
-                memcpy(x, it->x, it->size * sizeof *x);
-                memcpy(v, it->v, it->size * sizeof *v);
+                memcpy(x, it->x, it->x_length * sizeof *x);
+                memcpy(v, it->v, it->x_length * sizeof *v);
                 memcpy(k, it->system->k,
                        (size_t)it->system->springs * sizeof *k);
                 CHECK_OK(time_integrator_step(it));
@@ -438,7 +438,7 @@ static bool next_way(Way *way)
 {
     if (!way->method)
         way->method = integrator_methods;
-    else if (way->method->implicit && way->solver + 1 < SOLVER_COUNT)
+    else if (way->method->is_implicit && way->solver + 1 < SOLVER_COUNT)
         way->solver++;
     else
         *way = (Way){.method = way->method + 1};
@@ -466,7 +466,7 @@ static Simulation *moving_square(const Way *way, int steps)
              "--timestep %.17g",
              TIME / steps);
     Simulation *square = go(way, line);
-    for (size_t i = 0; i < square->run[0].size; i++)
+    for (size_t i = 0; i < square->run[0].x_length; i++)
         square->run[0].v[i] += random_uniform(&random, -1, 1);
     return square;
 }
@@ -493,7 +493,7 @@ TEST(methods_have_the_order_of_their_table)
         for (int k = 0; k < 3; k++, steps *= 2) {
             Simulation *square = make_steps(moving_square(&way, steps), steps);
             double error = 0;
-            for (size_t i = 0; i < square->run[0].size; i++)
+            for (size_t i = 0; i < square->run[0].x_length; i++)
                 error =
                     fmax(error,
                          fabs(square->run[0].x[i] -
@@ -533,7 +533,7 @@ static void check_momentum(Simulation *square, double angular)
 {
     Random random = {91};
     TimeIntegrator *run = &square->run[0];
-    for (size_t i = 0; i < run->size; i++)
+    for (size_t i = 0; i < run->x_length; i++)
         run->v[i] =
             (i % 2 ? 5 : -5) * run->x[i ^ 1] + random_uniform(&random, -1, 3);
     Momentum start = momentum_of(run);
@@ -558,7 +558,7 @@ TEST(momentum_is_kept)
         bool symplectic = strcmp(way.method->name, "verlet") == 0 ||
                           strcmp(way.method->name, "symplectic-euler") == 0;
         check_momentum(go(&way, "--timestep 1e-3"), symplectic ? 4e-13 : 0);
-        if (way.method->implicit)
+        if (way.method->is_implicit)
             check_momentum(go(&way, "--stretch 0.6 --timestep 0.01"), 0);
         if (midpoint)
             check_momentum(go(&way, "--tolerance 1e-12"), 1e-11);
@@ -585,7 +585,7 @@ TEST(triangles_have_no_torque)
         for (int i = 0; i < 32; i++)
             x[i] = away[k / 11 % 4] + x[i] +
                    strain[k / 44] / 3 * random_uniform(&random, -1, 1);
-        EvalPoint at = eval_point_at(system, NULL, NULL, x);
+        EvalPoint at = make_eval_point(system, NULL, NULL, x);
         at.term = system_find_term(system, &neo_hookean_energy);
         Real torque = 0, size = 0;
         double own[4];

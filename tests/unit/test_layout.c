@@ -287,7 +287,7 @@ TEST(markup_has_its_widths)
     double x = text_extent(text, &style, "x").width;
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         TextStyle same = style;
-        same.plain = rows[i].plain;
+        same.is_plain = rows[i].plain;
         double width = text_extent(text, &same, rows[i].markup).width;
         CHECK(width >= rows[i].least * x && width <= rows[i].most * x);
     }
@@ -314,7 +314,7 @@ TEST(formulas_have_their_sizes)
         TextExtent a = text_extent(text, &style, rows[i].markup);
         TextExtent b = text_extent(text, &style, rows[i].other);
         double wider = (a.width - b.width) / 20;
-        double higher = (a.above + a.below - b.above - b.below) / 20;
+        double higher = (a.ascent + a.descent - b.ascent - b.descent) / 20;
         if (!(wider >= rows[i].wider && wider <= rows[i].most_wider &&
               higher >= rows[i].higher - 1e-9 &&
               higher <= rows[i].most_higher + 1e-9))

@@ -82,7 +82,7 @@ TEST(cells_triangles_and_outline_are_those_of_the_springs)
               joins(e + 2 * spring[5], node[1], node[3]));
     }
     double twice = 0;
-    for (int k = 0; k < mesh.outline; k++) {
+    for (int k = 0; k < mesh.outline_edges; k++) {
         square_mesh_get_outline_edge(&mesh, k, node);
         int i = node[0], j = node[1];
         const double *a = x + 2 * i, *b = x + 2 * j;
@@ -95,7 +95,7 @@ TEST(cells_triangles_and_outline_are_those_of_the_springs)
                   (a[1] == 0.75 ? MESH_TOP : 0));
         twice += a[0] * b[1] - a[1] * b[0];
     }
-    CHECK(mesh.outline == 32 && twice == BODIES * 2 * 2.5 * 1.5);
+    CHECK(mesh.outline_edges == 32 && twice == BODIES * 2 * 2.5 * 1.5);
     twice = 0;
     for (int c = 0; c < mesh.cells; c++) /* 2 x 2, cut at the edges */
         if (square_mesh_get_patch(&mesh, c, 2, node)) {
@@ -116,8 +116,8 @@ static double factor_entries(int segments)
     int n = system->nodes, blocks = n;
     memset(meets, 0, sizeof meets);
     for (int s = 0; s < system->springs; s++) {
-        int i = system->order[system->e[2 * s]];
-        int j = system->order[system->e[2 * s + 1]];
+        int i = system->elimination_order[system->e[2 * s]];
+        int j = system->elimination_order[system->e[2 * s + 1]];
         meets[i][j] = meets[j][i] = true;
     }
     for (int k = 0; k < n; k++)

@@ -69,8 +69,8 @@ static void pull(double times)
 {
     int node = body->nodes / 2;
     Pull hand = {.node = node,
-                 .mouse = {0.1, 0.4},
-                 .strength = times * body->m[node] / (H * H),
+                 .mouse_xy = {0.1, 0.4},
+                 .stiffness = times * body->m[node] / (H * H),
                  .cell = 1.0 / body->segments,
                  .side = 1};
     CHECK_OK(pull_configure(body, &hand_energy, &hand));
@@ -133,12 +133,12 @@ TEST(steps_fall_and_pass_the_test_of_algorithm_3)
         if (i == 14) /* a short step, which a bound ends */
             square->run[0].h = newton->settings.h = 1e-4;
         newton->settings.observer = see_fall;
-        newton->settings.user = &fall;
+        newton->settings.user_data = &fall;
         for (int step = 0; step < (i == 0 ? 12 : 4); step++) {
             make_steps(square, 1);
             CHECK(newton->active_solver == SOLVER_MULTIGRID);
         }
-        CHECK(fall.judged > 1 && newton->counters.handed_over == 0);
+        CHECK(fall.judged > 1 && newton->counters.handed_to_newton == 0);
         CHECK(i < 14 || fall.by_bound > 0);
     }
 }
@@ -232,7 +232,7 @@ TEST(steps_take_no_more_work)
     newton->settings.tolerance = 1e-9;
     make_steps(tight, 12);
     CHECK_AT_MOST(newton->counters.iterations, 180);
-    CHECK(newton->counters.handed_over == 0);
+    CHECK(newton->counters.handed_to_newton == 0);
 }
 
 TESTS(NULL, NULL)

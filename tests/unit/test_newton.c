@@ -217,8 +217,8 @@ static bool keep_energy(void *unused, char *line)
     TimeIntegrator *run = &simulation->run[0];
     Newton *newton = run->newton;
     for (int step = 0; step < 6; step++) {
-        memset(run->v, 0, run->size * sizeof *run->v);
-        memset(newton->u_tilde, 0, run->size * sizeof *run->v);
+        memset(run->v, 0, run->x_length * sizeof *run->v);
+        memset(newton->u_tilde, 0, run->x_length * sizeof *run->v);
         newton_start(newton, run->x, NULL, run->h * run->h,
                      newton->settings.tolerance);
         double start = incremental_potential_value(&newton->at.E, newton->at.u,

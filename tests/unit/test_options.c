@@ -183,7 +183,7 @@ TEST(texts_become_one_line)
     char line[16];
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         snprintf(line, sizeof line, "%s", rows[i][0]);
-        make_one_line(line);
+        replace_line_breaks(line);
         assert_string_equal(line, rows[i][1]);
     }
 }

@@ -18,7 +18,7 @@ static Simulation *open_page(const char *name, const char *more)
 {
     const LecturePage *page = lecture_find_page(name);
     assert_non_null(page);
-    Simulation *simulation = simulate("%s %s", page->line, more);
+    Simulation *simulation = simulate("%s %s", page->command_line, more);
     lecture_apply_page(page, &simulation->options);
     return simulation;
 }
@@ -41,7 +41,7 @@ TEST(the_fastest_motion_limits_h)
         Simulation *simulation = open_page("explicit", line);
         TimeIntegrator *run = &simulation->run[0];
         simulation_find_fastest_mode(simulation, run->x, mode);
-        for (size_t k = 0; k < run->size; k++)
+        for (size_t k = 0; k < run->x_length; k++)
             run->v[k] += 1e-6 * mode[k];
         double start = simulation_energies(simulation, 0).total;
         for (int step = 0; step < 300; step++)
@@ -144,7 +144,7 @@ TEST(the_crack_begins_at_the_slit)
 static const Race *run_race(const char *options)
 {
     Simulation *simulation = open_page("order", options);
-    while (!simulation->done)
+    while (!simulation->is_over)
         make_steps(simulation, 1);
     return &simulation->exhibit.race;
 }
@@ -176,13 +176,13 @@ TEST(the_race_measures_errors_and_energies)
         CHECK_NEAR(point->energy_after_second,
                    (end.total - end.gravity) / start, 1e-6);
     }
-    CHECK(!race->point[VERLET].stable);
-    CHECK(race->point[RACE_METHODS + VERLET].stable);
+    CHECK(!race->point[VERLET].is_stable);
+    CHECK(race->point[RACE_METHODS + VERLET].is_stable);
     race = run_race("--stiffness 1e9 --stretch 1");
     for (int i = 0; i < race->count; i++) {
         const RacePoint *point = &race->point[i];
-        CHECK(point->method->implicit ? point->error < 0.01
-                                      : !(point->error < 1e9));
+        CHECK(point->method->is_implicit ? point->error < 0.01
+                                         : !(point->error < 1e9));
     }
     CHECK_NEAR(race->point[0].h, RACE_TIME / 8, 1e-15);
 }
@@ -199,7 +199,7 @@ TEST(pages_show_their_code)
         snprintf(names, sizeof names, "%s", page->function);
         name = strtok_r(rest, ",", &rest);
         for (const char *const *line = page->code; *line; line++) {
-            lit += strstr(*line, page->lit) != NULL;
+            lit += strstr(*line, page->highlight) != NULL;
             CHECK(!strstr(*line, "FAIL(")); /* no reports */
             ends += (*line)[0] == '}';
             if (name && ends == functions && strstr(*line, name)) {
@@ -210,8 +210,8 @@ TEST(pages_show_their_code)
         if (name || functions == 0 || ends != functions)
             fail_msg("page %s: no %s in %s", page->name, name, page->file);
         if (lit < 1 || lit > 5)
-            fail_msg("page %s: '%s' is in %d lines", page->name, page->lit,
-                     lit);
+            fail_msg("page %s: '%s' is in %d lines", page->name,
+                     page->highlight, lit);
     }
 }
 
@@ -224,7 +224,7 @@ TEST(pages_ask_what_has_an_answer)
         if (page->answer && !page_wants_click(page) &&
             !isfinite(frame_find_number(&content, page->answer)))
             fail_msg("page %s: no number %s", page->name, page->answer);
-        CHECK(page->ask || (!page->answer && !page->veils));
+        CHECK(page->question || (!page->answer && !page->covered_cards));
     }
 }
 
@@ -318,9 +318,9 @@ static const char *missing_words(const FrameContent *content)
 {
     const LecturePage *page = content->lecture.page;
     const char *texts[] = {page->text, page->formula,
-                           content->lecture.hides_answer ? page->ask
-                                                         : page->look,
-                           content->lecture.hides_answer ? NULL : page->touch};
+                           content->lecture.hides_answer ? page->question
+                                                         : page->look_text,
+                           content->lecture.hides_answer ? NULL : page->try};
     const char *missing = NULL;
     for (int i = 0; i < 4 && !missing; i++)
         missing = missing_line(content, texts[i]);
@@ -351,7 +351,7 @@ static void check_frame(const LecturePage *page, Simulation *simulation,
     FrameContent content;
     simulation->options.big = large;
     frame_create(simulation, &content);
-    content.lecture.hides_answer = kind == LARGE_ASKED && page->ask;
+    content.lecture.hides_answer = kind == LARGE_ASKED && page->question;
     frame_add_lecture(column[kind], NULL, &content);
     frame_fill_texts(&content);
     see_frame(&content, paper);

@@ -314,7 +314,7 @@ TEST(random_drags_end)
          * their stable timestep; backward Euler and BDF2 never do. */
         print_message("  %-16s %d runaways\n", method->name, runaways);
         bool damps = euler || strcmp(method->name, "bdf2") == 0;
-        CHECK(damps ? runaways == 0 : method->implicit || runaways > 0);
+        CHECK(damps ? runaways == 0 : method->is_implicit || runaways > 0);
         past_free(&past);
     }
 }

@@ -23,7 +23,7 @@ TEST(the_curve_goes_through_the_step)
             Status status = past_finish_work(&player.past);
             CHECK(!status || status_is_unconverged(status));
             const StepTrace *kept = &pane_run(0)->trace;
-            for (int place = 0; place < kept->places; place++) {
+            for (int place = 0; place < kept->place_count; place++) {
                 Trace trace;
                 step_trace_fill(kept, place, &trace);
                 int round = kept->place[place].round;

@@ -32,7 +32,7 @@ static void disturb(const Options *options, Simulation *used)
     simulation_step(used);
     if (damps) {
         const Newton *newton = used->run[0].newton;
-        CHECK(newton->rounding.stiffest ==
+        CHECK(newton->rounding.max_curvature ==
               system_curvature_bound(newton->system));
     }
     if (damps)
@@ -105,7 +105,7 @@ TEST(steps_are_pure)
         for (const IntegratorMethod *method = integrator_methods; method->name;
              method++) {
             options.integrator = method - integrator_methods;
-            options.timestep = method->implicit ? options.timestep : 1e-4;
+            options.timestep = method->is_implicit ? options.timestep : 1e-4;
             runs += check_run(&options);
         }
     }

@@ -14,9 +14,9 @@
 static Status run_to_end(Simulation *simulation, int limit)
 {
     Status status = simulation->status;
-    for (int i = 0; i < limit && !simulation->done; i++)
+    for (int i = 0; i < limit && !simulation->is_over; i++)
         status = simulation_step(simulation);
-    CHECK(simulation->done);
+    CHECK(simulation->is_over);
     return status;
 }
 
@@ -31,14 +31,14 @@ TEST(scenes_are_complete)
         CHECK(scene_find(scene->name) == scene);
         CHECK(strlen(scene->sentence) > 20 && strlen(scene->sentence) <= 60);
         CHECK(scene->picture < PICTURE_COUNT);
-        snprintf(words, sizeof words, "%s", scene->line ? scene->line : "");
+        snprintf(words, sizeof words, "%s", scene->args ? scene->args : "");
         for (char *word = strtok_r(words, " ", &rest); word;
              word = strtok_r(NULL, " ", &rest))
             if (strncmp(word, "--", 2) == 0)
                 CHECK(option_find(word + 2)->needs & scene->needs);
         Simulation *simulation = simulate("%s", scene->name);
         CHECK(simulation->scene == scene && simulation->runs >= 1);
-        CHECK(!simulation->done && simulation->steps == 0);
+        CHECK(!simulation->is_over && simulation->steps == 0);
         simulation_step(simulation);
         CHECK(simulation->steps == 1);
         double time = simulation_time(simulation);
@@ -58,13 +58,13 @@ static void check_path(const Simulation *simulation)
     bool on_demand = simulation->options.projection == PROJECTION_ON_DEMAND;
     for (int i = 0; i < descent->count; i++) {
         const NewtonRecord *record = &descent->record[i];
-        const double *from = record->from, *to = record->to;
+        const double *from = record->x_before, *to = record->x_after;
         CHECK(record->slope < 0 && record->change < 0 && record->alpha > 0);
         double E =
             descent_evaluate(simulation, PROJECTION_NONE, from[0], from[1])
-                .value;
+                .energy;
         CHECK_NEAR(
-            descent_evaluate(simulation, PROJECTION_NONE, to[0], to[1]).value -
+            descent_evaluate(simulation, PROJECTION_NONE, to[0], to[1]).energy -
                 E,
             record->change, 1e-12 * (1 + fabs(E)));
         if (on_demand)
@@ -128,8 +128,8 @@ TEST(envelope_cells_are_runs)
             Status status = simulation_step(run);
             worst = status ? status : worst;
         }
-        CHECK(cell->known);
-        CHECK_STATUS(cell->worst, worst);
+        CHECK(cell->is_known);
+        CHECK_STATUS(cell->worst_status, worst);
         refused += worst != STATUS_OK;
         CHECK(cell->updates == simulation_sum_counters(run).iterations);
         CHECK_SAME_BITS(map->run[0].x, run->run[0].x, 2 * run->system.nodes);

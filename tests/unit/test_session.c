@@ -576,7 +576,7 @@ static void collect_facts(void)
     const Newton *newton =
         content->pane[content->active_pane].simulation->run->newton;
     fact("solver\t%s %s", newton ? solver_name(newton->active_solver) : "none",
-         newton && newton->refusal ? newton->refusal : "");
+         newton && newton->refusal_reason ? newton->refusal_reason : "");
     fact("says\t%s", text_or(player.note));
     fact("topic\t%s", text_or(content->title_bar.topic));
     fact("state\t%s", text_or(content->title_bar.state));
@@ -825,7 +825,7 @@ static const struct {
                 {"all solves", offsetof(NewtonCounters, solves)},
                 {"all cycles", offsetof(NewtonCounters, cycles)},
                 {"all tile sweeps", offsetof(NewtonCounters, tile_sweeps)},
-                {"handed over", offsetof(NewtonCounters, handed_over)}};
+                {"handed over", offsetof(NewtonCounters, handed_to_newton)}};
 
 static const struct {
     const char *name;
@@ -891,7 +891,7 @@ static double find_number(const char *name)
         while (strcmp(fields[k], field) != 0)
             k++;
         return (double[]){row->alpha,  row->residual, row->projected,
-                          row->change, row->slope,    row->to[0]}[k];
+                          row->change, row->slope,    row->x_after[0]}[k];
     }
     const Energies ledger = simulation_energies(simulation, 0);
     for (i = 0; i < ledger.rows; i++)

@@ -43,7 +43,7 @@ static void stand_up(const char *line, int steps)
     for (int i = 0; i < steps; i++) {
         Status status = simulation_step(&simulation);
         assert_true(!status || status_is_unconverged(status) ||
-                    simulation.done);
+                    simulation.is_over);
         sample();
     }
     frame_create(&simulation, &content);
@@ -489,7 +489,7 @@ TEST(maps_have_levels_and_pulls)
     simulation.exhibit.switches = PART_INERTIA;
     CHECK(is_drawn("0.6"));
     Plot stage = stage_create(&paper, &content, &layout, 0);
-    const double *target = simulation.exhibit.target;
+    const double *target = simulation.exhibit.x_tilde;
     for (int k = 0; k < 3; k++) {
         double far = sqrt(2 * levels[k]), at[2], near = INFINITY;
         plot_to_pixel(&stage, (double[]){target[0] + 0.62 * far, target[1]},

@@ -45,7 +45,7 @@ TEST(random_scenes_keep_the_promise)
 static void go_back_a_little(TimeIntegrator *run)
 {
     integrator_methods[0].finish(run);
-    for (size_t i = 0; i < run->size; i++)
+    for (size_t i = 0; i < run->x_length; i++)
         run->newton->at.u[i] *= 0.9;
 }
 
@@ -58,14 +58,14 @@ static void fall_through(TimeIntegrator *run)
 static void shift(TimeIntegrator *run)
 {
     integrator_methods[0].finish(run);
-    for (size_t i = 0; i < run->size; i++)
+    for (size_t i = 0; i < run->x_length; i++)
         run->new_v[i] += 1e-5;
 }
 
 static void turn(TimeIntegrator *run)
 {
     integrator_methods[0].finish(run);
-    for (size_t i = 0; i < run->size; i++)
+    for (size_t i = 0; i < run->x_length; i++)
         run->new_v[i] += (i % 2 ? 1e-3 : -1e-3) * run->new_x[i ^ 1];
 }
 
@@ -131,8 +131,8 @@ static bool stop_at_record(void *user, const NewtonRecord *record)
 TEST(interruptions_leave_no_trace)
 {
     for (int i = 0; integrator_methods[i].name; i++)
-        for (int record = 1, stops = 1; integrator_methods[i].implicit && stops;
-             record++) {
+        for (int record = 1, stops = 1;
+             integrator_methods[i].is_implicit && stops; record++) {
             int left = 0, never = 0;
             const char *line = "--integrator %s --tolerance 1e-8";
             Simulation *one = simulate_watched(stop_at_record, &left, line,

@@ -123,8 +123,8 @@ static void make_grid(const Row *row, Random *random, Case *c)
     if (row->shape == CORNER) { /* one triangle is left, without springs */
         const Cells *cells = system_find_term(&c->system, &cell_energy)->data;
         for (int s = 0; s < c->system.springs; s++)
-            if (s != cells->spring[0][0] && s != cells->spring[0][1] &&
-                s != cells->spring[0][2])
+            if (s != cells->sides[0][0] && s != cells->sides[0][1] &&
+                s != cells->sides[0][2])
                 c->system.k[s] = 0;
     }
 }
@@ -261,7 +261,7 @@ static void make_case(const Row *row, Random *random, Case *c)
         if (system->term[i].kind->begin_step)
             CHECK_OK(system->term[i].kind->begin_step(
                 &(TermStep){system, &system->term[i], c->x_n, c->u, c->h}));
-    c->at = eval_point_at(system, c->x_n, c->u, c->x);
+    c->at = make_eval_point(system, c->x_n, c->u, c->x);
     c->at.weight = random_logarithmic(random, 0.1, 10);
     make_place(row, random, c);
 }
@@ -347,7 +347,7 @@ static void derivatives(Case *c, const TermKind *kind)
     noise.pq += entries_noise(c, kind);
     times_hessian(c, kind, PROJECTION_NONE, c->q, Hq);
     times_hessian(c, kind, PROJECTION_NONE, c->p, Hp);
-    if (!(system_term_data(&c->system, &damping) && !kind->external))
+    if (!(system_term_data(&c->system, &damping) && !kind->is_external))
         near("value", c->at.weight * kind->value(&c->at), formula.f, noise.f);
     near("gradient", dot(c, g, c->p), formula.p, noise.p);
     near("Hessian", dot(c, Hq, c->p), formula.pq, noise.pq);
@@ -365,7 +365,7 @@ static void derivatives(Case *c, const TermKind *kind)
         near("curvature", fabs(Hq[i]), 0,
              c->at.weight * kind->curvature_bound(&c->at) * fabs(c->q[i]) *
                  (1 + 4 * DBL_EPSILON));
-    if (kind->external)
+    if (kind->is_external)
         return;
     Real sum[3] = {0}, size = 0;
     for (int i = 0; i < c->size; i++) {
@@ -562,7 +562,7 @@ static void accelerations_are_forces_over_masses(void **unused)
     System system;
     double x[MAX_SIZE], a[MAX_SIZE];
     random_system(&random, SPRINGS_MIXED, &system, x);
-    EvalPoint at = eval_point_at(&system, x, NULL, x);
+    EvalPoint at = make_eval_point(&system, x, NULL, x);
     system_acceleration(&system, x, a);
     for (int i = 0; i < 2 * system.nodes; i++) {
         double one[MAX_SIZE] = {0};

@@ -145,7 +145,7 @@ void dense_from_sparse(const Sparse *A, double *dense)
     for (int i = 0; i < A->size * A->size; i++)
         dense[i] = 0;
     for (int c = 0; c < A->size; c++)
-        for (int s = A->start[c]; s < A->start[c + 1]; s++) {
+        for (int s = A->column_start[c]; s < A->column_start[c + 1]; s++) {
             dense[A->size * A->row[s] + c] = A->value[s];
             dense[A->size * c + A->row[s]] = A->value[s];
         }
