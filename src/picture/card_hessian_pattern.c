@@ -71,8 +71,8 @@ static void draw_pattern(const Plot *card, Box square, bool natural,
         for (int i = j; i < n; i++) {
             int at = block[(size_t)j * (size_t)n + i];
             int what = i == j ? ENTRY : at;
-            Colour blue = colour_mix(COLOUR_X, 0xff000000u,
-                                     writes && i == j ? at / 9.0 : 0);
+            Colour blue = colour_mix(0xffc0c8ffu, COLOUR_X,
+                                     writes ? (i == j ? at : 1) / 8.0 : 1);
             if (what == ENTRY)
                 canvas_fill(canvas, find_block_box(square, n, j, i, 1), blue);
             if (what != NOTHING)
@@ -84,15 +84,14 @@ static void draw_pattern(const Plot *card, Box square, bool natural,
         int i = matrix_row(system, e[k / 2], natural);
         int j = matrix_row(system, e[k % 2], natural);
         Box box = find_block_box(square, n, i, j, least);
-        int sum = writes && i == j ? block[(size_t)i * (size_t)(n + 1)] : 0;
-        canvas_framed_box(canvas, box_inset(box, -1),
-                          colour_mix(COLOUR_PROJECT, 0xff000000u, sum / 9.0),
+        canvas_framed_box(canvas, box_inset(box, -1), COLOUR_PROJECT,
                           COLOUR_WHITE);
     }
     free(block);
 }
 
-/* Draws the patterns in the nodes' order and in the order of elimination. */
+/* Draws the patterns in the nodes' order and in the order of elimination; while
+ * the Hessian is assembled the first alone. */
 void hessian_pattern_draw(const Plot *card)
 {
     Paper *paper = card->paper;
@@ -101,7 +100,8 @@ void hessian_pattern_draw(const Plot *card)
     bool has_text = !card->content->in_document;
     Box inside = card->box;
     int line = paper_pixels(paper, 1.4), below = paper_pixels(paper, 9);
-    int high = inside.height - line, side = (inside.width - line) / 2;
+    int high = inside.height - line, count = writes ? 1 : 2;
+    int side = (inside.width - (count - 1) * line) / count;
     if (writes && has_text && 2 * below < inside.height)
         high -= below;
     side = side < high ? side : high;
@@ -112,7 +112,7 @@ void hessian_pattern_draw(const Plot *card)
                                               : "too many nodes to draw");
         return;
     }
-    for (int k = 0; k < 2; k++) {
+    for (int k = 0; k < count; k++) {
         int x = inside.x + k * (side + line);
         paper_write(paper, FACE_REGULAR, 0.9, COLOUR_FAINT, x, inside.y,
                     ALIGN_LEFT,

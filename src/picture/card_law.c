@@ -80,6 +80,8 @@ static double breaking_force_ratio(const void *now, double part)
 static const Law laws[] = {
     {"barrier", "gap \u03b4 in m", "W in J", &contact_energy, &contact_energy,
      element_energy_at, 0, 1.2},
+    {"pair", "", "", &self_contact_energy, &self_contact_energy,
+     element_energy_at, 0, 1.2},
     {"rub", "slip in m/s", "f/(\u03bc f_{N})", &self_friction_energy,
      &self_contact_energy, friction_force_ratio, 0, 2},
     {"triangle", "det F", "\u03a8 in J/m\u00b2", &neo_hookean_energy,
@@ -286,13 +288,6 @@ void law_draw(const Plot *card)
         card, (Axis){low, high, .label = law->x_label},
         (Axis){both ? -most : -0.02 * most, most, .label = law->y_label});
     plot_graph(&plot, law->evaluate, now, 2.4, COLOUR_X);
-    LawPoint other = *now; /* each spring has a small dot on its own law */
-    for (int s = 0; s < other.eval.system->springs && !law->element_term; s++) {
-        fill_spring_law(&other, s);
-        if (other.load > -INFINITY)
-            plot_disc(&plot, (double[2]){other.x, law_value_at(law, &other)}, 2,
-                      COLOUR_GHOST);
-    }
     if (law->evaluate == element_energy_at && !isnan(x))
         plot_line(&plot,
                   (double[2]){low, y + (x - low) * contact_force_at(now)},

@@ -101,7 +101,7 @@ void envelope_add_values(const Simulation *simulation, LiveValues *values)
         known += one->is_known;
         converged += one->is_known && !one->worst_status;
     }
-    values->colour[0] = colour_of_shade(ENVELOPE_SHADES);
+    values->colour[0] = colour_of_shade(3);
     values->colour[1] = colour_of_shade(2);
     values->colour[2] = COLOUR_REFUSED;
     bool all = known == ENVELOPE_ROWS * ENVELOPE_COLUMNS;

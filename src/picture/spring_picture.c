@@ -87,7 +87,7 @@ void spring_draw(Plot *stage)
     bool projects = spring.eigenvalue_across < 0 && shows_answer;
     bool modes = simulation->options.layers & LAYER_MODES;
     draw_length_circle(stage, l, COLOUR_FAINT, "l");
-    if (!content->lecture.page || modes)
+    if (!content->lecture.page || (modes && shows_answer))
         draw_length_circle(stage, l / sqrt(3), COLOUR_PROJECT, "l/\u221a3");
     draw_coil(stage, x, projects ? COLOUR_PROJECT : COLOUR_X);
     plot_pin(stage, origin, 6);
@@ -164,8 +164,6 @@ void spring_add_values(const Simulation *simulation, LiveValues *values)
     values_add(values, "projected across",
                project_eigenvalue(projection, across));
     values_add(values, "negative", fmin(fmin(along, across), 0));
-    values_add(values, "qx", d[0] / (sqrt(2) * now.length));
-    values_add(values, "qy", d[1] / (sqrt(2) * now.length));
     for (int i = 0; i < 2; i++) { /* the Hessian before and after projection */
         spring_hessian(d, l2, k, i == 0 ? PROJECTION_NONE : projection, H);
         values_add_matrix(values, names[i], H, 1e-12 * k);
@@ -212,7 +210,7 @@ void spring_profile_draw(const Plot *card)
     double tip = (both ? root_energy_at_length : energy_at_length)(system, 0);
     double most = fmax(600, fabs(force_at_length(system, d)));
     Plot upper = *card, lower = *card;
-    if (card->box.height > 20 * card->em) {
+    if (card->box.height > 14 * card->em) {
         upper.box =
             box_cut_off(&lower.box, EDGE_TOP, (int)(0.55 * card->box.height));
         draw_profile(&lower, (Axis){-most, most, .label = "force in N"},

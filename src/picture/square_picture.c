@@ -640,6 +640,7 @@ static void add_block_values(const Simulation *simulation, LiveValues *values)
     double k = h * h * system->k[s];
     for (int i = 0; i < 4; i++)
         values_add(values, rows[i], 2 * e[i / 2] + i % 2);
+    values_add_flag(values, "assembled", true);
     spring_vector(e, simulation->run[0].x, d);
     /* The page shows the projected block. */
     spring_hessian(d, l2, k, PROJECTION_CLAMP, H);

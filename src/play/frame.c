@@ -288,10 +288,10 @@ static void fill_time(const Player *player, FrameContent *content)
         longest = fmax(longest, h);
     }
     content->time_line.paused = player_is_stopped(player);
-    if (player_active_options(player)->next ==
-            NEXT_SPRING && /* the Hessian is being assembled */
-        past->step < player_simulation(player)->system.springs) {
-        snprintf(text, SENTENCE_SIZE, "spring %ld", past->step);
+    if (player_active_options(player)->next == NEXT_SPRING) {
+        long last = player_simulation(player)->system.springs - 1;
+        snprintf(text, SENTENCE_SIZE, "spring %ld",
+                 past->step < last ? past->step : last);
         return;
     }
     snprintf(text, SENTENCE_SIZE, "%s %ld", turn ? turn : "step", past->step);
