@@ -173,76 +173,9 @@ TEST(a_bare_square_is_the_slide)
 
 /* ---- what is seen -------------------------------------------------------- */
 
-static double falling(const void *unused, double alpha)
-{
-    (void)unused;
-    return 20 * alpha * alpha * alpha - 4 * alpha;
-}
-
-#define CLAMPED "unprojected --projection clamp"
-
-enum { STAGE = -1, LISTING = 1, LINE, CURVE, ENERGIES };
+enum { ENERGIES = 4 };
 
 #define ALL_ENERGIES " --segments 6 --yield 0.05 --tear 0.5 --damping 0.01"
-
-static const struct {
-    const char *line;
-    int steps, card;
-    Colour colour;
-    int least; /* 0: none at all */
-    PickKind hover;
-    StepLine at; /* the trace; no line: none */
-    int projected, trials;
-    bool accepted;
-} states[] = {
-    {"square", 1, STAGE, COLOUR_TEXT, 0, 0, 0, 0, 0, 0},
-    {"square", 1, STAGE, COLOUR_TEXT, 40, PICK_NODE, 0, 0, 0, 0},
-    {"square", 1, STAGE, COLOUR_NOTE, 1000, PICK_NODE, 0, 0, 0, 0},
-    {CLAMPED, 0, LISTING, COLOUR_LIT, 1000, 0, LINE_START, 3, 0, 0},
-    {CLAMPED, 0, CURVE, COLOUR_P, 50, 0, LINE_START, 3, 0, 0},
-    {CLAMPED, 0, STAGE, COLOUR_PROJECT, 500, 0, LINE_PROJECT, 3, 0, 0},
-    {CLAMPED, 0, STAGE, COLOUR_P, 0, 0, LINE_PROJECT, 3, 0, 0},
-    {CLAMPED, 0, STAGE, COLOUR_P, 500, 0, LINE_SEARCH, 3, 0, 0},
-    {CLAMPED, 0, LINE, COLOUR_WARNING, 20, 0, LINE_SEARCH, 3, 3, 0},
-    {CLAMPED, 0, LINE, COLOUR_ALPHA, 0, 0, LINE_SEARCH, 3, 3, 0},
-    {CLAMPED, 0, LINE, COLOUR_ALPHA, 20, 0, LINE_SEARCH, 3, 3, 1},
-};
-
-/* Pixels of a colour on the stage or in a card, without words: what a state
- * of a scene shows, and what it does not.  A trace lights its line, the springs
- * whose block has a negative eigenvalue, the arrows, the trials; what the mouse
- * is over is marked and told of beside it. */
-TEST(states_show_what_they_are)
-{
-    static const NewtonRecord records[3] = {
-        {.residual = 9}, {.residual = 1}, {.residual = 0.003}};
-    static double p[2 * 128];
-    for (int k = 0; k < 128; k++)
-        p[2 * k] = 0.1;
-    for (size_t i = 0; i < sizeof states / sizeof *states; i++) {
-        stand_up(states[i].line, states[i].steps);
-        const Trace trace = {.at_line = states[i].at,
-                             .tolerance = 0.01,
-                             .x = simulation.run[0].x,
-                             .p = states[i].at >= LINE_SOLVE ? p : NULL,
-                             .projected = states[i].projected,
-                             .trials = states[i].trials,
-                             .is_accepted = states[i].accepted,
-                             .slope = -4,
-                             .residual = 2,
-                             .record = records,
-                             .records = 3,
-                             .energy_difference = falling};
-        content.pane[0].trace = trace.at_line ? &trace : NULL;
-        view.hovered = (Pick){.kind = states[i].hover, .index = 12};
-        draw_without_words();
-        int card = states[i].card;
-        int count = count_colour(
-            card == STAGE ? layout.stage : layout.card[card], states[i].colour);
-        if (states[i].least ? count < states[i].least : count > 0)
-            fail_msg("row %zu has %d pixels", i, count);
-    }
-}
 
 /* Cells below five pixels are faces with a blue outline, inside which each
  * pixel is covered; what has folded over is dark, and stands above the rest. */
