@@ -258,6 +258,7 @@ typedef struct SheetContent {
 typedef struct LectureContent {
     const LecturePage *page;    /* NULL outside of the lecture */
     bool hides_answer;          /* the page waits for the user's guess */
+    const char *asked; /* text: the question as it was asked, or NULL */
     const char *verdict;        /* verdict on the guess at this page, or NULL */
     int guesses, right_guesses; /* numbers of guesses and of right guesses */
     char own_title[SENTENCE_SIZE]; /* heading of answers that hold for the
@@ -362,6 +363,10 @@ void frame_fill_texts(FrameContent *content);
 
 /* Returns the live value with this name in the active pane; NaN: unknown. */
 double frame_find_number(FrameContent *content, const char *name);
+
+/* Returns the page's question with the present values, valid until the next
+ * call. */
+const char *frame_fill_question(FrameContent *content);
 
 /* Whether an open card of the scene or page draws E along p.
  *   toggled  bit c: card c was opened or closed by hand */

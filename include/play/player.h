@@ -99,6 +99,7 @@ typedef struct Commands {
 typedef struct Tour {
     const LecturePage *last_page; /* page that was last open, or NULL */
     const LecturePage *revealed; /* page whose answer is shown, or NULL */
+    char asked[LOOK_SIZE];       /* question of `revealed` when it was asked */
     char verdict[VALUE_SIZE];    /* verdict on the guess at the page, or "" */
     int guesses, right_guesses;  /* numbers of guesses so far */
     bool obeys_page;             /* a page's commands are running */

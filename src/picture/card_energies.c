@@ -231,7 +231,8 @@ static int write_legend(const Plot *card, const Curves *all, bool named,
         TextLine line = {.colour = one->colour};
         char name[SENTENCE_SIZE] = "", sum[60];
         if (named && one->name)
-            snprintf(name, sizeof name, "%s ", one->name);
+            snprintf(name, sizeof name, "%s%s ", one->name,
+                     card->content->panes > 1 ? ":" : "");
         snprintf(sum, sizeof sum, "%s J", format_present_value(one).text);
         paper_shorten(paper, size,
                       card->box.width -

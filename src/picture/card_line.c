@@ -72,6 +72,8 @@ static void draw_trial_step(const Plot *plot, double alpha, double value,
     else
         canvas_arrow(&paper->canvas, at[0], at[1] + 14 * unit, at[0], at[1],
                      1.6 * unit, 7 * unit, colour);
+    if (inside && !accepted)
+        plot_label(plot, 1, point, colour, "%s", format_number(alpha).text);
     if (value > plot->y.high)
         plot_label(plot, 1, (double[2]){alpha, plot->y.high}, colour,
                    "{alpha} = %s: +%s", format_number(alpha).text,

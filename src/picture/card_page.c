@@ -12,13 +12,14 @@ typedef struct PageText {
     double letter_size;  /* size of the letters, times LETTERS */
 } PageText;
 
-/* Sizes of a page's letters, ems: usual, on a page with much room, least. */
-static const double LETTERS = 1.2, LARGEST = 1.45, SMALLEST = 0.8;
+/* Sizes of a page's letters, ems: usual, on a page with much room, least, and
+ * least if the question stays beside the answer. */
+static const double LETTERS = 1.2, LARGEST = 1.45, SMALLEST = 0.8, ASKED = 1.1;
 static const double LINE_WIDTH = 24; /* least width of a line, in letters */
-/* Sizes over that of the letters: letters of a verdict and of a formula, width
- * of the heading of a text and of the heading "Tested". */
-static const double VERDICT_SIZE = 1.5, FORMULA_SIZE = 1.25,
-                    HEADING_WIDTH = 3.2, TESTED_WIDTH = 4.4;
+/* Sizes over that of the letters: letters of a formula, width of the heading of
+ * a text and of the heading "Tested". */
+static const double FORMULA_SIZE = 1.25, HEADING_WIDTH = 3.2,
+                    TESTED_WIDTH = 4.4;
 static const double GAP = 0.35; /* gap between two texts, in line heights */
 
 /* Draws a text with its heading, or only measures the text.
@@ -52,26 +53,26 @@ static int lay_out_text(Paper *paper, Box inside, int y, double size,
 }
 
 /* Draws the texts of a page one below the other, or only measures them.
- *   size  ems, size of the letters
+ *   size    ems, size of the letters
+ *   extras  texts besides the answer; 1: the verdict, 2: also the question
  * Returns the height of all texts in pixels. */
 static int lay_out_page(Paper *paper, Box inside, double size,
-                        const FrameContent *content, bool draw)
+                        const FrameContent *content, int extras, bool draw)
 {
-    const LecturePage *page = content->lecture.page;
-    const char *how = page_wants_click(page)
-                          ? "Click on the picture. N shows it."
-                      : page->answer ? "Type a number, then Enter. N shows it."
-                                     : "Say it, then press N or Space.";
-    bool asks = content->lecture.hides_answer;
-    bool judged = content->lecture.verdict && !asks;
+    const LectureContent *lecture = &content->lecture;
+    const LecturePage *page = lecture->page;
+    const char *how =
+        page_wants_click(page) ? "Click on the picture. N shows the answer."
+        : page->answer ? "Type a number, then Enter. N shows the answer."
+                       : "Say it, then press N or Space.";
+    bool asks = lecture->hides_answer;
     const PageText words[] = {
         {NULL, page->text, COLOUR_TEXT, 1},
         {NULL, page->formula, COLOUR_TEXT, FORMULA_SIZE},
-        {judged ? "Ask" : NULL, judged ? page->question : NULL, COLOUR_X, 1},
-        {judged ? "You" : NULL, judged ? content->lecture.verdict : NULL,
-         COLOUR_HAND, VERDICT_SIZE},
-        {asks ? "Ask" : "Look",
-         asks ? page->question : content->lecture.look_text, COLOUR_X, 1},
+        {"Ask", extras > 1 ? lecture->asked : NULL, COLOUR_X, 1},
+        {"You", extras > 0 ? lecture->verdict : NULL, COLOUR_HAND, 1},
+        {asks ? "Ask" : "Look", asks ? page->question : lecture->look_text,
+         COLOUR_X, 1},
         {asks ? "How" : "Try", asks ? how : page->try, COLOUR_HAND, 1}};
     int y = inside.y;
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
@@ -83,27 +84,37 @@ static int lay_out_page(Paper *paper, Box inside, double size,
 /* Returns the height of the texts in pixels, with question or answer, whichever
  * is higher: the letters keep their size when the answer comes. */
 static int measure_page(Paper *paper, Box inside, double size,
-                        const FrameContent *content)
+                        const FrameContent *content, int extras)
 {
-    int height = lay_out_page(paper, inside, size, content, false);
+    int height = lay_out_page(paper, inside, size, content, extras, false);
     if (!content->lecture.hides_answer)
         return height;
     FrameContent answered = *content;
     answered.lecture.hides_answer = false;
+    answered.lecture.asked = content->lecture.page->question;
     values_add_flag(&answered.pane[content->active_pane].values, "told", true);
-    int answer = lay_out_page(paper, inside, size, &answered, false);
+    int answer = lay_out_page(paper, inside, size, &answered, extras, false);
     return height > answer ? height : answer;
 }
 
-/* The letters are as large as all texts fit. */
+/* The letters are as large as all texts fit.  The question stays beside the
+ * answer if there is room. */
 void page_draw(const Plot *card)
 {
-    double size =
+    const double most =
         fmin(fmax(card->box.width / (LINE_WIDTH * card->em), LETTERS), LARGEST);
-    while (size > SMALLEST && measure_page(card->paper, card->box, size,
-                                           card->content) > card->box.height)
+    double size = most;
+    int extras = 2;
+    while (size > SMALLEST &&
+           measure_page(card->paper, card->box, size, card->content, extras) >
+               card->box.height) {
         size -= 0.05;
-    lay_out_page(card->paper, card->box, size, card->content, true);
+        if (extras == 2 && size < ASKED) {
+            size = most;
+            extras = 1;
+        }
+    }
+    lay_out_page(card->paper, card->box, size, card->content, extras, true);
 }
 
 Box page_draw_claim(Paper *paper, Box inside, const FrameContent *content)
@@ -126,7 +137,7 @@ static double height_of_card(const FrameContent *content, double wide,
     Paper paper = {.text = content->text, .em = em, .min_letter = 1};
     Box box = {0, 0, (int)(wide * em + 0.5), 0};
     const double around = 2.6; /* ems, title and margin */
-    return measure_page(&paper, box, size, content) / em + around;
+    return measure_page(&paper, box, size, content, 0) / em + around;
 }
 
 double page_needed_height(const FrameContent *content, double wide, double em)

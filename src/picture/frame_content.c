@@ -338,6 +338,15 @@ static const char *cut_label_line(const Plot *stage, const char *label,
     return label + strspn(label, ", ");
 }
 
+/* Whether the picture has a scale; low panes only have room for their label. */
+static bool stage_has_scale(const Plot *stage)
+{
+    bool is_low = stage->box.height < LOW_PANE * stage->em &&
+                  stage->content->panes > 1 && stage->content->lecture.page;
+    return stage->has_text && !is_low &&
+           picture_of_scene(stage->simulation->scene)->shows_scale;
+}
+
 /* Writes the label of a pane, which says how panes differ, in up to three lines
  * below the picture; a wide label stands above the scale. */
 static void draw_pane_label(const Plot *stage, const char *label)
@@ -352,7 +361,7 @@ static void draw_pane_label(const Plot *stage, const char *label)
         int own = paper_width(paper, FACE_BOLD, 1, line[lines++]);
         wide = own > wide ? own : wide;
     }
-    bool high = wide > box->width - 10 * paper->em;
+    bool high = wide > box->width - 10 * paper->em && stage_has_scale(stage);
     double low = box->y + box->height - (high ? 4.2 : 1.7) * paper->em;
     for (int i = 0; i < lines; i++)
         paper_write_on_panel(
@@ -375,7 +384,7 @@ static void draw_pane(Paper *paper, const Layout *layout,
     TextLine line = text_begin(&stage.pane->values, picture->legend);
     while (stage.has_text && text_next_line(&line))
         plot_legend(&stage, line.colour, "%s", line.text);
-    if (stage.has_text && picture->shows_scale)
+    if (stage_has_scale(&stage))
         plot_scale(&stage);
     if (!picture->draws_handles)
         stage_draw_handles(&stage);

@@ -98,6 +98,7 @@ void highlight_draw(Paper *paper, const FrameContent *content)
                                                [LINE_SEARCH] = COLOUR_ALPHA};
     const Trace *trace = active_pane(content)->trace;
     const WindowHit *mouse = &content->view->mouse_hit;
+    int layers = (int)active_pane(content)->simulation->options.layers;
     bool stage = mouse->zone == ZONE_STAGE;
     Colour colour = 0;
     if (!content->lecture.page)
@@ -106,10 +107,9 @@ void highlight_draw(Paper *paper, const FrameContent *content)
         colour = find_term_near(&paper->canvas, mouse->pixel,
                                 (int)(MOUSE_REACH * paper->em));
     bool plain =
-        content->view->hovered.kind == PICK_SWITCH &&
-        !(active_pane(content)->simulation->options.layers & LAYER_KINDS);
-    if (plain || (colour == COLOUR_X && stage))
-        colour = 0; /* no term: a switch, or the springs of the square */
+        content->view->hovered.kind == PICK_SWITCH && !(layers & LAYER_KINDS);
+    if (plain || (colour == COLOUR_X && stage) || layers & LAYER_CURVES)
+        colour = 0; /* no term: a switch, springs of the square, curves of g */
     if (!colour && trace && frame_has_card(content, "listing"))
         colour = of_line[trace->at_line];
     if (colour)

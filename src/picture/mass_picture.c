@@ -386,9 +386,11 @@ void mass_draw(Plot *stage)
                    colour_of_mass(simulation, r));
         plot_ring(stage, step.new_x, 8, 2.2, colour_of_mass(simulation, r));
     }
-    if (simulation->runs == 1 && stage->content->lecture.hides_answer)
+    if (simulation->runs == 1 && stage->content->lecture.hides_answer) {
         plot_arrow(stage, run[0].x, run[0].v, 1, 2.6, COLOUR_VELOCITY);
-    else if (simulation->runs == 1)
+        plot_label(stage, 1, point_along(run[0].x, 0.55, run[0].v).xy,
+                   COLOUR_VELOCITY, "v^{n}");
+    } else if (simulation->runs == 1)
         draw_mass_step(stage);
     for (int r = 0; r < simulation->runs; r++)
         plot_disc(stage, run[r].x, 8, colour_of_mass(simulation, r));

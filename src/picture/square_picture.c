@@ -408,7 +408,7 @@ static void draw_node_arrows(const SquarePen *pen, const double *d,
                    fmin(factor, most / fmax(vector_length(d + 2 * i), 1e-300)),
                    2.6, colour);
     plot_legend(pen->stage, colour, "%s%s", word,
-                factor * longest > 1.001 * most ? ", cut" : "");
+                factor * longest > 1.001 * most ? "; long ones are cut" : "");
 }
 
 /* Computes the positions at rest, x [2n], out. */

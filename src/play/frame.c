@@ -398,10 +398,12 @@ static void fill_frame(const Player *player, Frame *frame)
         snprintf(content->title_bar.message, SENTENCE_SIZE, "%s", player->note);
     content->lecture.hides_answer = player_hides_answer(player);
     fill_own_options(player, &content->lecture);
-    bool judged =
+    bool answered =
         content->pane[0].simulation->options.page == player->tour.revealed &&
-        player->tour.verdict[0] && !content->lecture.own_title[0];
-    content->lecture.verdict = judged ? player->tour.verdict : NULL;
+        !content->lecture.own_title[0];
+    content->lecture.asked = answered ? player->tour.asked : NULL;
+    content->lecture.verdict =
+        answered && player->tour.verdict[0] ? player->tour.verdict : NULL;
     content->lecture.guesses = player->tour.guesses;
     content->lecture.right_guesses = player->tour.right_guesses;
     frame_add_lecture(player->screen.column, player->tour.last_page, content);

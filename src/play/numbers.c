@@ -87,10 +87,13 @@ Status obey_type(Player *player, const Command *command)
     bool list = player_shows_list(player),
          shift = strncmp(command->text, "Shift+", 6) == 0;
     const char *key = command->text + (shift ? 6 : 0);
+    const LecturePage *page = player_active_options(player)->page;
     if (!list && !player->hands.selected &&
-        page_wants_click(player_active_options(player)->page))
-        return player_refuse(player, "a click on the picture is the answer "
-                                     "here; N shows it");
+        (page_wants_click(page) || !page->answer))
+        return player_refuse(player, page->answer
+                                         ? "a click on the picture is the "
+                                           "answer here; N shows it"
+                                         : "say your answer; N shows it");
     if (!player->hands.is_typing)
         typed[0] = '\0';
     player->hands.is_typing = true;

@@ -151,12 +151,13 @@ bool player_hides_answer(const Player *player)
            player->setup.asks_guess && !player->tour.obeys_page;
 }
 
-/* A guess may be wrong by two percent, since it is calculated on paper. */
+/* A guess may be wrong by 2.5 percent, since it is calculated on paper. */
 Status player_reveal_answer(Player *player, const char *typed)
 {
     const LecturePage *page = player_active_options(player)->page;
     const OptionRow any = {
         .kind = OPTION_NUMBER, .unit = "", .low = -HUGE_VAL, .high = HUGE_VAL};
+    player_fill_frame(player);
     double truth =
         page->answer
             ? frame_find_number(&player->screen.frame.content, page->answer)
@@ -164,16 +165,16 @@ Status player_reveal_answer(Player *player, const char *typed)
     double guess = truth;
     if (typed && (!option_read(&any, 1, typed, &guess) || !isfinite(guess)))
         return player_refuse(player, "a number is wanted: 0.25 or 1/4");
-    bool right = fabs(guess - truth) <= 0.02 * fabs(truth);
+    bool right = fabs(guess - truth) <= 0.025 * fabs(truth);
     NumberText number = format_digits(truth, 5);
     bool judged = typed && page->answer && !isnan(truth);
     player->tour.revealed = page;
     player->tour.guesses += judged;
     player->tour.right_guesses += judged && right;
     player->tour.verdict[0] = '\0';
-    if (typed && !page->answer)
-        append(player->tour.verdict, VALUE_SIZE, "Your answer: %s.", typed);
-    else if (judged)
+    snprintf(player->tour.asked, LOOK_SIZE, "%s",
+             frame_fill_question(&player->screen.frame.content));
+    if (judged)
         append(player->tour.verdict, VALUE_SIZE, "%s%s%s.", typed,
                right ? " is right" : "? It is ", right ? "" : number.text);
     if (page->answer && !isnan(truth))
@@ -220,6 +221,7 @@ Status obey_page(Player *player, const Command *command)
     player->tour.last_page = page;
     player->tour.revealed = NULL;
     player->tour.verdict[0] = '\0';
+    player_deselect(player);
     player->screen.column = COLUMN_CARDS;
     player->time.walk_unit = UNIT_STEP;
     sheet_close(player);
