@@ -157,11 +157,8 @@ Status player_reveal_answer(Player *player, const char *typed)
     const LecturePage *page = player_active_options(player)->page;
     const OptionRow any = {
         .kind = OPTION_NUMBER, .unit = "", .low = -HUGE_VAL, .high = HUGE_VAL};
-    player_fill_frame(player);
-    double truth =
-        page->answer
-            ? frame_find_number(&player->screen.frame.content, page->answer)
-            : 0;
+    FrameContent *content = &player->screen.frame.content;
+    double truth = page->answer ? frame_find_number(content, page->answer) : 0;
     double guess = truth;
     if (typed && (!option_read(&any, 1, typed, &guess) || !isfinite(guess)))
         return player_refuse(player, "a number is wanted: 0.25 or 1/4");
@@ -173,7 +170,7 @@ Status player_reveal_answer(Player *player, const char *typed)
     player->tour.right_guesses += judged && right;
     player->tour.verdict[0] = '\0';
     snprintf(player->tour.asked, LOOK_SIZE, "%s",
-             frame_fill_question(&player->screen.frame.content));
+             content->lecture.page == page ? frame_fill_question(content) : "");
     if (judged)
         append(player->tour.verdict, VALUE_SIZE, "%s%s%s.", typed,
                right ? " is right" : "? It is ", right ? "" : number.text);
