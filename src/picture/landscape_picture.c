@@ -381,7 +381,8 @@ void landscape_draw(Plot *stage)
     const LocalModel E = evaluate_energy(simulation, descent->point);
     Plot plot = draw_map(stage);
     unsigned layers = simulation->options.layers;
-    bool halves = layers & LAYER_DOWNHILL, curves = layers & LAYER_CURVES;
+    bool halves = layers & LAYER_DOWNHILL && !simulation->is_over;
+    bool curves = layers & LAYER_CURVES;
     if (halves)
         draw_downhill(&plot, &E);
     for (int i = 0; i < descent->count; i++) {

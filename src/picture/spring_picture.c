@@ -201,21 +201,26 @@ static Plot draw_profile(const Plot *card, Axis y, SpringFunction *of_p,
     return plot;
 }
 
-/* Draws the energies, in a high card with the forces below. */
+/* Draws the energies, and below them the forces; in a low card the energies
+ * alone, on a page the forces alone, for which the page asks. */
 void spring_profile_draw(const Plot *card)
 {
     const System *system = &card->simulation->system;
     double d = vector_length(card->simulation->run[0].x);
     bool both = card->simulation->exhibit.switches;
+    bool low = card->box.height < 14 * card->em;
+    bool page = card->content->lecture.page;
     double tip = (both ? root_energy_at_length : energy_at_length)(system, 0);
     double most = fmax(600, fabs(force_at_length(system, d)));
     Plot upper = *card, lower = *card;
-    if (card->box.height > 14 * card->em) {
+    if (!low)
         upper.box =
             box_cut_off(&lower.box, EDGE_TOP, (int)(0.55 * card->box.height));
+    if (!low || page)
         draw_profile(&lower, (Axis){-most, most, .label = "force in N"},
                      force_at_length, root_force_at_length);
-    }
+    if (low && page)
+        return;
     const Axis y = {0, 1.12 * fmax(tip, energy_at_length(system, d)),
                     .label = NULL};
     Plot plot =

@@ -280,11 +280,13 @@ static void fill_time(const Player *player, FrameContent *content)
     const char *turn = player_simulation(player)->scene->step_name;
     char *text = content->time_line.label;
     double time = 0, longest = -1; /* s, time of the pane with the longest h */
+    bool shared = true;            /* all panes have the same h */
     for (int p = 0; p < past_panes(past); p++) {
         const Simulation *now = &past->pane[p].simulation;
         bool goes = past_find_made_step(past, p, past->step) == past->step;
         double h = goes ? now->options.timestep : 0;
         time = h > longest ? simulation_time(now) : time;
+        shared = shared && (p == 0 || h == longest);
         longest = fmax(longest, h);
     }
     content->time_line.paused = player_is_stopped(player);
@@ -299,7 +301,7 @@ static void fill_time(const Player *player, FrameContent *content)
         append(text, SENTENCE_SIZE, " of %ld", past_newest(past));
     if (!turn)
         append(text, SENTENCE_SIZE, "   t = %.4g s", time);
-    if (!turn && player->time.log_speed != 0)
+    if (!turn && shared && player->time.log_speed != 0)
         append(text, SENTENCE_SIZE,
                player->time.log_speed < 0 ? "   slowed %.4g times"
                                           : "   %.4g steps a frame",
