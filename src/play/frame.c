@@ -280,7 +280,7 @@ static void fill_time(const Player *player, FrameContent *content)
     const char *turn = player_simulation(player)->scene->step_name;
     char *text = content->time_line.label;
     double time = 0, longest = -1; /* s, time of the pane with the longest h */
-    bool shared = true;            /* all panes have the same h */
+    bool shared = true;            /* true if panes share one h */
     for (int p = 0; p < past_panes(past); p++) {
         const Simulation *now = &past->pane[p].simulation;
         bool goes = past_find_made_step(past, p, past->step) == past->step;
