@@ -23,7 +23,7 @@
  * the one along which the bodies are longer (Boundary.sorts_by_y). */
 typedef struct Box2 {
     double low[2], high[2];
-    int edge; /* spring of the edge; -1: the box of a point */
+    int edge_spring; /* spring of the edge; -1: the box of a point */
 } Box2;
 
 typedef struct Boundary {

@@ -78,7 +78,7 @@ typedef struct Push {
     double target[2]; /* m, target of the obstacle's point o */
     SquareMesh mesh;  /* mesh of the bodies, whose cells no ball may enter */
     bool stopped;     /* the obstacle found no room to move in this step */
-    double moved_part; /* part of the step before the obstacle stopped */
+    double stopped_at; /* part of the step before the obstacle stopped */
 } Push;
 
 typedef struct Contact {

@@ -145,8 +145,8 @@ double elements_line_remainder(const EvalPoint *at, const double *p,
  * infinite if it is above 1. */
 double elements_max_step(const EvalPoint *at, const double *p);
 
-/* Whether P exists at x: s of each element is positive.  Tested for starts and,
- * after rounding, for iterates. */
+/* Whether the energy P exists at x: Element.s of each element is positive.
+ * Tested for starts and, after rounding, for iterates. */
 bool elements_are_feasible(const EvalPoint *at);
 
 /* The TermKind of a term with elements begins with these functions. */

@@ -254,7 +254,7 @@ enum ExitCode {
 /* Returns the index, from i on, of the next word of the command line that
  * decides what is simulated, not how long it runs or what it writes; 0: no
  * such word.  The caller loops from i = 0 with i + 1 until it returns 0. */
-int player_next_scene_argument(const Player *player, int i);
+int player_find_scene_word(const Player *player, int i);
 
 /* Reads the command line; prints --help, --version or a list, or creates the
  * player.  Prints a failure as one line on standard error.

@@ -215,7 +215,7 @@ bool option_read(const OptionRow *row, int count, const char *text,
  *   text  [size] out */
 void option_write(const OptionRow *row, double value, char *text, size_t size);
 
-/* Writes the last value of an option with few digits, or "none" without one.
+/* Writes an option's value, the last if repeated, in few digits, or "none".
  *   text  [size] out */
 void option_write_short(const OptionRow *row, const Options *options,
                         char *text, size_t size);

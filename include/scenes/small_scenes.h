@@ -47,7 +47,7 @@ Status create_spring(Simulation *simulation);
 typedef struct MassStep {
     /* Position, velocity, acceleration, SI units, before and after the step. */
     double x[2], v[2], a[2], new_x[2], new_v[2], new_a[2];
-    bool by_old_v; /* x' = x + h v (forward Euler) */
+    bool moves_by_old_v; /* x' = x + h v (forward Euler) */
 } MassStep;
 
 /* Computes the next step of a run.

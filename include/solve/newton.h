@@ -31,8 +31,8 @@ typedef enum ResidualKind {
 
 /* The record of an iteration of the loop. */
 typedef struct NewtonRecord {
-    long step;       /* number of the time step, from 1 */
-    int iteration;   /* number of the iteration in this minimisation, from 0 */
+    long step_number; /* number of the time step, from 1 */
+    int iteration;    /* number of the iteration in this minimisation, from 0 */
     double residual; /* m/s, max over nodes of |p_x| + |p_y|, over h */
     ResidualKind residual_kind; /* how well the residual is known */
     double alpha;               /* step length along p; 0: x has not moved */

@@ -38,8 +38,8 @@ typedef struct IntegratorMethod {
  * wrong last digits: 60 steps of 0.002 s would not be 0.12 s. */
 typedef struct StepClock {
     double time;        /* s, last_change + steps h */
-    double last_change; /* s, time of the last change of h */
-    double h;           /* s, time step of the steps that are counted */
+    double change_time; /* s, time of the last change of h */
+    double h;           /* s, time step since change_time */
     long steps;         /* number of steps since the last change of h */
 } StepClock;
 

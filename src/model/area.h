@@ -36,7 +36,7 @@ void area_expand_along(const double f[4], double unit, const double P[4],
 
 /* Returns Triangles with legs of this length, m, and a right angle, at rest.
  *   node  [3 count] int, memory for the nodes */
-static inline Triangles triangles_of_legs(int count, double leg, void *node)
+static inline Triangles right_triangles(int count, double leg, void *node)
 {
     double area = 0.5 * leg * leg;
     return (Triangles){count, area, 1 / (2 * area), node};

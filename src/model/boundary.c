@@ -62,7 +62,7 @@ static void find_boundary(Boundary *boundary, const System *system)
     for (int s = 0; s < shape->springs; s++) {
         if (boundary->sides[s] != 1)
             continue;
-        boundary->edge_box[boundary->edges++].edge = s;
+        boundary->edge_box[boundary->edges++].edge_spring = s;
         for (int end = 0; end < 2; end++)
             boundary->node_role[system->e[2 * s + end]] |= ON_AN_EDGE;
     }
@@ -90,7 +90,7 @@ static int compare_left_sides(const void *one, const void *other)
     const Box2 *a = one, *b = other;
     if (a->low[0] != b->low[0])
         return a->low[0] < b->low[0] ? -1 : 1;
-    return a->edge - b->edge;
+    return a->edge_spring - b->edge_spring;
 }
 
 /* Makes and sorts the boxes.  The mean motion of all points is left out, since
@@ -125,10 +125,10 @@ static void bound_motions(Boundary *boundary, const System *system)
     }
     for (int k = 0; k < boundary->edges; k++) {
         Box2 *box = &boundary->edge_box[k];
-        int s = box->edge;
+        int s = box->edge_spring;
         const Box2 *other = &boundary->point_box[system->e[2 * s + 1]];
         *box = boundary->point_box[system->e[2 * s]];
-        box->edge = s;
+        box->edge_spring = s;
         for (int c = 0; c < 2; c++)
             extend_box(box, c, other->low[c], other->high[c]);
         double wide = box->high[0] - box->low[0];
@@ -162,12 +162,12 @@ static int search_next_edge(const Boundary *boundary, const System *system,
     for (; k < boundary->edges && boundary->edge_box[k].low[0] <= own->high[0];
          k++) {
         const Box2 *box = &boundary->edge_box[k];
-        const int *end = system->e + 2 * box->edge;
+        const int *end = system->e + 2 * box->edge_spring;
         if (box->low[1] > own->high[1] || box->high[1] < own->low[1] ||
             box->high[0] < own->low[0] || end[0] == node || end[1] == node)
             continue;
         *cursor = k + 1;
-        return box->edge;
+        return box->edge_spring;
     }
     *cursor = 0;
     return -1;

@@ -111,7 +111,7 @@ Status cells_configure(System *system, const SquareMesh *shape,
     if (!cells)
         return STATUS_OUT_OF_MEMORY;
     Triangles *triangles = &cells->triangles;
-    *triangles = triangles_of_legs(count, shape->spacing, cells + 1);
+    *triangles = right_triangles(count, shape->spacing, cells + 1);
     cells->c = triangles->area * stiffness;
     cells->sides = triangles->node + count;
     for (int t = 0; t < count; t++)

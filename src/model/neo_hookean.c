@@ -158,7 +158,7 @@ static Status neo_hookean_configure(System *system, const SquareMesh *mesh,
         return STATUS_OUT_OF_MEMORY;
     data->mu = young / (2 * (1 + nu));
     data->lambda = young * nu / ((1 + nu) * (1 - 2 * nu));
-    data->triangles = triangles_of_legs((int)count, mesh->spacing, data + 1);
+    data->triangles = right_triangles((int)count, mesh->spacing, data + 1);
     for (int c = 0; c < mesh->cells; c++) {
         int node[4], spring[6];
         int i = c % (mesh->cells / mesh->bodies);

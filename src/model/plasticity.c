@@ -141,9 +141,9 @@ static int plastic_hessian(const EvalPoint *at, Projection projection,
     return projected;
 }
 
-/* Along p the strain changes by D = alpha B + alpha^2 C.  Apart from its linear
- * part, W changes by k l2 (V'(e) alpha^2 C + R_V(e, D)): the line polynomial
- * and the line remainder, where R_V is that of V.  Writes B and C. */
+/* Writes B and C: along p the strain e changes by D = alpha B + alpha^2 C.
+ * Apart from V'(e) alpha B, V then changes by V'(e) alpha^2 C + R_V(e, D):
+ * times k l2 the line polynomial and the line remainder. */
 static inline void expand_strain_along(const FlowSpring *spring,
                                        const double *p, double *B, double *C)
 {

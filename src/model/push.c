@@ -105,7 +105,7 @@ void push_begin_step(Contact *contact, const System *system, const double *x,
     Push *push = &contact->hand;
     double way[2];
     push->stopped = false;
-    push->moved_part = 0;
+    push->stopped_at = 0;
     push->held = push->held && push->obstacle < contact->obstacles;
     if (!push->held)
         return;

@@ -222,8 +222,8 @@ static void pair_gradient(const EvalPoint *at, const Element *element,
         g[i] = F * element->n[i % 2] * (i < 2 ? -1 : element->r);
 }
 
-/* With w = dq - r de, the unit vector t along the edge and e_n = n.de, the
- * second derivative is W'' w_n^2 >= 0, plus
+/* With F = -W', w = dq - r de, the unit vector t along the edge and e_n = n.de,
+ * the second derivative is W'' w_n^2 >= 0, plus
  *     F (2 w_t e_n/|e| + d e_n^2/|e|^2)   if p is beside the edge,
  *     -F/d w_t^2                          if p is beyond an end.
  * The sum is a 2x2 matrix in (w_t, e_n), which is projected. */

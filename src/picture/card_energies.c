@@ -1,4 +1,4 @@
-/* card_energies.c - energies and radii over time, and the energy budget. */
+/* card_energies.c - energies and orbits' radii over time; energy budget. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -180,7 +180,7 @@ static double compute_energy_change(const void *function, double alpha)
 }
 
 /* Makes the trace of a descent's last update.  Without updates, or if the last
- * one had no step, makes the trace of the next update. */
+ * one did not move x, makes the trace of the next update. */
 static const Trace *make_descent_trace(const Simulation *simulation,
                                        DescentTrace *space)
 {

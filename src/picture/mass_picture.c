@@ -305,13 +305,13 @@ static void draw_mass_lesson(Plot *stage, const MassStep *step)
     double h = stage->simulation->run[0].h;
     const Point end = find_exact_position(step, h);
     plot_hollow_disc(stage, end.xy, 6, 3.4, COLOUR_GREY);
-    if (step->by_old_v) {
+    if (step->moves_by_old_v) {
         draw_step_error(stage, step, 0.5 * h, "with h/2: a quarter");
         draw_step_error(stage, step, h, "\u00bdh\u00b2 a^{n}");
     }
     plot_label(stage, 1, end.xy, COLOUR_FAINT, "exact");
     bool symplectic =
-        !step->by_old_v && !stage->simulation->run[0].method->is_implicit;
+        !step->moves_by_old_v && !stage->simulation->run[0].method->is_implicit;
     double turn = 1 - 0.5 * h * h, reach = sqrt(1 - turn * turn);
     const Point side = point_along(step->new_x, -turn, step->x);
     const Point across = point_along(origin, 1 / reach, side.xy);
@@ -340,13 +340,13 @@ static void draw_mass_step(Plot *stage)
         double width;
         Colour colour;
         const char *label;
-    } arrow[] = {
-        {step.x, step.v, 2.6, COLOUR_VELOCITY, "v^{n}"},
-        {tip.xy, push.xy, 2.6, COLOUR_FORCE,
-         backward ? "h a^{n+1}" : "h a^{n}"},
-        {step.x, step.new_v, 1.4, COLOUR_VELOCITY, "v^{n+1}"},
-        {step.x, to.xy, 4, COLOUR_X, step.by_old_v ? "h v^{n}" : "h v^{n+1}"},
-        {step.new_x, step.new_a, 1.6, COLOUR_FORCE, "a^{n+1}"}};
+    } arrow[] = {{step.x, step.v, 2.6, COLOUR_VELOCITY, "v^{n}"},
+                 {tip.xy, push.xy, 2.6, COLOUR_FORCE,
+                  backward ? "h a^{n+1}" : "h a^{n}"},
+                 {step.x, step.new_v, 1.4, COLOUR_VELOCITY, "v^{n+1}"},
+                 {step.x, to.xy, 4, COLOUR_X,
+                  step.moves_by_old_v ? "h v^{n}" : "h v^{n+1}"},
+                 {step.new_x, step.new_a, 1.6, COLOUR_FORCE, "a^{n+1}"}};
     for (int i = 0; i < 4 + backward; i++)
         plot_arrow(stage, arrow[i].a, arrow[i].d, 1, arrow[i].width,
                    arrow[i].colour);
@@ -427,15 +427,16 @@ void mass_add_values(const Simulation *simulation, LiveValues *values)
         return;
     values_add_flag(values, "numbers", true);
     values_add_words(values, "at", backward ? "n+1" : "n");
-    values_add_words(values, "by", step.by_old_v ? "n" : "n+1");
+    values_add_words(values, "by", step.moves_by_old_v ? "n" : "n+1");
     values_add_point(values, "place", step.x);
     values_add_point(values, "v", step.v);
     values_add_point(values, "a", backward ? step.new_a : step.a);
     values_add_point(values, "x next", step.new_x);
     values_add_point(values, "v next", step.new_v);
-    values_add_point(values, "carrying", step.by_old_v ? step.v : step.new_v);
+    values_add_point(values, "carrying",
+                     step.moves_by_old_v ? step.v : step.new_v);
     double h = simulation->run[0].h;
-    if (!step.by_old_v && !backward) {
+    if (!step.moves_by_old_v && !backward) {
         values_add(values, "h limit", 2);
         values_add_flag(values, "ellipse", h < 2);
         if (h < 2) { /* beyond, growth makes the invariant inexact */
@@ -446,7 +447,7 @@ void mass_add_values(const Simulation *simulation, LiveValues *values)
     }
     values_add(values, "miss",
                point_distance(step.new_x, find_exact_position(&step, h).xy));
-    if (step.by_old_v) {
+    if (step.moves_by_old_v) {
         const Point half = point_along(step.x, 0.5 * h, step.v);
         values_add(
             values, "half miss",

@@ -1,5 +1,5 @@
-/* scalar_picture.c - Newton's method in one unknown: f with quadratic models
- * (overshoot), or g with tangents above E with parabolas (tangent). */
+/* scalar_picture.c - Newton's method in one unknown.  Scene `overshoot`: f with
+ * quadratic models.  Scene `tangent`: g with tangents, E with parabolas. */
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
@@ -180,7 +180,7 @@ void scalar_add_values(const Simulation *simulation, LiveValues *values)
     values_add_flag(values, update.curvature > 0 ? "lowest" : "highest", true);
 }
 
-/* ---- g with tangents above E with parabolas ------------------------------ */
+/* ---- g with tangents, E with parabolas ----------------------------------- */
 
 void tangent_bounds(const Plot *stage, double bounds[4])
 {

@@ -181,7 +181,7 @@ void command_format(const Command *command, char *line, size_t size)
     for (const char *at = row->args; at; at = find_next_argument(at)) {
         char word[COMMAND_TEXT_SIZE];
         if (*at == 'V' && command->number < 0)
-            continue; /* an unknown option was written with its value */
+            continue; /* text of an unknown option includes its value */
         if (*at == 'N')
             snprintf(word, sizeof word, "%ld", command->number);
         else if (*at == 'X' || *at == 'Y')

@@ -150,7 +150,7 @@ Status obey_set(Player *player, const Command *command)
     Command change = *command;
     change.x = options[player->active].number[row->slot];
     const State *state = past_entry(&player->past, 0, player->past.step)->state;
-    bool is_set = state && state->is_set; /* by a start or a drag */
+    bool is_set = state && state->is_set; /* not made by a step */
     bool again = (!is_set || player_active_run(player)->has_failed) &&
                  (row->effect == EFFECT_AGAIN ||
                   (player_active_options(player)->law &&

@@ -58,7 +58,7 @@ static Status check_target(Player *player, const Command *command)
     return STATUS_OK;
 }
 
-/* Returns the command for a script that a key stands for now. */
+/* Returns what a key's command means now, as a script has it. */
 static Command resolve_key_command(const Player *player, const Command *asked)
 {
     const double *x = player_simulation(player)->run[0].x;

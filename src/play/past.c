@@ -653,7 +653,7 @@ Status past_iterate(Past *past)
     }
     if (past->work_stage == WORK_LOADS)
         past->work_stage = WORK_REPEATS;
-    /* Each pane in turn repeats known steps and makes its part of a new one. */
+    /* First each pane repeats steps up to newest, then each makes the next. */
     long newest = past_newest(past);
     long aim = past->aim_step,
          goal = past_makes_step(past) || aim < newest ? aim : newest;

@@ -68,7 +68,7 @@ static void add_energies(Table *table, const RunAtStep *at)
 }
 
 /* Returns the text of a number in a column of the log. */
-static const char *find_log_text(const char *column, int number)
+static const char *name_log_code(const char *column, int number)
 {
     static const char *const kinds[] = {"value", "estimate"};
     return strcmp(column, "status") == 0   ? status_name((Status)number)
@@ -162,7 +162,7 @@ static Status open_table(const Options *options, Recording *recording, int t)
         return STATUS_OK;
     recording->uses_stdout = recording->uses_stdout || output_is_standard(name);
     recording->has_tables = true;
-    table->get_text = find_log_text;
+    table->get_text = name_log_code;
     table_add_columns(table, kinds[t].columns);
     for (const OptionRow *row = option_rows; row->name; row++)
         if (t == RECORDING_ENERGIES && row->term) {
@@ -241,7 +241,7 @@ Status recording_write_iteration(Recording *recording, const NewtonRecord *at,
     Table *log = &recording->table[RECORDING_LOG];
     /* An iteration below 0 is the end of a step by a prescribed motion. */
     double iteration = at->iteration < 0 ? NAN : at->iteration;
-    double step = (double)at->step;
+    double step = (double)at->step_number;
     double row[] = {
         step,       iteration,   at->residual,  at->alpha,         at->trials,
         at->slope,  at->change,  at->projected, at->factorised,    at->shift,

@@ -8,7 +8,7 @@
 
 enum {
     SLOW_NODES = 50000, /* most nodes that are factorised within SLICE */
-    UPDATE_SPEED = -5   /* speed of scenes whose step is an update */
+    UPDATE_SPEED = -5   /* log_speed if a step is a Newton update */
 };
 
 const PaneRun *player_active_run(const Player *player)

@@ -22,7 +22,7 @@ static Status record_iterations(Player *player, long step)
         for (int i = 0; i < run->records.count && !status; i++) {
             NewtonRecord row = run->records.record[i];
             if (recording->panes > 1)
-                row.step = step;
+                row.step_number = step;
             status = recording_write_iteration(recording, &row, p + 1);
         }
     }

@@ -5,8 +5,8 @@
 
 #include "play/view.h"
 
-/* The document has a title of its own, and the browser has keys for the full
- * screen.  The page waits by itself: no input arrives while C runs. */
+/* Empty functions: the document has its own title, the browser has keys for the
+ * full screen, and no input arrives while C runs, so it need not wait. */
 /* clang-format off */
 EM_JS(bool, window_open, (const int *size, bool full), { return true; });
 EM_JS(void, window_close, (void), {});

@@ -229,7 +229,7 @@ Status step_descent(Simulation *simulation)
 {
     Descent *descent = &simulation->descent;
     choose_stopping_test(simulation);
-    NewtonRecord record = {.step = simulation->steps + 1,
+    NewtonRecord record = {.step_number = simulation->steps + 1,
                            .iteration = (int)simulation->steps,
                            .residual = descent->residual,
                            .alpha = 1,

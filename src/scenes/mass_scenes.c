@@ -70,7 +70,7 @@ bool mass_find_next_step(const Simulation *simulation, int run, MassStep *step)
     bool symplectic = strcmp(name, "symplectic-euler") == 0;
     bool backward = strcmp(name, "backward-euler") == 0;
     double h = integrator->h;
-    step->by_old_v = forward;
+    step->moves_by_old_v = forward;
     for (int i = 0; i < 2; i++) {
         double x = integrator->x[i], v = integrator->v[i];
         double a = -MASS_OMEGA2 * x, new_v = v + h * a;

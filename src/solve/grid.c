@@ -63,11 +63,11 @@ void grid_lay_out(int segments, Memory *memory, Grid *grid)
     for (int kind = 0; kind < KINDS; kind++) {
         grid->c[kind] = memory_take_piece(memory, plane);
         grid->l2[kind] = memory_take_piece(memory, plane);
-        grid->single_c[kind] = memory_take_piece(memory, plane / 2);
-        grid->single_l2[kind] = memory_take_piece(memory, plane / 2);
+        grid->float_c[kind] = memory_take_piece(memory, plane / 2);
+        grid->float_l2[kind] = memory_take_piece(memory, plane / 2);
     }
-    grid->single_m = memory_take_piece(memory, plane / 2);
-    grid->single_x = memory_take_piece(memory, plane);
+    grid->float_m = memory_take_piece(memory, plane / 2);
+    grid->float_x = memory_take_piece(memory, plane);
     grid->m = memory_take_piece(memory, plane);
     grid->inverse_m = memory_take_piece(memory, plane);
     grid->node_shift = memory_take_piece(memory, shifts);
@@ -116,7 +116,7 @@ void grid_read_system(Grid *grid, const Iterate *at, const double *m)
             int q = node_place(rows, i, j);
             grid->m[q] = grid->mass_unit * m[2 * node];
             grid->inverse_m[q] = system->pinned[node] ? 0 : 1 / grid->m[q];
-            grid->single_m[q] = system->pinned[node] ? 0 : (float)grid->m[q];
+            grid->float_m[q] = system->pinned[node] ? 0 : (float)grid->m[q];
         }
     share_rows(rows, masses, 2, grid->node_shift);
     for (int kind = 0; kind < KINDS; kind++) {
@@ -144,8 +144,8 @@ void grid_read_system(Grid *grid, const Iterate *at, const double *m)
         for (int q = 0; q < rows->plane; q++) {
             double c = grid->c[kind][q], l2 = grid->l2[kind][q];
             grid->stiffest = fmax(grid->stiffest, 8 * c * l2);
-            grid->single_c[kind][q] = (float)c;
-            grid->single_l2[kind][q] = (float)l2;
+            grid->float_c[kind][q] = (float)c;
+            grid->float_l2[kind][q] = (float)l2;
         }
 }
 

@@ -59,16 +59,16 @@ typedef struct Grid {
     /* Equal rows of masses are stored once, and so are equal rows of springs.
      * Node q in row i has the mass m[q + node_shift[i]]; the springs that start
      * there have the index q + spring_shift[i + 1]; [0] is for row -1. */
-    int *node_shift, *spring_shift; /* [nodes + 1] shifts by row */
+    int *node_shift, *spring_shift; /* [nodes + 1] index shifts */
     double *c[KINDS];  /* [plane] 2 w k/l2 by kind of spring; 0: no spring */
     double *l2[KINDS]; /* [plane] squared rest length */
     double *m, *inverse_m; /* [plane] mass and 1/mass; inverse_m is 0 at pins */
     double lightest;       /* smallest mass of a node that moves */
     double stiffest;       /* largest stiffness of a node's springs, 8 c l2 */
-    float *single_c[KINDS];  /* [plane] c in single precision */
-    float *single_l2[KINDS]; /* [plane] l2 in single precision */
-    float *single_m;         /* [plane] mass without node_shift; 0 at pins */
-    float *single_x; /* [2 planes] x - x of the middle node (grid_narrow_x) */
+    float *float_c[KINDS]; /* [plane] c in single precision */
+    float *float_l2[KINDS]; /* [plane] l2 in single precision */
+    float *float_m;         /* [plane] mass without node_shift; 0 at pins */
+    float *float_x; /* [2 planes] x - x of the middle node (grid_narrow_x) */
     double *x, *x_tilde, *u_tilde; /* [2 planes] u_tilde is x_tilde - x_n */
     double *from_target; /* [2 planes] x - x_tilde = u - u_tilde; 0 at pins */
 } Grid;
@@ -136,5 +136,5 @@ double grid_correct_momentum(const Grid *grid);
 /* Adds a p to x. */
 void grid_add_step(const Grid *grid, double a, const double *p);
 
-/* Computes single_x. */
+/* Computes float_x. */
 void grid_narrow_x(const Grid *grid);

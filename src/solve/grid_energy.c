@@ -200,6 +200,6 @@ FAST void grid_narrow_x(const Grid *grid)
     for (int c = 0; c < 2; c++) {
         const double *const x = grid->x + c * plane;
         double middle = x[node_place(&grid->rows, n / 2, n / 2)];
-        narrow_numbers(x, 1, middle, plane, grid->single_x + c * plane);
+        narrow_numbers(x, 1, middle, plane, grid->float_x + c * plane);
     }
 }

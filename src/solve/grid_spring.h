@@ -24,7 +24,7 @@ INLINE Spring evaluate_grid_spring(const Grid *grid, int kind, int q, int to,
     return (Spring){dx, dy, d2, s, c, c * s};
 }
 
-/* A Spring in single precision, from Grid.single_x. */
+/* A Spring in single precision, from Grid.float_x. */
 typedef struct SingleSpring {
     Few dx, dy, d2, s, c;
 } SingleSpring;
@@ -32,10 +32,10 @@ typedef struct SingleSpring {
 INLINE SingleSpring evaluate_single_spring(const Grid *grid, int kind, int q,
                                            int to, int at)
 {
-    const float *x = grid->single_x, *y = x + grid->rows.plane;
+    const float *x = grid->float_x, *y = x + grid->rows.plane;
     Few dx = FEW(x, q) - FEW(x, q + to), dy = FEW(y, q) - FEW(y, q + to);
-    Few d2 = dx * dx + dy * dy, c = FEW(grid->single_c[kind], q + at);
-    return (SingleSpring){dx, dy, d2, d2 - FEW(grid->single_l2[kind], q + at),
+    Few d2 = dx * dx + dy * dy, c = FEW(grid->float_c[kind], q + at);
+    return (SingleSpring){dx, dy, d2, d2 - FEW(grid->float_l2[kind], q + at),
                           c};
 }
 

@@ -181,7 +181,7 @@ static Status multigrid_find_direction(Newton *newton)
                       !mg->is_slow, mg->p, &largest)) {
         double square = grid_linear_residual(&mg->grid, mg->g, mg->p, &largest);
         newton->passes_test =
-            v_cycle_passes(&mg->grid, largest, square, longest);
+            p_passes_test(&mg->grid, largest, square, longest);
     }
     record->residual = largest / h;
     record->residual_kind = RESIDUAL_ESTIMATE;

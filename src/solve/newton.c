@@ -20,7 +20,8 @@ void newton_start(Newton *newton, const double *x_n, const double *u,
     }
     newton->tolerance = tolerance;
     newton->status = STATUS_RUNNING;
-    newton->record = (NewtonRecord){.step = newton->step, .iteration = -1};
+    newton->record =
+        (NewtonRecord){.step_number = newton->step, .iteration = -1};
     newton->has_gradient = false;
     newton->direction.moved_since_factor = INFINITY; /* no factor yet */
     newton->clamps_left = 0;
@@ -144,7 +145,7 @@ Status newton_minimise(Newton *newton)
                                          ? &multigrid_phases
                                          : &newton_phases;
         double start = clock_now();
-        *record = (NewtonRecord){.step = newton->step,
+        *record = (NewtonRecord){.step_number = newton->step,
                                  .iteration = record->iteration + 1,
                                  .solver = newton->active_solver};
 

@@ -57,8 +57,8 @@ INLINE float find_lowering_step(const float q[4], float *lower)
     return go;
 }
 
-/* Sums over a node's springs: gradient of E (GX, GY), Hessian block, not
- * clamped (XX, XY, YY), c d (CX, CY), c (CC), and the negative f (NEGATIVE). */
+/* Sums over a node's springs (see Spring): gradient of E (GX, GY), Hessian,
+ * not clamped (XX, XY, YY), c d (CX, CY), c (CC), each f below 0 (NEGATIVE). */
 enum { GX, GY, XX, XY, YY, CX, CY, CC, NEGATIVE, SUMS };
 
 typedef float NodeSums[SUMS][LANES];
@@ -75,7 +75,7 @@ INLINE void gather_springs(const Tiles *tiles, NodeRun at, bool is_fine,
     const float *const ux = tiles->u, *const uy = ux + plane;
     EACH_FEW (NEXT(at, LANES)) {
         const int q = at.first + e;
-        Few mass = FEW(grid->single_m, q), iso = mass;
+        Few mass = FEW(grid->float_m, q), iso = mass;
         Few gx = FEW(tiles->start_g, q) + mass * FEW(ux, q);
         Few gy = FEW(tiles->start_g, q + plane) + mass * FEW(uy, q);
         Few xx = {0}, xy = {0}, yy = {0};
@@ -143,7 +143,7 @@ INLINE void relax_nodes(const Tiles *tiles, NodeRun at, bool is_fine,
 {
     const Grid *grid = tiles->grid;
     const int plane = grid->rows.plane;
-    float *const x = grid->single_x, *const y = x + plane;
+    float *const x = grid->float_x, *const y = x + plane;
     float *const ux = tiles->u, *const uy = ux + plane;
     NodeSums of;
     gather_springs(tiles, at, is_fine, of);
@@ -154,7 +154,7 @@ INLINE void relax_nodes(const Tiles *tiles, NodeRun at, bool is_fine,
         bool good = (trace > 0) & (A * C - B * B > DEFINITE * trace * trace);
         float a = good ? A : A - negative, d = good ? C : C - negative;
         float det = a * d - B * B;
-        bool moves = (det > 0) & (grid->single_m[q] > 0);
+        bool moves = (det > 0) & (grid->float_m[q] > 0);
         float over = moves ? -1 / (det > 0 ? det : 1) : 0;
         float px = (d * gx - B * gy) * over, py = (a * gy - B * gx) * over;
         float along[4], lower;
@@ -240,7 +240,7 @@ INLINE void begin_relaxation(const Tiles *tiles, double *g)
                    start_g);
     for (int c = 0; c < 2 && !tiles->is_fine; c++)
         EACH_OF (plane)
-            start_g[c * plane + e] *= grid->single_m[e];
+            start_g[c * plane + e] *= grid->float_m[e];
 }
 
 FAST void tiles_relax(Tiles *tiles, double pace, double *p)

@@ -23,7 +23,7 @@ void v_cycle_lay_out(const Grid *grid, Memory *memory, VCycle *cycle)
             level->K[i / 3][i % 3] = memory_take_piece(memory, bytes);
         for (int i = 0; i < 3; i++)
             level->D[i] = memory_take_piece(memory, bytes);
-        level->m = level == cycle->level ? grid->single_m
+        level->m = level == cycle->level ? grid->float_m
                                          : memory_take_piece(memory, bytes);
         float **vectors[] = {&level->x, &level->b, &level->w};
         for (int i = 0; i < 3; i++)
@@ -115,8 +115,8 @@ INLINE void split_even_odd(const RowLayout *rows, int I, int first,
     }
 }
 
-/* With J = first + e: EVEN(di) is the number in row 2 I + di and column 2 J of
- * the finer level, ODD(di, dj) the one in column 2 (J + dj) + 1. */
+/* FINER picks an array of the finer level.  With J = first + e, EVEN(di) is its
+ * number at (2 I + di, 2 J), ODD(di, dj) the one in column 2 (J + dj) + 1. */
 #define FINER(from)                                                            \
     const float *const a = (from) + node_place(&fine, 2 * I, 0) + first
 #define EVEN(di)    a[(di)*fine.pitch + e]
@@ -416,8 +416,8 @@ FAST static double advance_conjugate_gradients(const VCycle *of, float alpha,
     return total;
 }
 
-bool v_cycle_passes(const Grid *grid, double largest, double square,
-                    double longest)
+bool p_passes_test(const Grid *grid, double largest, double square,
+                   double longest)
 {
     return largest + sqrt(2 / grid->lightest * square) <= longest;
 }
@@ -486,7 +486,7 @@ FAST bool v_cycle_solve(VCycle *cycle, const double *g, double square,
                                                   (float)beta, largest);
         double share = sqrt(rest / square) / unit;
         *largest /= unit;
-        passes = v_cycle_passes(
+        passes = p_passes_test(
             grid, *largest, MARGIN * MARGIN * share * share * square, longest);
         if (share <= (*largest > HOPEFUL * longest ? LOOSE : LEAST))
             break;

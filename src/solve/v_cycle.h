@@ -66,5 +66,5 @@ bool v_cycle_solve(VCycle *cycle, const double *g, double square,
  *   largest  max over nodes of |p_x| + |p_y|
  *   square   |r|_(M^-1)^2
  *   longest  largest |p_x| + |p_y| of a node with which p passes the test */
-bool v_cycle_passes(const Grid *grid, double largest, double square,
-                    double longest);
+bool p_passes_test(const Grid *grid, double largest, double square,
+                   double longest);

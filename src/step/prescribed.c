@@ -161,7 +161,7 @@ void prescribed_start(TimeIntegrator *run)
             run, fmin(run->remaining_part, push_max_step(contact, run->h)),
             HAND_HALVINGS, HAND_PARTS);
         contact->hand.stopped = part == 0;
-        contact->hand.moved_part = run->moved_part;
+        contact->hand.stopped_at = run->moved_part;
     }
     bool others = run->system->pin_v != NULL;
     for (int k = 0; contact && k < contact->obstacles; k++)
@@ -181,11 +181,11 @@ void prescribed_start(TimeIntegrator *run)
                  guess ? 10 * tolerance + 0.01 : tolerance);
 }
 
-/* Reports a step that prescribed motion has ended: a record of no iteration. */
+/* Tells the observer that the motion ended the step: a record, iteration -1. */
 static void report_motion_end(const Newton *newton, Status status)
 {
     const NewtonSettings *settings = &newton->settings;
-    const NewtonRecord end = {.step = newton->step,
+    const NewtonRecord end = {.step_number = newton->step,
                               .iteration = -1,
                               .residual = newton->record.residual,
                               .residual_kind = newton->record.residual_kind,
@@ -240,7 +240,7 @@ double prescribed_work(const TimeIntegrator *run)
             int k = walk.element.partner;
             const double *v = contact->obstacle[k].v, *n = walk.element.n;
             bool stopped = contact->hand.stopped && k == contact->hand.obstacle;
-            sum += (stopped ? contact->hand.moved_part : run->moved_part) *
+            sum += (stopped ? contact->hand.stopped_at : run->moved_part) *
                    contact_normal_force(&contact->barrier, walk.element.s) *
                    (n[0] * v[0] + n[1] * v[1]);
         }

@@ -73,9 +73,9 @@ void time_integrator_free(TimeIntegrator *run)
 static void count_step(StepClock *clock, double h)
 {
     if (h != clock->h)
-        *clock = (StepClock){.last_change = clock->time, .h = h};
+        *clock = (StepClock){.change_time = clock->time, .h = h};
     clock->steps++;
-    clock->time = clock->last_change + (double)clock->steps * h;
+    clock->time = clock->change_time + (double)clock->steps * h;
 }
 
 /* Lets the terms begin a step: friction, for one, reads contacts at x_n. */

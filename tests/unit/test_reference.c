@@ -58,7 +58,7 @@ static bool keep_update(void *user, const NewtonRecord *record)
     Updates *kept = user;
     CHECK(kept->count < ROWS);
     int i = kept->count++;
-    kept->row[i].step = record->step;
+    kept->row[i].step = record->step_number;
     kept->row[i].update = record->iteration;
     kept->row[i].residual = record->residual;
     kept->row[i].alpha = record->alpha;
