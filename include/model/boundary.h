@@ -38,9 +38,9 @@ typedef struct Boundary {
 
     /* Motion for which the boxes were made: from x by alpha (p - mean). */
     bool boxes_valid; /* whether the boxes belong to the present boundary */
-    bool has_motion;  /* false: the boxes are those of x alone */
+    bool is_swept;    /* false: the boxes are those of x alone */
     double *x, *p;    /* [2n] m; x is the start of the block of all arrays */
-    double alpha;     /* part of p that the boxes cover */
+    double alpha;     /* the boxes hold the motion alpha p */
     double mean[2];   /* m, mean of p over the points; a motion that all points
                          share brings none closer to an edge */
     double margin;    /* m, each box is wider by it at all sides */

@@ -44,7 +44,7 @@ typedef struct Obstacle {
 /* Width and strength of the barrier. */
 typedef struct Barrier {
     double d_hat; /* m, gap at which the barrier begins */
-    double c;     /* J, A d_hat kappa/2 */
+    double c;     /* J, strength: area kappa d_hat/2 */
 } Barrier;
 
 /* Gap between a node and an obstacle. */

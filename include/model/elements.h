@@ -80,7 +80,7 @@ struct ElementKind {
      * Blocks do not depend on x, which may be NULL. */
     int (*block_count)(const EvalPoint *at);
 
-    /* Writes the nodes of a block and returns their number. */
+    /* Writes the nodes of a block of the Hessian, returns their number. */
     int (*block_nodes)(const EvalPoint *at, int block, int node[3]);
 
     /* Returns the energy W of the element, in joules. */
@@ -141,8 +141,8 @@ int elements_hessian(const EvalPoint *at, Projection projection,
 double elements_line_remainder(const EvalPoint *at, const double *p,
                                double alpha);
 
-/* Returns the largest alpha > 0 along p that keeps s of each element positive;
- * infinite if it is above 1. */
+/* Returns an alpha > 0 up to which the gaps and areas of all elements stay
+ * positive along p; infinite if it is above 1. */
 double elements_max_step(const EvalPoint *at, const double *p);
 
 /* Whether the energy P exists at x: Element.s of each element is positive.

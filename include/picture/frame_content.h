@@ -328,7 +328,7 @@ Camera camera_of_pane(const FrameContent *content, const Layout *layout,
                       int pane);
 
 /* Returns the present bounds of a pane's view, for View.held_bounds. */
-HeldBounds frame_hold_bounds(const FrameContent *content, const Layout *layout,
+HeldBounds frame_view_bounds(const FrameContent *content, const Layout *layout,
                              int pane);
 
 /* Finds the part of a picture at this pixel; PICK_NONE outside of the stage. */

@@ -38,8 +38,8 @@ typedef struct Card {
     const char *words;      /* text; lines with unknown values are left out */
     const struct ListingRow *listing; /* lines of an algorithm (cards.h) */
     const char *column_heads; /* text: the heads of the table, with | between */
-    /* Fills row 1, 2, ... of the table.  Returns false after the last row, for
-     * row 0 if the table is empty.  NULL: the card has no table. */
+    /* Fills row 1, 2, ... below the heads; returns false after the last row,
+     * and for row 0 if the table is empty.  NULL: the card has no table. */
     bool (*fill_row)(const FrameContent *content, int row, CardTableRow *cells);
     const char *legend; /* text: the legend of the graph, or NULL */
     /* Fills a row of a legend with values: a name and a value.  Returns false

@@ -93,7 +93,7 @@ typedef struct PaneRun {
     long step;
     bool is_iterating; /* a step of the simulation has begun */
     int substeps;    /* steps of the simulation since `step` */
-    long steps_before; /* steps of the simulation before this substep */
+    long start_steps;    /* steps of the simulation before this substep */
     StepOutcome outcome; /* outcome of this step, else of the last step */
     bool has_failed; /* the step after `step` could not be made */
     StepTrace trace; /* iterates of the last step that was made */

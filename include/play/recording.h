@@ -87,7 +87,7 @@ Status recording_write_states(Recording *recording, bool energies_only,
 Status recording_write_iteration(Recording *recording,
                                  const NewtonRecord *record, int pane);
 
-/* Closes all files.  If a file has failed, no file gets its name. */
+/* Closes all files.  If one has failed, all keep their ".part". */
 Status recording_close(Recording *recording, FileEnding keep);
 
 /* Frees a recording; files that were not closed are removed. */

@@ -66,7 +66,7 @@ typedef struct SpringValues {
     double force[2];    /* -grad P, on the free end, N */
     double eigenvalue_along;  /* eigenvalue of P's Hessian along d, J/m^2 */
     double eigenvalue_across; /* eigenvalue of P's Hessian across d, J/m^2 */
-    double root_energy; /* J, energy with the square root, P_root */
+    double root_energy;       /* J, P_root, the energy in |d| - l instead */
     double root_along, root_across; /* J/m^2, eigenvalues of P_root's Hessian;
                                        root_across is -infinity at d = 0 */
 } SpringValues;
@@ -154,8 +154,8 @@ double envelope_timestep(int column);
 /* Returns the stiffness of a row, J/m^2. */
 double envelope_stiffness(int row);
 
-/* Creates `envelope`: run 0 is the run of the shown cell.  At the start this is
- * the cell nearest to h and k of the options. */
+/* Creates `envelope`: run 0 is that of the map's shown cell, at the start the
+ * one nearest to h and k of the options. */
 Status create_envelope(Simulation *simulation);
 
 /* Runs the cells of the next row, from the softest springs to the stiffest. */

@@ -51,7 +51,7 @@ struct TimeIntegrator {
     long steps;        /* steps so far */
     Status status;     /* status of the last step */
     StepClock clock;   /* time of x and v */
-    bool has_motion;   /* has prescribed motion of walls or pins in this step */
+    bool is_driven;    /* has prescribed motion of walls or pins in this step */
     double moved_part; /* part of the way that is done in this step */
     double work;       /* J, work of the prescribed motion so far */
     double *x;         /* [2n] m, positions; start of the block of all arrays */

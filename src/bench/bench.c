@@ -83,7 +83,7 @@ static const double first_error = 1e-2;
 
 /* The fastest run with an error below a target. */
 typedef struct FastestRun {
-    const char *name; /* method; NULL: no run is so accurate */
+    const char *name; /* method; NULL: no run met the target */
     double ms;        /* run time */
 } FastestRun;
 

@@ -97,8 +97,7 @@ static int compare_left_sides(const void *one, const void *other)
  * it changes no distance. */
 static void bound_motions(Boundary *boundary, const System *system)
 {
-    const double *x = boundary->x,
-                 *p = boundary->has_motion ? boundary->p : NULL;
+    const double *x = boundary->x, *p = boundary->is_swept ? boundary->p : NULL;
     double *mean = boundary->mean;
     boundary->widest = mean[0] = mean[1] = 0;
     Box2 all = empty_box;
@@ -181,13 +180,13 @@ void boundary_update(Boundary *boundary, const System *system, const double *x,
         edge;
     if (boundary->version != system->version)
         find_boundary(boundary, system);
-    if (boundary->boxes_valid && boundary->has_motion == (p != NULL) &&
+    if (boundary->boxes_valid && boundary->is_swept == (p != NULL) &&
         boundary->alpha == alpha && boundary->margin == margin &&
         memcmp(boundary->x, x, bytes) == 0 &&
         (!p || memcmp(boundary->p, p, bytes) == 0))
         return;
     boundary->boxes_valid = true;
-    boundary->has_motion = p != NULL;
+    boundary->is_swept = p != NULL;
     boundary->alpha = alpha;
     boundary->margin = margin;
     memcpy(boundary->x, x, bytes);

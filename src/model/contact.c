@@ -141,7 +141,7 @@ static bool contact_hessian(const EvalPoint *at, const Element *element,
     double along = barrier->c / (barrier->d_hat * barrier->d_hat) *
                    barrier_curvature(element->s / barrier->d_hat);
     double across = -contact_normal_force(barrier, element->s) / element->r;
-    bool changed = across < 0 && projects_blocks(projection); /* wall: no */
+    bool changed = across < 0 && projects_blocks(projection); /* at balls */
     if (changed)
         across = project_eigenvalue(projection, across);
     H[0][0] = at->weight * (along * n[0] * n[0] + across * n[1] * n[1]);

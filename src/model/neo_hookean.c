@@ -43,7 +43,7 @@ static double neo_hookean_value(const EvalPoint *at, const Element *element)
             0.5 * data->lambda * L * L);
 }
 
-/* Writes p = dW/dJ/A0 and 2 mu - p, factors of F+, F- (area.h) in dW/dF. */
+/* Writes the factors of F+ and F- (area_split) in the stress dW/dF/A0. */
 static void compute_stresses(const NeoHookean *data, double J, double *on_plus,
                              double *on_minus)
 {
@@ -51,8 +51,8 @@ static void compute_stresses(const NeoHookean *data, double J, double *on_plus,
     *on_minus = 2 * data->mu - *on_plus;
 }
 
-/* dW/dF = on_plus F+ + on_minus F-, with F = F+ + F- as in area.h.  Rounding
- * is proportional to the stress, while in mu F - mu F^-T it would be to mu. */
+/* dW/dF/A0 = on_plus F+ + on_minus F-, with F = F+ + F- (area.h).  Rounding is
+ * proportional to the stress, while in mu F - mu F^-T it would be to mu. */
 static void neo_hookean_gradient(const EvalPoint *at, const Element *element,
                                  double g[4])
 {
@@ -65,7 +65,7 @@ static void neo_hookean_gradient(const EvalPoint *at, const Element *element,
     g[3] = 0.5 * (p * plus[0] - q * minus[0]);
 }
 
-/* Writes the projected Hessian of W in (a, b) by its eigenspaces. */
+/* Writes the projected Hessian of W in two sides, by its eigenspaces. */
 static bool project_hessian(const EvalPoint *at, const Element *element,
                             Projection projection, AreaHessian *area)
 {

@@ -170,8 +170,8 @@ static bool is_below_rounding(const SelfContact *self, const Element *element,
     return !(element->s > least * least);
 }
 
-/* Element i is point i with its next near edge.  The boxes of the boundary
- * allow for the motion, so `way` is not used. */
+/* Each call finds the next edge near point i.  The boxes of the boundary allow
+ * for the motion, so `way` is not needed. */
 static bool pair_get_element(const EvalPoint *at, int i, double way,
                              Element *element)
 {
@@ -190,12 +190,12 @@ static bool pair_get_element(const EvalPoint *at, int i, double way,
         subtract_node(at->x, element->node[0], element->node[2],
                       element->node[1], element->v);
         point_edge_distance(self, element);
-        if (!boundary->has_motion && element->s >= 1)
+        if (!boundary->is_swept && element->s >= 1)
             continue;
         if (is_below_rounding(self, element, at->x))
             element->s = 0;
         element->block_index =
-            boundary->has_motion ? -1 : find_pair_block(self, pair);
+            boundary->is_swept ? -1 : find_pair_block(self, pair);
         return true;
     }
     (void)way;

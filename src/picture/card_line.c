@@ -55,7 +55,7 @@ static void fill_curves(const Trace *trace, const Trace *other,
             : fmin(fmax(high, 0.25 * depth), MAX_ABOVE * depth);
 }
 
-/* Draws a trial of the line search; above the axis as an arrow with a value. */
+/* Draws a trial of the line search; above the plot, an arrow and its value. */
 static void draw_trial_step(const Plot *plot, double alpha, double value,
                             bool accepted)
 {

@@ -161,7 +161,7 @@ Camera camera_of_pane(const FrameContent *content, const Layout *layout,
     return stage_create(NULL, content, layout, pane).camera;
 }
 
-HeldBounds frame_hold_bounds(const FrameContent *content, const Layout *layout,
+HeldBounds frame_view_bounds(const FrameContent *content, const Layout *layout,
                              int pane)
 {
     HeldBounds held = {.is_held = true, .pane = pane};

@@ -471,7 +471,7 @@ static void place_card_without_room(const FrameContent *content, Layout *layout)
     place_card_below(
         layout, folded,
         fmin(fmax((needs + 2 * GAP) * em, room), CARD_BELOW * stage->height));
-    Box *page = &layout->card[0]; /* may have the room of a bar below it */
+    Box *page = &layout->card[0]; /* may take the title bar of the moved card */
     if (!layout->has_list && title.y <= page->y + page->height + em)
         page->height = title.y + title.height - page->y;
 }

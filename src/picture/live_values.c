@@ -447,7 +447,7 @@ int card_write_flow(const Plot *card, int at[2], double size, double gap,
 
 /* ---- the title bar ------------------------------------------------------- */
 
-/* Fills an empty string with the text's first line with known values. */
+/* Fills an empty string with the first line whose values are known. */
 static void fill_text(const LiveValues *values, const char *text, char *string,
                       size_t size)
 {

@@ -21,7 +21,7 @@ static const double MAX_GROWTH = 1e303; /* limit of the view's growth */
 static const double VIEW_SIZE = 1.14, BARE_VIEW_SIZE = 1.75;
 static const double MAGNIFIER_SIDE = 11; /* ems */
 static const double VELOCITY_TIME = 0.1; /* s, duration of the arrow's way */
-/* widen_to_circle's `reach` for balls, grounds, and the place of a pull. */
+/* Balls, grounds and a pull are shown up to here, in halves of the view. */
 static const double BALL_REACH = 4, GROUND_REACH = 2, PULL_REACH = 16;
 
 /* ---- how much of the world is seen -------------------------------------- */

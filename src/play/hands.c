@@ -181,13 +181,13 @@ static bool drag_places_nodes(const Player *player)
 }
 
 /* Begins a drag of a part of the scene, or obeys a click on the part. */
-static Status press_target(Player *player, const MouseTarget *target)
+static Status begin_press(Player *player, const MouseTarget *target)
 {
     Mouse *mouse = &player->hands.mouse;
     const LecturePage *page = player_active_options(player)->page;
     double point[2];
     mouse->item = target->pick.index;
-    player->screen.view.held_bounds = frame_hold_bounds(
+    player->screen.view.held_bounds = frame_view_bounds(
         &player->screen.frame.content, &target->layout, target->pane);
     switch (target->pick.kind) {
     case PICK_OBSTACLE:
@@ -404,7 +404,7 @@ static Status press_left_button(Player *player, const MouseTarget *target,
         if (target->pane != player->active)
             status = obey(player, COMMAND_PANE, target->pane);
         if (status || clicks < 2 || !ground)
-            return status ? status : press_target(player, target);
+            return status ? status : begin_press(player, target);
         return body && target->pick.nearest_node < 0 &&
                        target->pick.kind == PICK_NONE
                    ? add_ball(player, target->place)

@@ -141,7 +141,7 @@ Status obey_set(Player *player, const Command *command)
     for (int p = from; p < to && !status; p++) {
         status =
             options_set(&options[p], row, command->text, command->x, message);
-        if (!status && row->max_times) /* obstacles need room */
+        if (!status && row->max_times) /* obstacles may overlap a body */
             status = simulation_check_clearance(
                 &player->past.pane[p].simulation, &options[p], message);
     }

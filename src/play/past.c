@@ -228,7 +228,7 @@ static Status store_state(Past *past, int pane, bool set, Entry *entry)
 
 /* Leaves the step of a pane's run.  Until now an edit could have needed the
  * state of the step; now the state is dropped unless its entry keeps it. */
-static void pane_run_leave_step(Past *past, int pane)
+static void pane_run_drop_state(Past *past, int pane)
 {
     PaneRun *run = &past->pane[pane];
     const Branch *branch = present_branch(past);
@@ -242,10 +242,10 @@ static void pane_run_leave_step(Past *past, int pane)
     run->has_state = false;
 }
 
-static void leave_steps_of_panes(Past *past)
+static void drop_states_of_panes(Past *past)
 {
     for (int p = 0; p < past_panes(past); p++)
-        pane_run_leave_step(past, p);
+        pane_run_drop_state(past, p);
 }
 
 /* Puts a branch on top of the present one, and drops undone branches.  The
@@ -272,7 +272,7 @@ static Branch *push_branch(Past *past, Branch wanted, const Command *edit)
     for (int p = 0; p < past_panes(past); p++)
         if (branch->from_options || p >= branch->panes ||
             past->pane[p].step > branch->first_step)
-            pane_run_leave_step(past, p);
+            pane_run_drop_state(past, p);
     for (int p = 0; p < branch->panes && !branch->from_options; p++)
         for (int i = 0; i < branch->copies; i++) {
             Entry *to = &branch->entry[i * branch->panes + p];
@@ -426,7 +426,7 @@ static Status pane_run_seek(Past *past, int pane, long goal)
         return STATUS_OUT_OF_MEMORY;
     Status status = STATUS_OK;
     if (!run->has_state || run->step != from) {
-        pane_run_leave_step(past, pane);
+        pane_run_drop_state(past, pane);
         pane_run_forget_step(run);
         run->outcome = entry->outcome;
     }
@@ -477,7 +477,7 @@ static Status end_failed_pane(Past *past, int pane, Status why)
 {
     PaneRun *run = &past->pane[pane];
     long step = run->step, last = past_find_drawable_step(past, pane, step);
-    pane_run_leave_step(past, pane);
+    pane_run_drop_state(past, pane);
     Status status = pane_run_seek(past, pane, last);
     while (run->step < last && (!status || status == STATUS_RUNNING))
         status = pane_run_iterate(past, pane);
@@ -530,7 +530,7 @@ static Status pane_run_finish_step(Past *past, int pane)
     if (past_makes_step(past) && run->substeps > 0)
         past->work_stage = WORK_MADE;
     run->substeps = 0;
-    pane_run_leave_step(past, pane);
+    pane_run_drop_state(past, pane);
     if (to->state && to->state->is_set)
         status = pane_run_load_state(run, to->state);
     else if (past->stores_states && !to->state)
@@ -552,7 +552,7 @@ static Status pane_run_end_iteration(Past *past, int pane, Status status)
     run->is_iterating = false;
     if (past->stores_states)
         step_trace_end(&run->trace, &simulation->options);
-    bool moved = simulation->steps > run->steps_before;
+    bool moved = simulation->steps > run->start_steps;
     outcome->status = status ? status : outcome->status;
     outcome->extent = 0;
     for (int i = 0; i < 2 * simulation->system.nodes; i++)
@@ -596,7 +596,7 @@ static Status pane_run_iterate(Past *past, int pane)
     if (past->stores_states)
         step_trace_begin(&run->trace, &run->simulation, past->samples_energy,
                          pane == past->line_pane);
-    run->steps_before = run->simulation.steps;
+    run->start_steps = run->simulation.steps;
     run->is_iterating = true;
     return pane_run_end_iteration(past, pane,
                                   simulation_begin_step(&run->simulation));
@@ -704,7 +704,7 @@ void past_choose_step(Past *past, long step, bool again)
     past->load_step = past->aim_step - 1;
     for (int p = 0; p < past_panes(past); p++)
         step_trace_clear(&past->pane[p].trace);
-    leave_steps_of_panes(past);
+    drop_states_of_panes(past);
 }
 
 /* ---- edits --------------------------------------------------------------- */
@@ -733,7 +733,7 @@ Status past_begin_runs(Past *past, const Options *options, int panes,
         .from_options = true, .panes = panes, .gesture = gesture};
     Status status = STATUS_OK;
     abandon_work(past);
-    leave_steps_of_panes(past);
+    drop_states_of_panes(past);
     for (int p = 0; p < panes && !status; p++) {
         PaneRun *run = &past->pane[p];
         status = pane_run_create(run, &options[p]);
@@ -817,7 +817,7 @@ static const Control *make_edited_control(const Control *from,
     return control;
 }
 
-static Status edit_pane_entry(Past *past, int pane, const Command *edit,
+static Status apply_pane_edit(Past *past, int pane, const Command *edit,
                               Entry *entry)
 {
     Simulation *simulation = &past->pane[pane].simulation;
@@ -870,7 +870,7 @@ Status past_edit(Past *past, const Command *edit, int from, int to, bool again,
     invalidate_tables(past, past->step, edit_changes_state(edit));
     for (long i = branch->entries - 1; i < branch->entries + again; i++)
         for (int p = from; p < to && !status; p++)
-            status = edit_pane_entry(past, p, edit,
+            status = apply_pane_edit(past, p, edit,
                                      &branch->entry[i * branch->panes + p]);
     return status || again ? status : finish_shown_step(past);
 }
@@ -890,7 +890,7 @@ const Command *past_undo(Past *past, int way)
                           past->branch[b].from_options ||
                               edit_changes_state(&past->branch[b].edit));
     abandon_work(past);
-    leave_steps_of_panes(past);
+    drop_states_of_panes(past);
     present_branch(past)->left_step = past->step;
     past->current = to;
     past->step = present_branch(past)->left_step;

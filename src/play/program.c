@@ -38,7 +38,7 @@ static int check_standard_output(void)
 
 /* Prints the answer to --help, --version, --lecture --list or --list.  Returns
  * the exit code, or PROGRAM_PLAYS without such an option. */
-static int print_information(const Options *options)
+static int print_if_asked(const Options *options)
 {
     errno = 0;
     if (options->help)
@@ -300,7 +300,7 @@ int program_begin(int argc, char **argv, const volatile sig_atomic_t *stop,
             return print_error(EXIT_FAILED, "%s; try fewer --segments",
                                status_text(status));
     }
-    int code = print_information(options);
+    int code = print_if_asked(options);
     if (code != PROGRAM_PLAYS)
         return code;
     if (check_file_names(options, MESSAGE(message)))

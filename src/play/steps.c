@@ -266,7 +266,7 @@ static void enter_line_walk(Player *player, AfterWork after)
         const StepTrace *trace = &player->past.pane[p].trace;
         Trace shown;
         double far = 0;
-        int place = trace->place_count <= 2     ? -1 /* no lines */
+        int place = trace->place_count <= 2     ? -1 /* no update */
                     : after == AFTER_SHOW_FIRST ? 0
                     : after == AFTER_SHOW_LAST  ? trace->place_count - 1
                                                 : step_trace_find_peak(trace);
@@ -500,7 +500,7 @@ Status obey_next(Player *player, const Command *command)
     return player_seek(player, player->past.step + 1, after);
 }
 
-static bool panes_have_updates(const Player *player)
+static bool panes_use_newton(const Player *player)
 {
     bool any = false;
     for (int p = 0; p < past_panes(&player->past); p++)
@@ -516,7 +516,7 @@ Status obey_back(Player *player, const Command *command)
     player_pause(player);
     if (step == 0)
         player_note(player, "this is step 0: nothing was before it");
-    if (player->time.walk_unit == UNIT_STEP || !panes_have_updates(player))
+    if (player->time.walk_unit == UNIT_STEP || !panes_use_newton(player))
         return player_seek(player, step - 1, AFTER_NOTHING);
     if (player->view_of_pane[player->active].place < 0 && step > 0) {
         if (!player_active_run(player)->has_trace)
@@ -534,7 +534,7 @@ Status obey_walk_unit(Player *player, const Command *command)
     static const char *const paces[] = {
         "whole steps", "updates of Newton's method", "lines of Algorithm 3"};
     if (player_active_options(player)->next == NEXT_NEARER ||
-        (!panes_have_updates(player) && player->time.walk_unit == UNIT_STEP))
+        (!panes_use_newton(player) && player->time.walk_unit == UNIT_STEP))
         return player_refuse(player, "a step here has no finer ones");
     player->time.walk_unit = (player->time.walk_unit + 1) % UNITS;
     player_pause(player);

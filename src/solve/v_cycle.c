@@ -372,8 +372,9 @@ FAST static void multiply_level(const Level *level, double *sums)
 
 /* ---- conjugate gradients ---- */
 
-/* Makes a step of conjugate gradients: d = x + beta d, A d = w + beta A d,
- * p += alpha d, b -= alpha A d.  Returns |b|_(M^-1)^2.
+/* Makes a step of conjugate gradients, with the V-cycle x of b and w = A x:
+ * d = x + beta d, A d = w + beta A d, p += alpha d, b -= alpha A d.  Returns
+ * |b|_(M^-1)^2.
  *   largest  out, max over nodes of |p_x| + |p_y| */
 FAST static double advance_conjugate_gradients(const VCycle *of, float alpha,
                                                float beta, double *largest)

@@ -128,7 +128,7 @@ static void begin_stage(TimeIntegrator *run)
         for (size_t i = 0; i < run->x_length; i++)
             newton->u_tilde[i] += run->weight * system->gravity[i % 2];
     newton->step = run->steps + 1;
-    if (run->has_motion)
+    if (run->is_driven)
         prescribed_start(run);
     else
         newton_start(newton, run->x, NULL, run->weight,
@@ -153,7 +153,7 @@ static Status end_step(TimeIntegrator *run, Status status)
     memcpy(run->x, run->new_x, both * sizeof(double));
     run->steps++;
     count_step(&run->clock, run->h);
-    if (run->has_motion)
+    if (run->is_driven)
         run->work += prescribed_work(run);
     end_term_steps(run);
     return run->status;
@@ -165,7 +165,7 @@ Status time_integrator_begin(TimeIntegrator *run)
     run->stage = 0;
     if (run->newton)
         run->newton->change = 0;
-    run->has_motion = prescribed_begin(run);
+    run->is_driven = prescribed_begin(run);
     Status status = begin_term_steps(run);
     if (status)
         return end_step(run, status);
@@ -185,7 +185,7 @@ Status time_integrator_advance(TimeIntegrator *run)
             return status;
 
         /* Move walls and pins by the next part of their way */
-        if (run->has_motion && prescribed_end_part(run, &status)) {
+        if (run->is_driven && prescribed_end_part(run, &status)) {
             prescribed_start(run);
             continue;
         }

@@ -71,7 +71,7 @@ static IncrementalPotential watch_potential(const Watch *watch)
 static Moment watch_moment(const Watch *watch)
 {
     double moved =
-        watch->run->has_motion ? watch->run->moved_part * watch->run->h : 0;
+        watch->run->is_driven ? watch->run->moved_part * watch->run->h : 0;
     return (Moment){watch_potential(watch), moved};
 }
 
@@ -164,7 +164,7 @@ static void judge_end(Watch *watch)
     double l2 = system->springs ? INFINITY : 1;
     for (int s = 0; s < system->springs; s++)
         l2 = fmin(l2, system->l2[s]);
-    bool guess = watch->run->has_motion && watch->run->remaining_part > 0;
+    bool guess = watch->run->is_driven && watch->run->remaining_part > 0;
     double limit = guess ? newton->tolerance : watch->tolerance;
     if (newton->passes_test)
         judge_convergence(watch, watch->u, limit);
@@ -198,7 +198,7 @@ static void watch_begin(Watch *watch)
     const Newton *newton = watch->run->newton;
     memcpy(watch->x_n, newton->at.E.x_n, (size_t)n * sizeof *watch->x_n);
     for (int i = 0; i < n; i++)
-        watch->u[i] = watch->run->has_motion ? watch->run->new_x[i] : 0;
+        watch->u[i] = watch->run->is_driven ? watch->run->new_x[i] : 0;
     if (!system_find_term(watch->run->system, &cell_energy))
         watch->crossings = exact_crossings(watch->run->system, watch->x_n);
     Moment moment = watch_moment(watch);
@@ -215,7 +215,7 @@ static void watch_descent(Watch *watch, const double *u, const char *where)
     long double energy = wide_energy(&moment, u);
     long double scale =
         fabsl(energy - watch->start) + fabsl(watch->energy - watch->start);
-    bool was_flat = watch->flat, flat = watch->run->has_motion;
+    bool was_flat = watch->flat, flat = watch->run->is_driven;
     watch->flat =
         smallest_cell(moment.E.system, watch->run->newton->at.x) < FLAT;
     flat = flat && (watch->flat || was_flat || !isfinite(watch->energy));
@@ -387,7 +387,7 @@ static bool is_free(const TimeIntegrator *run, int *pin)
                                             &damping,
                                             &self_friction_energy};
     bool free =
-        !run->has_motion && strcmp(run->method->name, "backward-euler") == 0;
+        !run->is_driven && strcmp(run->method->name, "backward-euler") == 0;
     *pin = -1;
     for (int i = 0; i < run->system->nodes && run->system->pinned; i++)
         if (run->system->pinned[i]) {

@@ -766,6 +766,7 @@ void exact_blocks(const IncrementalPotential *E, const double *u, int lifts,
 /* A step's gradient and Hessian: g, and the sum of the sizes of its parts [2n];
  * H [2n 2n]. */
 typedef struct Assembly {
+    const System *system;
     Real *g, *size, *H;
     int n, lifts;
 } Assembly;
@@ -788,7 +789,7 @@ static void add_block(void *assembly, const Block *block)
 static void assemble(const Spot *spot, const double *u, const double *u_tilde,
                      const Assembly *to)
 {
-    const System *system = spot->at->system;
+    const System *system = to->system;
     size_t n = (size_t)to->n;
     memset(to->g, 0, n * sizeof *to->g);
     memset(to->size, 0, n * sizeof *to->size);
@@ -812,16 +813,21 @@ void exact_derivatives(const IncrementalPotential *E, const double *u,
     EvalPoint at = make_eval_point(E->system, E->x_n, u, x);
     at.weight = E->weight;
     const Spot spot = {.at = &at, .h = h};
-    const Assembly to = {g, size, H, (int)n, lifts};
+    const Assembly to = {E->system, g, size, H, (int)n, lifts};
     assemble(&spot, u, E->u_tilde, &to);
     free(size);
 }
 
 /* H becomes L D below and on its diagonal, of L D L^T without pivots; false: a
- * pivot is 0. */
-static bool factor_densely(int n, Real *H)
+ * pivot is 0.  A pivot of a clamped H that is below the mass is rounding. */
+static bool factor_densely(const Assembly *of)
 {
+    int n = of->n;
+    Real *H = of->H;
     for (int c = 0; c < n; c++) {
+        Real m = of->system->pinned[c / 2] ? 0 : of->system->m[c / 2];
+        if (of->lifts && H[n * c + c] < m)
+            H[n * c + c] = m;
         if (!(fabsl(H[n * c + c]) > 0))
             return false;
         for (int r = c + 1; r < n; r++) {
@@ -839,7 +845,7 @@ static Real solve_densely(const Assembly *of)
 {
     int n = of->n;
     Real most = 0, *H = of->H, *b = of->g;
-    if (!factor_densely(n, H))
+    if (!factor_densely(of))
         return INFINITY;
     for (int c = 0; c < n; c++)
         for (int r = c + 1; r < n; r++)
@@ -916,7 +922,7 @@ static double residual_by_side(const IncrementalPotential *E, const double *u,
     at.weight = E->weight;
     const Spot spot = {
         .at = &at, .h = sqrtl(E->weight), .moved = moved, .side = side};
-    const Assembly to = {g, g + n, g + 2 * n, (int)n, lifts};
+    const Assembly to = {E->system, g, g + n, g + 2 * n, (int)n, lifts};
     assemble(&spot, u, E->u_tilde, &to);
     Real most = solve_densely(&to);
     for (int round = 0; noise && round < SAMPLES; round++)
