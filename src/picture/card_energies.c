@@ -180,10 +180,10 @@ static Axis make_energies_axis(const Simulation *simulation, const Curves *all,
     if (first > 0 && low >= -0.01 * high &&
         (panes || high > LOG_GROWTH * first))
         return (Axis){pow(10, floor(log10(fmax(least, LOG_LOW * first))) - 1),
-                      pow(10, ceil(log10(fmin(high, LOG_HIGH * first)))), true,
-                      false, "J"};
+                      pow(10, ceil(log10(fmin(high, LOG_HIGH * first)))),
+                      .is_log = true, .label = "J"};
     return (Axis){low < -0.01 * high ? -plot_round_axis_end(-low) : 0,
-                  plot_round_axis_end(high), false, false, "J"};
+                  plot_round_axis_end(high), .label = "J"};
 }
 
 static void draw_curves(const Plot *plot, const Curves *all)
@@ -287,7 +287,7 @@ void energies_draw(const Plot *card)
     if (has_legend)
         box_cut_off(&rest.box, EDGE_TOP, write_legend(card, &all, named, true));
     Axis energy = make_energies_axis(card->simulation, &all, &last);
-    Axis time = {0, plot_round_up(last), false, false, "t in s"};
+    Axis time = {0, plot_round_up(last), .label = "t in s"};
     Plot plot = plot_create(&rest, time, energy);
     if (all.t_max < plot.x.high)
         plot_line(&plot, (double[2]){all.t_max, plot.y.low},
@@ -348,9 +348,9 @@ void radius_draw(const Plot *card)
     for (int r = 0; r < simulation->runs; r++)
         most =
             fmax(most, 1.1 * fabs(log10(vector_length(simulation->run[r].x))));
-    Plot plot = plot_create(
-        card, (Axis){0, plot_round_up(last), false, false, "t in s"},
-        (Axis){pow(10, -most), pow(10, most), true, false, NULL});
+    Plot plot =
+        plot_create(card, (Axis){0, plot_round_up(last), .label = "t in s"},
+                    (Axis){pow(10, -most), pow(10, most), .is_log = true});
     double steps = values_find_number(&card->pane->values, "doubling");
     const double twice[2] = {steps * simulation->options.timestep, 2};
     plot_dashes(&plot, (double[2]){0, 2}, (double[2]){plot.x.high, 2}, 1, NULL,

@@ -78,7 +78,7 @@ static double breaking_force_ratio(const void *now, double part)
 }
 
 static const Law laws[] = {
-    {"barrier", "gap \u03b4 in m", "W in J", &contact_energy, &contact_energy,
+    {"barrier", "gap \u03b4 in mm", "W in J", &contact_energy, &contact_energy,
      element_energy_at, 0, 1.2},
     {"pair", "", "", &self_contact_energy, &self_contact_energy,
      element_energy_at, 0, 1.2},
@@ -285,7 +285,7 @@ void law_draw(const Plot *card)
     const double dot[2] = {fmin(fmax(x, low), high), y};
     most = plot_round_axis_end(1.1 * fmax(most, fabs(y)));
     Plot plot = plot_create(
-        card, (Axis){low, high, .label = law->x_label},
+        card, (Axis){low, high, .is_milli = law == laws, .label = law->x_label},
         (Axis){both ? -most : -0.02 * most, most, .label = law->y_label});
     plot_graph(&plot, law->evaluate, now, 2.4, COLOUR_X);
     if (law->evaluate == element_energy_at && !isnan(x))

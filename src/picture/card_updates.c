@@ -99,10 +99,10 @@ void residual_draw(const Plot *card)
         }
     }
     bool is_main = card->simulation->options.main_card;
-    Axis x = {0.5, fmax(updates + pending, 4) + (is_main ? 0.9 : 0.5), false,
-              true, "update"};
-    Axis y = {pow(10, floor(log10(low))), pow(10, ceil(log10(high))), true,
-              false, is_main ? "residual, m/s" : NULL};
+    Axis x = {0.5, fmax(updates + pending, 4) + (is_main ? 0.9 : 0.5),
+              .is_whole = true, .label = "update"};
+    Axis y = {pow(10, floor(log10(low))), pow(10, ceil(log10(high))),
+              .is_log = true, .label = is_main ? "residual, m/s" : NULL};
     Plot plot = plot_create(card, x, y);
     const double left[2] = {x.low, trace->tolerance};
     const double right[2] = {x.high, trace->tolerance};

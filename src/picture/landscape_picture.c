@@ -155,12 +155,14 @@ static void mark_stationary_points(const Plot *plot)
             at[i][1] += p[1];
         }
         bool saddle = i == 2;
-        bool again = i == 1 && point_distance(at[0], at[1]) < 1e-6;
-        if (again || !(vector_length(p) <= 1e-9) ||
+        if ((i == 1 && point_distance(at[0], at[1]) < 1e-6) ||
+            !(vector_length(p) <= 1e-9) ||
             descent_hessian_index(simulation, at[i][0], at[i][1]) != saddle)
             continue;
         plot_hollow_disc(plot, at[i], 4, 2, COLOUR_TEXT);
-        plot_label(plot, 1, at[i], COLOUR_TEXT, saddle ? "saddle" : "minimum");
+        if (!saddle || !(simulation->options.layers & LAYER_DOWNHILL))
+            plot_label(plot, 1, at[i], COLOUR_TEXT,
+                       saddle ? "saddle" : "minimum");
     }
 }
 
@@ -182,11 +184,14 @@ static void draw_directions(const Plot *plot, bool both)
     Colour colour = slope > 0 ? COLOUR_WARNING
                     : raw     ? COLOUR_PROJECT
                               : COLOUR_GHOST;
+    Colour own_colour = descent->slope > 0 ? COLOUR_WARNING : COLOUR_P;
     if (other)
         plot_arrow(plot, from, p, 1, 2.2, colour);
     if (both || !alone)
-        plot_arrow(plot, from, own, 1, 2.2,
-                   descent->slope > 0 ? COLOUR_WARNING : COLOUR_P);
+        plot_arrow(plot, from, own, 1, 2.2, own_colour);
+    if (other && plot->revealed)
+        plot_label(plot, 1, point_along(from, 1, own).xy, own_colour,
+                   "p: %s J s\u00b2", format_digits(descent->slope, 2).text);
     double length = vector_length(p) * plot->camera.scale[0], tip[2];
     double far = 1 + 1.6 * plot->em / fmax(length, 1e-9);
     const Point place[2] = {point_along(from, 1, p), point_along(from, far, p)};
@@ -406,8 +411,7 @@ void landscape_draw(Plot *stage)
     else if (!lecture->hides_answer)
         draw_directions(&plot, plot.has_text && both);
     if (halves) {
-        double size = 6 * plot.em / plot.camera.scale[0]; /* m */
-        double far = size / vector_length(E.g);
+        double far = 6 * plot.em / plot.camera.scale[0] / vector_length(E.g);
         plot_arrow(&plot, descent->point, E.g, -far, 2.2, COLOUR_TEXT);
         plot_label(&plot, 1, point_along(descent->point, -far, E.g).xy,
                    COLOUR_TEXT, "\u2212\u2207E");

@@ -66,7 +66,7 @@ static NumberText format_tick(const Axis *axis, double value)
 {
     double span = axis->high - axis->low;
     bool is_zero = !axis->is_log && fabs(value) < 1e-9 * span;
-    return format_number(is_zero ? 0 : value);
+    return format_number(is_zero ? 0 : axis->is_milli ? 1000 * value : value);
 }
 
 /* Lists the multiples of a step on the axis, or the powers of ten whose

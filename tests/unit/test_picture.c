@@ -165,14 +165,14 @@ TEST(axes_name_their_values)
         Axis axis;
         double value[6]; /* NAN ends them */
     } rows[] = {
-        {true, {0, 10, false, false, NULL}, {0, 5, 10, NAN}},
-        {true, {-1, 3, false, false, NULL}, {-1, 0, 1, 2, 3, NAN}},
-        {true, {0, 2, false, true, NULL}, {0, 1, 2, NAN}},
-        {true, {2e-9, 5, true, false, NULL}, {1e-8, 1e-6, 1e-4, 0.01, 1, NAN}},
-        {false, {0, 0.85, false, false, NULL}, {0, 0.2, 0.4, 0.6, 0.8, NAN}},
-        {false, {0.5, 2e4, true, false, NULL}, {1, 10, 100, 1000, 1e4, NAN}},
+        {true, {0, 10, .label = NULL}, {0, 5, 10, NAN}},
+        {true, {-1, 3, .label = NULL}, {-1, 0, 1, 2, 3, NAN}},
+        {true, {0, 2, .is_whole = true}, {0, 1, 2, NAN}},
+        {true, {2e-9, 5, .is_log = true}, {1e-8, 1e-6, 1e-4, 0.01, 1, NAN}},
+        {false, {0, 0.85, .label = NULL}, {0, 0.2, 0.4, 0.6, 0.8, NAN}},
+        {false, {0.5, 2e4, .is_log = true}, {1, 10, 100, 1000, 1e4, NAN}},
     };
-    const Axis plain = {0.05, 0.95, false, false, NULL};
+    const Axis plain = {0.05, 0.95, .label = NULL};
     for (size_t r = 0; r < sizeof rows / sizeof *rows; r++) {
         Paper paper, one;
         double sum = 0;
@@ -216,7 +216,7 @@ TEST(axes_name_their_values)
  * its middle beyond is left out. */
 TEST(plots_keep_to_their_axes)
 {
-    const Axis axis = {0, 1, false, false, NULL};
+    const Axis axis = {0, 1, .label = NULL};
     const double in[2] = {0.5, 0.5}, out[2] = {1.02, 0.5}, d[2] = {0.52, 0};
     Paper paper;
     assert_int_equal(paper_create(300, 300, &paper), 0);
