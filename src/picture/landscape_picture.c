@@ -142,12 +142,14 @@ static Plot draw_map(const Plot *stage)
 
 /* ---- Newton's path ------------------------------------------------------- */
 
-/* Finds and marks the minima and the saddle by Newton's method. */
+/* Finds and marks the minima by Newton's method, and the saddle, which would
+ * cover the directions of LAYER_DOWNHILL. */
 static void mark_stationary_points(const Plot *plot)
 {
     const Simulation *simulation = plot->simulation;
     double at[3][2] = {{0, 1}, {0, -1}, {0, 0}};
-    for (int i = 0; i < 3; i++) {
+    int points = simulation->options.layers & LAYER_DOWNHILL ? 2 : 3;
+    for (int i = 0; i < points; i++) {
         double p[2] = {1, 1};
         for (int k = 0; k < 40 && vector_length(p) > 1e-9; k++) {
             descent_direction(simulation, PROJECTION_NONE, at[i], p);
@@ -160,9 +162,7 @@ static void mark_stationary_points(const Plot *plot)
             descent_hessian_index(simulation, at[i][0], at[i][1]) != saddle)
             continue;
         plot_hollow_disc(plot, at[i], 4, 2, COLOUR_TEXT);
-        if (!saddle || !(simulation->options.layers & LAYER_DOWNHILL))
-            plot_label(plot, 1, at[i], COLOUR_TEXT,
-                       saddle ? "saddle" : "minimum");
+        plot_label(plot, 1, at[i], COLOUR_TEXT, saddle ? "saddle" : "minimum");
     }
 }
 
@@ -192,12 +192,11 @@ static void draw_directions(const Plot *plot, bool both)
     if (other && plot->revealed)
         plot_label(plot, 1, point_along(from, 1, own).xy, own_colour,
                    "p: %s J s\u00b2", format_digits(descent->slope, 2).text);
-    double length = vector_length(p) * plot->camera.scale[0], tip[2];
-    double far = 1 + 1.6 * plot->em / fmax(length, 1e-9);
-    const Point place[2] = {point_along(from, 1, p), point_along(from, far, p)};
-    plot_to_pixel(plot, place->xy, tip);
-    if (other && box_contains(plot->box, tip[0], tip[1]))
-        plot_label(plot, 2, place->xy, colour, "with %s: %s J s\u00b2",
+    const Point tip = point_along(from, 1, p);
+    double pixel[2];
+    plot_to_pixel(plot, tip.xy, pixel);
+    if (other && box_contains(plot->box, pixel[0], pixel[1]))
+        plot_label(plot, 1, tip.xy, colour, "with %s: %s J s\u00b2",
                    raw ? "\u0124" : "H", format_digits(slope, 2).text);
 }
 
