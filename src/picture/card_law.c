@@ -82,9 +82,9 @@ static const Law laws[] = {
      element_energy_at, 0, 1.2},
     {"pair", "", "", &self_contact_energy, &self_contact_energy,
      element_energy_at, 0, 1.2},
-    {"rub", "slip in m/s", "f/(\u03bc f_{N})", &self_friction_energy,
+    {"rub", "slip in mm/s", "f/(\u03bc f_{N})", &self_friction_energy,
      &self_contact_energy, friction_force_ratio, 0, 2},
-    {"triangle", "det F", "\u03a8 in J/m\u00b2", &neo_hookean_energy,
+    {"triangle", "J", "\u03a8 in J/m\u00b2", &neo_hookean_energy,
      &neo_hookean_energy, triangle_energy_density, 0, 1.5},
     {"yield", "strain s", "f/(2k|d|)", &plastic_energy, NULL, flow_force_at, -1,
      1},
@@ -250,10 +250,10 @@ void law_add_values(const Simulation *simulation, LiveValues *values)
                    self ? self_contact_of(system)->c
                         : contact_of(system)->barrier.c);
         values_add(values, "d hat", 1e3 * now.axis_unit);
-        values_add(values, "law mm", 1e3 * now.x);
         values_add(values, "law force", contact_force_at(&now));
     }
     values_add(values, "law x", now.x);
+    values_add(values, "law mm", 1e3 * now.x);
     if (!isnan(now.x))
         values_add(values, "law y", law_value_at(law, &now));
     if (flows)
@@ -285,7 +285,7 @@ void law_draw(const Plot *card)
     const double dot[2] = {fmin(fmax(x, low), high), y};
     most = plot_round_axis_end(1.1 * fmax(most, fabs(y)));
     Plot plot = plot_create(
-        card, (Axis){low, high, .is_milli = law == laws, .label = law->x_label},
+        card, (Axis){low, high, .is_milli = strstr(law->x_label, "mm"), .label = law->x_label},
         (Axis){both ? -most : -0.02 * most, most, .label = law->y_label});
     plot_graph(&plot, law->evaluate, now, 2.4, COLOUR_X);
     if (law->evaluate == element_energy_at && !isnan(x))
