@@ -364,10 +364,6 @@ void frame_fill_texts(FrameContent *content);
 /* Returns the live value with this name in the active pane; NaN: unknown. */
 double frame_find_number(FrameContent *content, const char *name);
 
-/* Returns the page's question with the present values, valid until the next
- * call. */
-const char *frame_fill_question(FrameContent *content);
-
 /* Whether an open card of the scene or page draws E along p.
  *   toggled  bit c: card c was opened or closed by hand */
 bool cards_need_line_energy(const Simulation *simulation, unsigned toggled);

@@ -29,8 +29,7 @@ int paper_pixels(const Paper *paper, double ems);
 /* Keeps the box of words that labels must not cover. */
 void paper_keep_words(Paper *paper, Box box);
 
-/* Draws a line of markup, formatted as by printf, below y.  Returns its width
- * in pixels. */
+/* Draws markup, formatted as by printf, below y.  Returns its width, pixels. */
 int paper_write(Paper *paper, Face face, double size, Colour colour, double x,
                 double y, Align align, const char *format, ...);
 
@@ -45,10 +44,9 @@ void paper_shorten(Paper *paper, double size, int width, char *words,
 int paper_write_in_box(Paper *paper, Face face, double size, Colour colour,
                        Box box, Align align, const char *markup);
 
-/* Draws a line on a translucent white panel, so that it can be read on a
- * picture.  Returns the width in pixels. */
-int paper_write_on_panel(Paper *paper, Face face, double size, Colour colour,
-                         double x, double y, Align align, const char *markup);
+/* Draws a line on a translucent white panel, to be read on a picture. */
+void paper_write_on_panel(Paper *paper, Face face, double size, Colour colour,
+                          double x, double y, Align align, const char *markup);
 
 /* Returns the width of a line in pixels. */
 int paper_width(Paper *paper, Face face, double size, const char *markup);

@@ -54,8 +54,7 @@ TextExtent text_extent(Text *text, const TextStyle *style, const char *markup);
 size_t text_break_line(Text *text, const TextStyle *style, int width,
                        const char *markup, size_t room, TextExtent *extent);
 
-/* Draws one line.  Words are below y; fractions and matrices reach higher.
- * Returns the width. */
+/* Draws a line below y; fractions reach higher.  Returns its width, pixels. */
 int text_draw(Text *text, Canvas *canvas, const TextStyle *style, double x,
               double y, Align align, const char *markup);
 
@@ -79,6 +78,5 @@ typedef struct Glyph {
     uint8_t *mask; /* [height width] coverage; NULL: no pixel is covered */
 } Glyph;
 
-/* Finds or draws a letter; size in pixels.  The pointer is valid until the next
- * call. */
+/* Finds or draws a letter, valid until the next call; size in pixels. */
 const Glyph *font_get_glyph(Text *text, Face face, int size, uint32_t letter);

@@ -1,8 +1,7 @@
 /* command.h - the commands of keys, mouse, wheel and scripts.
  *
  * The table command_rows has a row for each command.  The window obeys the same
- * commands as a script, so a session can be saved as a script and played again.
- */
+ * commands as a script: a session can be saved as a script and played again. */
 #pragma once
 
 #include <stdbool.h>
@@ -74,8 +73,7 @@ Command command_from_key(const char *key, bool repeats, KeyScope scope);
 /* Prints the text of --help commands. */
 void commands_print_help(FILE *file);
 
-/* Reads the line of a command, such as "goto 12".  Returns OK, or INVALID_INPUT
- * with a message. */
+/* Reads a line such as "goto 12".  Returns OK, INVALID_INPUT with a message. */
 Status command_parse(const char *line, Command *command, Message message);
 
 /* Writes the line that command_parse reads, its numbers with 17 digits.

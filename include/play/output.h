@@ -3,8 +3,7 @@
  *   "-", /dev/stdout         standard output
  *   a regular or new file    NAME.part is written, and renamed at the end
  *   a pipe, a device         is written directly
- * A run that fails or is killed leaves NAME.part; the next run overwrites it.
- */
+ * A run that fails or is killed leaves NAME.part, which the next overwrites. */
 #pragma once
 
 #include <stdbool.h>

@@ -34,6 +34,8 @@
 /* Largest extent that a picture can show, over the extent after step 1. */
 #define PAST_EXPLODED 10
 
+enum { PAST_ALL = -1 }; /* past_edit edits each pane */
+
 /* A stored state, which entries of several branches can share. */
 typedef struct State {
     int user_count;         /* number of entries that share the state */
@@ -158,11 +160,11 @@ Status past_begin_runs(Past *past, const Options *options, int panes,
  *            COMMAND_DRAG, COMMAND_RELEASE, COMMAND_PLACE, COMMAND_OBSTACLE,
  *            COMMAND_HANDLE, COMMAND_FLIP; COMMAND_ADD_PANE adds a pane with
  *            the past of the last one, COMMAND_END_PANE removes the last one
- *   from,to  panes from ... to - 1 are edited
+ *   pane     pane that is edited; PAST_ALL: each pane
  *   again    past_iterate makes the shown step once more with the edit
  *   gesture  id, or 0; edits of one gesture are undone together
  * Returns OK, OUT_OF_MEMORY. */
-Status past_edit(Past *past, const Command *edit, int from, int to, bool again,
+Status past_edit(Past *past, const Command *edit, int pane, bool again,
                  int gesture);
 
 /* Sets the shown step, cut to 0 ... newest + 1; abandons the present work.

@@ -6,7 +6,7 @@
  *   that function: edits the past, or chooses the step to be shown
  *   player_work: past_iterate until that step is shown (steps.c)
  *
- * From a key to Newton's method: player_obey_input, player_obey, player_work,
+ * From key to Newton's method: player_obey_input, player_obey, player_work,
  * past_iterate, simulation_advance, time_integrator_advance, newton_minimise.
  */
 #pragma once

@@ -13,7 +13,7 @@ typedef struct Prediction {
     long guess_step; /* steps of the simulation when the user guessed */
     double guess[2]; /* m, the guess */
     double reached[2]; /* m, where the step does lead */
-    double distance; /* m, from `at` to `end`; in one variable along x */
+    double distance;   /* m, `guess` to `reached`; in one variable along x */
 } Prediction;
 
 /* ---- descents: minimisation by Newton's method, update by update --------- */
@@ -94,9 +94,8 @@ enum { ENVELOPE_STEPS = 3, ENVELOPE_COLUMNS = 25, ENVELOPE_ROWS = 22 };
 
 typedef struct EnvelopeCell {
     bool is_known;       /* the run of the cell was made */
-    Status worst_status; /* last status of the ENVELOPE_STEPS steps that is not
-                            OK */
-    int updates;  /* Newton updates of all steps */
+    Status worst_status; /* OK, or the last other status of all steps */
+    int updates;         /* Newton updates of all steps */
 } EnvelopeCell;
 
 /* Whether the square converges, by stiffness (row) and time step (column). */

@@ -236,8 +236,7 @@ const char *option_label(const OptionRow *row);
  *   text  [size] out */
 void option_write_unit(const OptionRow *row, char *text, size_t size);
 
-/* Lists the options of the window's row of numbers, in order.  Returns how many
- * there are. */
+/* Lists the options of the window's row of numbers.  Returns how many. */
 int options_list_visible(const Options *options,
                          const OptionRow *found[OPTIONS_MAX_ROWS]);
 

@@ -1,8 +1,7 @@
 /* scene.h - what a scene is: a row of the table in scenes.h.
  *
  * A new scene is a row in scene.c, whose function, such as create_square, fills
- * the system and the start.  Keys, files, options and --list read the row.
- */
+ * the system and the start.  Keys, files, options and --list read the row. */
 #pragma once
 
 #include "base/status.h"
@@ -58,8 +57,7 @@ typedef struct SceneBody {
     int runs;              /* number of runs with a body each; 0: one run */
     double lift; /* height of run 0 above run 1, and so on, over the side */
     double friction_factor[3]; /* factor on the friction of each run; 0: 1 */
-    /* Returns an obstacle, at its start, that is added to those of the options.
-     * NULL: none. */
+    /* Returns a further obstacle, at its start.  NULL: there is none. */
     struct Obstacle (*obstacle)(const struct Options *options);
 } SceneBody;
 

@@ -11,19 +11,15 @@
 
 enum { SIMULATION_MAX_RUNS = 3, SIMULATION_MODE_NODES = 64 };
 
-/* Steps of backward Euler in which the total energy grew by more than the work:
- * the minimiser may lie behind a barrier of energy, such as another body. */
-typedef struct EnergyGain {
-    long steps;
-    double energy; /* J, growth beyond the work, summed over `steps` */
-} EnergyGain;
-
-/* Energies that a run has added up since its start. */
+/* Energies that a run has added up since its start.  In a step of backward
+ * Euler the total energy can grow by more than the work: the minimiser may lie
+ * behind a barrier of energy, such as another body. */
 typedef struct Ledger {
     double start; /* J, total energy at the start */
     double work;  /* J, work that the mouse and changed options have done */
     double kept;  /* J, total energy minus work at the end of the last step */
-    EnergyGain gain;
+    long gain_steps; /* number of steps with growth beyond the work */
+    double gained;   /* J, growth beyond the work, summed over gain_steps */
 } Ledger;
 
 struct Simulation {
@@ -31,14 +27,12 @@ struct Simulation {
     Options options;
     SquareMesh mesh; /* mesh of the square; zero in other scenes */
     System system;   /* system of run 0, which all runs may share */
-    System run_system[SIMULATION_MAX_RUNS]; /* systems of runs 1, 2 if not
-                                               shared */
+    System run_system[SIMULATION_MAX_RUNS]; /* own systems of runs 1, 2 */
     int runs;
     TimeIntegrator run[SIMULATION_MAX_RUNS];
     Ledger ledger[SIMULATION_MAX_RUNS];
     int step_run; /* run whose step is being computed */
-    Status
-        worst_status; /* OK, or the last other status of a run in this step */
+    Status worst_status;  /* OK, or the last other status of this step's runs */
     Descent descent;      /* minimisation; zero in scenes that move in time */
     Exhibit exhibit;      /* data of small scenes, and of switches */
     Prediction prediction;   /* guess where the next step leads */
@@ -119,8 +113,7 @@ double simulation_time(const Simulation *simulation);
 /* Computes the energies of a run. */
 Energies simulation_energies(const Simulation *simulation, int run);
 
-/* Whether run 0 is at rest: nodes hardly move, and forces nearly vanish, unlike
- * at a turning point. */
+/* Whether run 0 is at rest: nodes hardly move, and forces nearly vanish. */
 bool simulation_is_at_rest(const Simulation *simulation);
 
 /* Returns Newton's counters, summed over the runs; explicit methods have 0. */

@@ -211,8 +211,7 @@ static void draw_dial_curve(const Relief *relief)
                        NULL);
 }
 
-/* Draws arrows along x, y and upwards, and writes the distance of the contours.
- */
+/* Draws arrows along x, y and E, and writes the distance of the contours. */
 static void draw_relief_axes(const Relief *relief)
 {
     static const char *const names[] = {"x", "y", "J s\u00b2"};

@@ -2,17 +2,9 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "model/inertia_energy.h"
 #include "picture/cards.h"
-
-/* Counts the updates whose alpha p is already part of the shown positions. */
-static int count_added_updates(const Trace *trace)
-{
-    bool before = trace->at_line != LINE_NONE && trace->at_line < LINE_UPDATE;
-    return before ? trace->iteration : trace->records;
-}
 
 /* Draws E and its parts along the line from x^n to x_tilde, and E at x, beside
  * the point of the line that is nearest to x. */
@@ -129,9 +121,11 @@ bool updates_fill_row(const FrameContent *content, int row, CardTableRow *cells)
     bool raw = pane->simulation->options.projection == PROJECTION_NONE;
     if (!trace || row == 0)
         return trace;
-    int made = count_added_updates(trace);
-    bool now = trace->at_line >= LINE_PROJECT && trace->at_line < LINE_UPDATE &&
-               trace->projected >= 0;
+    bool before = trace->at_line != LINE_NONE && trace->at_line < LINE_UPDATE;
+    /* Updates whose alpha p is already part of the shown positions. */
+    int made = before ? trace->iteration : trace->records;
+    bool now =
+        before && trace->at_line >= LINE_PROJECT && trace->projected >= 0;
     const NewtonRecord *update = &trace->record[row - 1];
     StepLine line = row <= made ? LINE_END : trace->at_line;
     if (row > made + now)

@@ -11,10 +11,9 @@ static const double CARD_ROW = 1.45; /* ems, least height of a table's row */
 
 /* A line of an algorithm.  The strings are texts of live_values.h. */
 typedef struct ListingRow {
-    const char *shown_if;  /* the row is shown if the values in a line of this
-                              text are known; NULL: end of the listing */
-    const char *struck_if; /* the row is struck out if the values in a line of
-                               this text are known */
+    /* The row is shown, and struck out, if a line of these texts has known
+     * values.  shown_if NULL: end of the listing. */
+    const char *shown_if, *struck_if;
     StepLine at_line;      /* the slides' line of Algorithm 3 */
     bool indented;
     const char *text;
@@ -125,8 +124,7 @@ void card_write_rows(const Plot *card, const ListingRow *row);
 /* Returns the width that the code of a page needs, ems. */
 double code_needed_width(const LecturePage *page);
 
-/* Fills a row of a card's table; row 0 has the heads.  Returns false after the
- * last row. */
+/* Fills a row of a table; row 0: the heads.  Returns false after the last. */
 bool card_fill_row(const FrameContent *content, const Card *card, int row,
                    CardTableRow *cells);
 

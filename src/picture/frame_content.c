@@ -409,11 +409,9 @@ static void draw_sheet_cell(Paper *paper, Box box, const SheetCell *cell,
     if (cell->heading)
         paper_write(paper, FACE_BOLD, 1.05, COLOUR_TEXT, box.x,
                     box.y - 1.7 * paper->em, ALIGN_LEFT, "%s", cell->heading);
-    canvas_framed_box(&paper->canvas, inside, COLOUR_WHITE,
-                      chosen ? COLOUR_VALUE : COLOUR_BORDER);
-    if (chosen)
-        canvas_framed_box(&paper->canvas, box_inset(inside, 1), COLOUR_WHITE,
-                          COLOUR_VALUE);
+    canvas_fill(&paper->canvas, inside, chosen ? COLOUR_VALUE : COLOUR_BORDER);
+    canvas_fill(&paper->canvas, box_inset(inside, chosen ? 2 : 1),
+                COLOUR_WHITE);
     layout.pane[0] = box_inset(inside, paper_pixels(paper, 0.3));
     if (cell->simulation) {
         FrameContent content;

@@ -35,8 +35,7 @@ static const double CARD_BELOW = 0.65, MAIN_CARD_GROWTH = 1.3;
 static const double SETTINGS_PART = 0.75;
 
 /* Width of the column over that of the window: usually; at most for the texts
- * of a page, in large type, and for code and lists of more than MOST_ROWS rows.
- */
+ * of a page, in large type, for code and lists of more than MOST_ROWS rows. */
 static const double COLUMN_PART = 0.38, PAGE_PART = 0.46, BIG_PART = 0.56,
                     WIDE_PART = 0.75, COLUMN_GROWTH = 0.01;
 enum { MOST_ROWS = 30 };
@@ -80,8 +79,7 @@ static int place_boxes(Box room, int lines, int gap, int count,
 }
 
 /* Places as many of the first boxes as fit into one line, and the last box
- * behind them.  The other boxes keep no width.  Returns how many of the first
- * boxes fit. */
+ * behind them; the others keep no width.  Returns how many of the first fit. */
 static int place_first_and_last(Box room, int gap, int count, const int *width,
                                 Box *box)
 {
@@ -142,8 +140,7 @@ static void place_settings(const SettingsRow *row, Layout *layout, bool low,
         box[i].y += layout->settings_row.y;
 }
 
-/* Places as many of the first chips as fit, and the last one, which lists all
- * keys. */
+/* Places the first chips that fit, and the last one, which lists all keys. */
 static void place_chips(const ChipRow *chips, bool lecture, Layout *layout)
 {
     int gap = ems_to_pixels(layout, 0.6), last = chips->count - 1;
@@ -164,8 +161,7 @@ static void place_chips(const ChipRow *chips, bool lecture, Layout *layout)
     layout->chips_left_out = last - fit;
 }
 
-/* Cuts title bar, settings, time line, chips off the window.  Returns the rest.
- */
+/* Cuts title bar, settings, time line, chips off.  Returns the rest. */
 static Box place_zones(const FrameContent *content, Layout *layout)
 {
     Box rest = {0, 0, layout->width, layout->height}, *bars = &layout->bars;
@@ -200,8 +196,7 @@ static Box place_zones(const FrameContent *content, Layout *layout)
     return rest;
 }
 
-/* Returns the minimum height of a card whose content is `wide` ems wide, ems.
- */
+/* Returns the least height of a card, ems, whose content is `wide` ems wide. */
 static double needed_height(const FrameContent *content, const Layout *layout,
                             int card, double wide)
 {
@@ -223,8 +218,7 @@ typedef struct CardRow {
     double weight;     /* weight with which the row shares free height */
 } CardRow;
 
-/* Returns the index of the page's main card; -1: no main card, or a closed one.
- */
+/* Returns the index of the page's main card; -1: none, or a closed one. */
 static int find_main_card(const FrameContent *content)
 {
     const char *name = active_pane(content)->simulation->options.main_card;
@@ -272,8 +266,7 @@ static int find_card_rows(const FrameContent *content, const Layout *layout,
  * usual size, and shares the rest of the free height by the weights.
  * If the column is too low, closes rows from the last one on, unless cards
  * stand in pairs; then shrinks all heights alike, but not the page's texts.
- * Returns whether the column is high enough, in large type for the texts alone.
- */
+ * Returns whether the column is high enough; in large type, for the texts. */
 static bool place_cards(const FrameContent *content, Layout *layout)
 {
     CardRow rows[LAYOUT_CARDS] = {{0}};
@@ -378,9 +371,7 @@ static int place_cells(const FrameContent *content, Layout *layout, int columns,
     return y + side + name;
 }
 
-/* Places the overview with the number of columns that gives the largest
- * squares.
- */
+/* Places the overview in the number of columns with the largest squares. */
 static void place_overview(const FrameContent *content, Layout *layout)
 {
     int gap = ems_to_pixels(layout, GAP), best = 0, wide = 1;

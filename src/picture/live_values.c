@@ -286,15 +286,6 @@ double frame_find_number(FrameContent *content, const char *name)
     return values_find_number(&active_pane(content)->values, name);
 }
 
-const char *frame_fill_question(FrameContent *content)
-{
-    static TextLine line;
-    frame_fill_values(content);
-    line = text_first_line(&active_pane(content)->values,
-                           content->lecture.page->question);
-    return line.text;
-}
-
 /* Writes a value.  The format is the characters after the colon of a text. */
 static void format_value(const LiveValue *one, const char *format, char *out,
                          size_t size)

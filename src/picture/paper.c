@@ -80,8 +80,8 @@ int paper_write_in_box(Paper *paper, Face face, double size, Colour colour,
     return width;
 }
 
-int paper_write_on_panel(Paper *paper, Face face, double size, Colour colour,
-                         double x, double y, Align align, const char *markup)
+void paper_write_on_panel(Paper *paper, Face face, double size, Colour colour,
+                          double x, double y, Align align, const char *markup)
 {
     int wide = paper_width(paper, face, size, markup);
     int left = pixel_from_coordinate(x) - (int)align * wide / 2;
@@ -90,7 +90,7 @@ int paper_write_on_panel(Paper *paper, Face face, double size, Colour colour,
                  paper_pixels(paper, 1.36 * size)};
     canvas_fill(&paper->canvas, panel, COLOUR_PANEL);
     paper_keep_words(paper, panel);
-    return paper_write(paper, face, size, colour, x, y, align, "%s", markup);
+    paper_write(paper, face, size, colour, x, y, align, "%s", markup);
 }
 
 void paper_shorten(Paper *paper, double size, int width, char *words,

@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "picture/colour_map.h"
-#include "base/mathematics.h"
 
 enum {
     PLOT_INTERVALS = 4,  /* most intervals between the numbers of y */

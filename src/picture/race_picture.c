@@ -64,8 +64,7 @@ void race_draw(Plot *stage)
                    race_get_method(method)->label);
 }
 
-/* Adds the fastest stable runs within the target error: an explicit one and an
- * implicit one. */
+/* Adds the fastest stable runs, explicit and implicit, within TARGET_ERROR. */
 void race_add_values(const Simulation *simulation, LiveValues *values)
 {
     static const char *const names[2][2] = {{"explicit", "explicit ms"},

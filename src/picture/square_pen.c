@@ -9,7 +9,6 @@
 #include "model/plasticity.h"
 #include "model/spring_law.h"
 #include "picture/cards.h"
-#include "picture/colour_map.h"
 
 enum { MAX_GHOST_SPRINGS = 700 }; /* most springs that a ghost shows */
 

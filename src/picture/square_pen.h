@@ -11,8 +11,7 @@ typedef struct SquarePen {
     const Simulation *simulation; /* simulation of the stage */
     const System *system;
     const double *x, *v;    /* [2n] m, m/s */
-    double spacing;         /* pixels between two nodes at rest, or more if the
-                               nodes have flown apart */
+    double spacing; /* pixels from node to node at rest; more if flown apart */
     double width;           /* width of a spring */
     double node_radius;     /* radius of a node */
     double shade_strain;    /* strain of the lightest shade of faces */

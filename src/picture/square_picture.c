@@ -666,8 +666,7 @@ static void add_force_values(const Simulation *simulation, const double *x,
 }
 
 /* Adds the sums of (q . g)^2 / lambda over the negative and the positive
- * eigenvalues of H at the start of the run, g . p, and the longest term of p.
- */
+ * eigenvalues of H at the run's start, g . p, and the longest term of p. */
 static void add_slope_values(const Simulation *simulation, LiveValues *values)
 {
     enum { MOST = 2 * MAX_EIGENVALUES, SWEEPS = 10 };

@@ -75,8 +75,7 @@ static void pen_extend(Pen *pen, double top, double bottom)
     pen->bottom = fmax(pen->bottom, bottom);
 }
 
-/* Sets one letter.  A combining mark is centred over the letter before it, in
- * bold and large. */
+/* Sets a letter.  A combining mark stands, large, over the letter before it. */
 static void typeset_letter(Pen *pen, uint32_t letter)
 {
     double em = pen->style.size;
@@ -308,8 +307,7 @@ bool text_is_markup_brace(const char *text, const char *brace)
     return false;
 }
 
-/* Sets the letter or the command at the start of a part.  Returns the byte
- * after it. */
+/* Sets the letter or command at the start of a part.  Returns its end. */
 static const char *typeset_first(Pen *pen, MarkupPart part, int depth)
 {
     const char *at = part.from, *brace = at;
@@ -342,8 +340,7 @@ double text_line_height(double size)
     return (LINE_ASCENT + LINE_DESCENT) * size;
 }
 
-/* Returns the extent of what a pen has set, at least that of a line of words.
- */
+/* Returns the extent of a pen's letters, at least that of a line of words. */
 static TextExtent extent_of_line(const Pen *pen)
 {
     const TextStyle *style = &pen->style;
@@ -388,8 +385,7 @@ size_t text_break_line(Text *text, const TextStyle *style, int width,
     }
 }
 
-/* Letters start at whole pixels.  A text far outside of the canvas is not
- * drawn. */
+/* Letters start at whole pixels.  Text far outside the canvas is left out. */
 int text_draw(Text *text, Canvas *canvas, const TextStyle *style, double x,
               double y, Align align, const char *markup)
 {

@@ -3,11 +3,6 @@
 
 #include "play/playing.h"
 
-static Status edit_all_panes(Player *player, const Command *change)
-{
-    return player_edit(player, change, 0, past_panes(&player->past), false);
-}
-
 Status obey_pin(Player *player, const Command *command)
 {
     long node = command->number;
@@ -16,7 +11,7 @@ Status obey_pin(Player *player, const Command *command)
         return player_refuse(player, "only nodes of a square can be pinned");
     bool pinned = simulation->system.pinned[node];
     Command change = {.kind = COMMAND_PIN, .number = node, .x = !pinned};
-    Status status = edit_all_panes(player, &change);
+    Status status = player_edit(player, &change, PAST_ALL, false);
     if (!status)
         player_note(player, "node %ld is %s", node, pinned ? "free" : "pinned");
     return status;
@@ -39,7 +34,7 @@ Status obey_hold(Player *player, const Command *command)
                             .number = command->number,
                             .x = place[0],
                             .y = place[1]};
-    Status status = edit_all_panes(player, &change);
+    Status status = player_edit(player, &change, PAST_ALL, false);
     player->hands.holding = player->hands.holding || !status;
     if (!status && player_is_stopped(player))
         player_note(player,
@@ -60,7 +55,7 @@ Status obey_place(Player *player, const Command *command)
                                  "no room for it there: an obstacle, a "
                                  "body, or a cell that would turn over");
     }
-    return edit_all_panes(player, command);
+    return player_edit(player, command, PAST_ALL, false);
 }
 
 Status obey_obstacle(Player *player, const Command *command)
@@ -73,7 +68,7 @@ Status obey_obstacle(Player *player, const Command *command)
     for (int p = 0; p < past_panes(&player->past) && !status; p++)
         status = simulation_check_clearance(&player->past.pane[p].simulation,
                                             &moved, MESSAGE(player->message));
-    return status ? status : edit_all_panes(player, command);
+    return status ? status : player_edit(player, command, PAST_ALL, false);
 }
 
 Status obey_drag(Player *player, const Command *command)
@@ -82,7 +77,7 @@ Status obey_drag(Player *player, const Command *command)
         return player_refuse(player, "the hand holds nothing");
     player->hands.holding = command->kind == COMMAND_DRAG;
     player->hands.pulled_step = player->past.step;
-    return edit_all_panes(player, command);
+    return player_edit(player, command, PAST_ALL, false);
 }
 
 /* Moves a handle or flips a switch; a moved start leads back to step 0. */
@@ -100,7 +95,7 @@ Status obey_handle(Player *player, const Command *command)
         status = status ? status : player_work(player);
     }
     if (!status)
-        status = edit_all_panes(player, command);
+        status = player_edit(player, command, PAST_ALL, false);
     if (past->current > now)
         past->branch[now].left_step = step; /* undo shows this step again */
     return status;

@@ -132,13 +132,14 @@ Status obey_set(Player *player, const Command *command)
     if (idle)
         return player_refuse(player, "%s", idle);
     bool one = player->tour.obeys_page || player_panes_differ(player, row);
-    int from = one ? player->active : 0;
-    int to = one ? player->active + 1 : past_panes(&player->past);
-    player_copy_options(player, options);
+    int pane = one ? player->active : PAST_ALL;
+    int panes = player_copy_options(player, options);
     double old = options[player->active].number[row->slot];
     Status status = STATUS_OK;
     const Message message = MESSAGE(player->message);
-    for (int p = from; p < to && !status; p++) {
+    for (int p = 0; p < panes && !status; p++) {
+        if (one && p != pane)
+            continue;
         status =
             options_set(&options[p], row, command->text, command->x, message);
         if (!status && row->max_times) /* obstacles may overlap a body */
@@ -158,11 +159,10 @@ Status obey_set(Player *player, const Command *command)
                   (player->time.walk_unit != UNIT_STEP &&
                    player->view_of_pane[player->active].place >= 0));
     if (simulation_find_option_effect(simulation, row) == EFFECT_START)
-        return player_restart_runs(player, options, past_panes(&player->past),
-                                   command);
+        return player_restart_runs(player, options, panes, command);
     if (again && change.x != old)
-        return player_repeat_step(player, &change, from, to);
-    return player_edit(player, &change, from, to, false);
+        return player_repeat_step(player, &change, pane);
+    return player_edit(player, &change, pane, false);
 }
 
 Status player_enqueue_notches(Player *player, const OptionRow *row, int notches)

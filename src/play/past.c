@@ -841,7 +841,7 @@ static Status apply_pane_edit(Past *past, int pane, const Command *edit,
     return status ? status : pane_run_set_step(past, pane, past->step);
 }
 
-Status past_edit(Past *past, const Command *edit, int from, int to, bool again,
+Status past_edit(Past *past, const Command *edit, int pane, bool again,
                  int gesture)
 {
     Status status = finish_shown_step(past);
@@ -850,8 +850,9 @@ Status past_edit(Past *past, const Command *edit, int from, int to, bool again,
     Branch *branch = present_branch(past);
     const int panes = branch->panes + (edit->kind == COMMAND_ADD_PANE) -
                       (edit->kind == COMMAND_END_PANE);
+    bool counts = panes != branch->panes; /* changes only the number of panes */
     bool joins = gesture && branch->gesture == gesture &&
-                 !branch->from_options && panes == branch->panes && !again &&
+                 !branch->from_options && !counts && !again &&
                  past->step == past_newest(past) &&
                  edit_sets_state(edit) == edit_sets_state(&branch->edit) &&
                  (!edit_sets_state(edit) || branch->entries == 1);
@@ -869,9 +870,10 @@ Status past_edit(Past *past, const Command *edit, int from, int to, bool again,
         branch->edit = *edit; /* undo reports the last edit of the gesture */
     invalidate_tables(past, past->step, edit_changes_state(edit));
     for (long i = branch->entries - 1; i < branch->entries + again; i++)
-        for (int p = from; p < to && !status; p++)
-            status = apply_pane_edit(past, p, edit,
-                                     &branch->entry[i * branch->panes + p]);
+        for (int p = 0; p < panes && !counts && !status; p++)
+            if (pane == PAST_ALL || pane == p)
+                status = apply_pane_edit(past, p, edit,
+                                         &branch->entry[i * panes + p]);
     return status || again ? status : finish_shown_step(past);
 }
 

@@ -96,9 +96,8 @@ void sheet_close(Player *player);
 Status player_begin_runs(Player *player, const Options *options, int count,
                          const Command *edit);
 
-/* Edits the panes from ... to - 1 at the shown step (past_edit). */
-Status player_edit(Player *player, const Command *change, int from, int to,
-                   bool again);
+/* Edits a pane, or each one, at the shown step (past_edit). */
+Status player_edit(Player *player, const Command *change, int pane, bool again);
 
 /* Iterates until the chosen step is shown; in a window at most for SLICE. */
 Status player_work(Player *player);
@@ -107,10 +106,9 @@ Status player_work(Player *player);
  * player_obey calls player_work after each command. */
 Status player_seek(Player *player, long step, AfterWork after);
 
-/* Edits the panes from ... to - 1 and makes the shown step once more.  The
- * active pane shows the positions before the edit as a ghost. */
-Status player_repeat_step(Player *player, const Command *change, int from,
-                          int to);
+/* Edits a pane, or each one, and makes the shown step once more.  The active
+ * pane shows the positions before the edit as a ghost. */
+Status player_repeat_step(Player *player, const Command *change, int pane);
 
 /* Removes the ghosts, and shows the end of the step, no line of Algorithm 3. */
 void player_forget_step(Player *player);

@@ -136,17 +136,18 @@ static void print_newton_counters(FILE *file, const Simulation *simulation)
 /* Prints by how much the total energy has risen in steps of backward Euler. */
 static void print_energy_gain(FILE *file, const Simulation *simulation)
 {
-    EnergyGain sum = {0};
+    long steps = 0;
+    double gained = 0;
     for (int r = 0; r < simulation->runs; r++) {
-        sum.steps += simulation->ledger[r].gain.steps;
-        sum.energy += simulation->ledger[r].gain.energy;
+        steps += simulation->ledger[r].gain_steps;
+        gained += simulation->ledger[r].gained;
     }
-    if (sum.steps > 0)
+    if (steps > 0)
         print_quantity(
             file, "energy gained",
             "%.4g J without work, in %ld steps of backward Euler; a shorter "
             "timestep gains less",
-            sum.energy, sum.steps);
+            gained, steps);
 }
 
 /* Prints steps, solver and energies of each pane; then time, files, hash. */

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/mathematics.h"
+#include "picture/live_values.h"
 #include "picture/plot.h"
 #include "play/playing.h"
 #include "run/body.h"
@@ -73,8 +74,7 @@ Status player_restore_pins(Player *player, const Control *before)
             .kind = COMMAND_PIN, .number = i, .x = before->pinned[i]};
         now = past_control(&player->past, 0);
         if (now->pinned[i] != before->pinned[i])
-            status =
-                player_edit(player, &pin, 0, past_panes(&player->past), false);
+            status = player_edit(player, &pin, PAST_ALL, false);
     }
     control_release(before);
     return status;
@@ -169,8 +169,11 @@ Status player_reveal_answer(Player *player, const char *typed)
     player->tour.guesses += judged;
     player->tour.right_guesses += judged && right;
     player->tour.verdict[0] = '\0';
-    snprintf(player->tour.asked, LOOK_SIZE, "%s",
-             content->lecture.page == page ? frame_fill_question(content) : "");
+    frame_fill_values(content);
+    TextLine asked =
+        text_first_line(&active_pane(content)->values,
+                        content->lecture.page == page ? page->question : NULL);
+    snprintf(player->tour.asked, LOOK_SIZE, "%s", asked.text);
     if (judged)
         append(player->tour.verdict, VALUE_SIZE, "%s%s%s.", typed,
                right ? " is right" : "? It is ", right ? "" : number.text);

@@ -162,14 +162,13 @@ Status player_begin_runs(Player *player, const Options *options, int count,
     return record_step(player);
 }
 
-Status player_edit(Player *player, const Command *change, int from, int to,
-                   bool again)
+Status player_edit(Player *player, const Command *change, int pane, bool again)
 {
     Past *past = &player->past;
     if (player->time.mode == MODE_REST)
         player->time.mode = MODE_RUN; /* bodies may move again */
     Status status =
-        past_edit(past, change, from, to, again, player->commands.gesture);
+        past_edit(past, change, pane, again, player->commands.gesture);
     if (!status)
         update_after_edit(player);
     return status || again ? status : record_step(player);
@@ -206,13 +205,13 @@ static void report_energy_gain(Player *player)
     for (int p = 0; p < past_panes(past) && !player->time.told_gain; p++) {
         const Simulation *simulation = &past->pane[p].simulation;
         for (int r = 0; r < simulation->runs && !player->time.told_gain; r++) {
-            player->time.told_gain = simulation->ledger[r].gain.steps > 0;
+            player->time.told_gain = simulation->ledger[r].gain_steps > 0;
             if (player->time.told_gain)
                 player_note(player,
                             "step %ld: the total energy has risen by %.3g J "
                             "without work; a long step of backward Euler can "
                             "do that",
-                            past->step, simulation->ledger[r].gain.energy);
+                            past->step, simulation->ledger[r].gained);
         }
     }
 }
@@ -344,8 +343,7 @@ static void compare_outcomes(Player *player)
                 player->view_of_pane[player->active].ghost_label, has);
 }
 
-Status player_repeat_step(Player *player, const Command *change, int from,
-                          int to)
+Status player_repeat_step(Player *player, const Command *change, int pane)
 {
     Past *past = &player->past;
     PaneView *view = &player->view_of_pane[player->active];
@@ -364,7 +362,7 @@ Status player_repeat_step(Player *player, const Command *change, int from,
         view->ghost = malloc(bytes);
     if (view->ghost)
         memcpy(view->ghost, simulation->run[0].x, bytes);
-    Status status = player_edit(player, change, from, to, !failed);
+    Status status = player_edit(player, change, pane, !failed);
     if (status)
         return status;
     player->screen.drawn_step = -1;
@@ -445,12 +443,12 @@ Status player_work(Player *player)
 static Status release_old_hand(Player *player)
 {
     const Command release = {.kind = COMMAND_RELEASE};
-    int gesture = player->commands.gesture, panes = past_panes(&player->past);
+    int gesture = player->commands.gesture;
     if (!control_hand_holds(past_control(&player->past, 0)) ||
         player->hands.holding)
         return STATUS_OK;
     player->commands.gesture = ++player->commands.gestures;
-    Status status = player_edit(player, &release, 0, panes, false);
+    Status status = player_edit(player, &release, PAST_ALL, false);
     player->commands.gesture = gesture;
     return status;
 }

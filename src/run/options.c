@@ -117,8 +117,7 @@ REASON(why_nothing_drawn,
 #define IDLE(why)               .idle_reason = why
 #define SHOWN(n, longest, adds) .display = {n, longest, adds}
 
-/* The ranges are so narrow that products of two numbers stay finite and keep
- * all digits. */
+/* In these ranges products of two numbers stay finite and keep all digits. */
 const OptionRow option_rows[] = {
     {SECTION("the body (flat: density in kg/m^2, stiffness in J/m^2):")},
     {WHOLE(segments, "N", "number of springs along a side", "", 4, 1,

@@ -105,8 +105,8 @@ static void book_energy_gain(Simulation *simulation)
         abs_sum += fabs(now.row[i].value);
     if (!backward_euler || !(gained > 1e-8 * abs_sum))
         return;
-    ledger->gain.steps++;
-    ledger->gain.energy += gained;
+    ledger->gain_steps++;
+    ledger->gained += gained;
 }
 
 /* Each run steps in turn.  Returns their last status that is not OK. */

@@ -41,7 +41,7 @@ static uint64_t show(long step)
 static void edit(CommandKind kind, long number, double x, double y)
 {
     const Command command = {.kind = kind, .number = number, .x = x, .y = y};
-    CHECK_OK(past_edit(&past, &command, 0, past_panes(&past), false, 0));
+    CHECK_OK(past_edit(&past, &command, PAST_ALL, false, 0));
 }
 
 enum { STEPS = 48 };
@@ -169,10 +169,10 @@ TEST(an_edit_ends_what_was_undone)
     const Command grab = {.kind = COMMAND_GRAB, .number = 5};
     const Command add = {.kind = COMMAND_ADD_PANE};
     begin_past("square --segments 3");
-    CHECK_OK(past_edit(&past, &grab, 0, 1, false, 7));
-    CHECK_OK(past_edit(&past, &add, 0, 0, false, 0));
+    CHECK_OK(past_edit(&past, &grab, 0, false, 7));
+    CHECK_OK(past_edit(&past, &add, PAST_ALL, false, 0));
     past_undo(&past, -1);
-    CHECK_OK(past_edit(&past, &grab, 0, 1, false, 7));
+    CHECK_OK(past_edit(&past, &grab, 0, false, 7));
     CHECK(!past_undo(&past, 1));
     past_free(&past);
 }

@@ -726,12 +726,12 @@ static double find_flattest(const Simulation *simulation)
 /* J, energy that a run has gained without work, and in how many steps. */
 static double find_gained(const Simulation *simulation)
 {
-    return simulation->ledger[0].gain.energy;
+    return simulation->ledger[0].gained;
 }
 
 static double count_gains(const Simulation *simulation)
 {
-    return (double)simulation->ledger[0].gain.steps;
+    return (double)simulation->ledger[0].gain_steps;
 }
 
 /* J, the total energy without the work done. */
