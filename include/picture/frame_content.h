@@ -176,12 +176,12 @@ typedef struct Setting {
     int min_letters;        /* least number of letters that have room */
     bool is_changed;        /* differs from the scene's default */
     bool is_off;            /* the method of the setting is switched off */
+    bool is_selected;       /* selected by a click or by Tab */
 } Setting;
 
 typedef struct SettingsRow {
     int count;
     Setting item[LAYOUT_SETTINGS];
-    int selected; /* index of the setting selected by Tab; -1: none */
 } SettingsRow;
 
 /* The bar of a step in the time line, as high as the step has updates. */

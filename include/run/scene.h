@@ -57,7 +57,7 @@ typedef struct SceneBody {
     int runs;              /* number of runs with a body each; 0: one run */
     double lift; /* height of run 0 above run 1, and so on, over the side */
     double friction_factor[3]; /* factor on the friction of each run; 0: 1 */
-    /* Returns a further obstacle, at its start.  NULL: there is none. */
+    /* Returns a further obstacle, at its start; NULL: no obstacle. */
     struct Obstacle (*obstacle)(const struct Options *options);
 } SceneBody;
 

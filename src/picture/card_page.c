@@ -1,5 +1,4 @@
 /* card_page.c - the texts of a page, and the claim below a page's code. */
-#include <limits.h>
 #include <math.h>
 
 #include "picture/cards.h"
@@ -123,10 +122,9 @@ Box page_draw_claim(Paper *paper, Box inside, const FrameContent *content)
                             COLOUR_FAINT, 1};
     int high =
         lay_out_text(paper, inside, 0, 1, TESTED_WIDTH, &words, content, false);
+    int top = inside.y + inside.height - high;
+    lay_out_text(paper, inside, top, 1, TESTED_WIDTH, &words, content, true);
     inside.height -= high + paper_pixels(paper, 0.5);
-    lay_out_text(paper, (Box){inside.x, 0, inside.width, INT_MAX / 2},
-                 inside.y + inside.height + paper_pixels(paper, 0.5), 1,
-                 TESTED_WIDTH, &words, content, true);
     return inside;
 }
 

@@ -218,7 +218,7 @@ typedef struct CardRow {
     double weight;     /* weight with which the row shares free height */
 } CardRow;
 
-/* Returns the index of the page's main card; -1: none, or a closed one. */
+/* Returns the index of the main card; -1: the page has no open main card. */
 static int find_main_card(const FrameContent *content)
 {
     const char *name = active_pane(content)->simulation->options.main_card;

@@ -63,8 +63,9 @@ static void draw_title_bar(Paper *paper, Box room, const TitleBar *bar)
 
 /* Draws name and value of a setting; dashes underline a changeable value. */
 static void draw_setting(Paper *paper, Box box, const Setting *setting,
-                         bool selected, bool over)
+                         bool over)
 {
+    bool selected = setting->is_selected;
     double em = paper->em, below = floor(box.y + 0.5 * box.height + 0.6 * em);
     Colour colour = setting->is_off ? COLOUR_GREY : COLOUR_VALUE;
     if (selected || over)
@@ -189,7 +190,6 @@ void window_rows_draw(Paper *paper, const Layout *layout,
     for (int i = 0; i < layout->settings; i++)
         if (layout->setting[i].width > 0)
             draw_setting(paper, layout->setting[i], &content->settings.item[i],
-                         content->settings.selected == i,
                          mouse->zone == ZONE_SETTING && mouse->index == i);
     draw_time_line(paper, layout, content);
     draw_chips(paper, layout, content);

@@ -71,7 +71,6 @@ static void fill_settings(const Player *player, Frame *frame)
     const WindowHit *mouse = &player->screen.view.mouse_hit;
     const Options shown = player_shown_options(player), *options = &shown;
     const OptionRow *all[OPTIONS_MAX_ROWS];
-    content->settings.selected = -1;
     frame->options = player_list_options(player, false, frame->option);
     bool over = mouse->zone == ZONE_SETTING && mouse->index < frame->options;
     for (int i = 0; i < frame->options; i++) {
@@ -89,19 +88,17 @@ static void fill_settings(const Player *player, Frame *frame)
         setting->is_changed = strcmp(now, start) != 0;
         const char *idle = player_idle_reason(player, row);
         setting->is_off = strcmp(setting->value, "none") == 0 || idle;
-        bool is_explained =
-            over ? i == mouse->index : row == player->hands.selected;
+        setting->is_selected = row == player->hands.selected;
+        bool is_explained = over ? i == mouse->index : setting->is_selected;
         if (is_explained && (idle || row->help[0]))
             snprintf(content->title_bar.sentence, SENTENCE_SIZE, "%s: %s",
                      row->name, idle ? idle : row->help);
-        if (row == player->hands.selected)
-            content->settings.selected = i;
-        if (row == player->hands.selected && player->hands.is_typing)
+        if (setting->is_selected && player->hands.is_typing)
             snprintf(setting->value, VALUE_SIZE, "%s_", player->hands.typed);
     }
     if (player_list_options(player, true, all) > frame->options)
         content->settings.item[content->settings.count++] =
-            (Setting){"", "+ more", 0, false, false};
+            (Setting){.name = "", .value = "+ more"};
 }
 
 /* Lists all numbers of the scene, and why some have no effect now. */

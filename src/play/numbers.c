@@ -190,11 +190,10 @@ Status obey_default(Player *player, const Command *command)
     const OptionRow *row = find_command_option(command);
     const Options *now = &past_start_control(&player->past, 0)->options;
     Options options[OPTIONS_MAX_PANES];
-    int count;
     if (!row || !row->label)
         return player_refuse(player, "there is no such number");
-    Status status = player_find_defaults(player, now->scene->name, now->page,
-                                         options, &count);
+    Status status =
+        player_find_defaults(player, now->scene->name, now->page, options);
     if (!status)
         player_enqueue_set(player, row, options->number[row->slot]);
     return status;

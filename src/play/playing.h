@@ -24,11 +24,9 @@ Options player_shown_options(const Player *player);
 
 /* Finds the default options of a page or, if `page` is NULL, of a scene.  The
  * scene of the command line has the options given there.
- *   options  [OPTIONS_MAX_PANES] out
- *   count    out, number of panes */
+ *   options  [options->panes] out, room for OPTIONS_MAX_PANES; a page has 1 */
 Status player_find_defaults(Player *player, const char *scene,
-                            const LecturePage *page, Options *options,
-                            int *count);
+                            const LecturePage *page, Options *options);
 
 /* Whether the panes have different values of this option. */
 bool player_panes_differ(const Player *player, const OptionRow *row);

@@ -80,23 +80,22 @@ static const char *name_log_code(const char *column, int number)
 static const struct {
     size_t file;         /* offset of the file's name in Options */
     const char *columns; /* names of columns, for table_add_columns */
-    const char *pane_column; /* column if panes > 1, or NULL */
     void (*write_rows)(Table *table, const RunAtStep *at); /* adds the rows of
                                 a step; NULL: the log, a row an iteration */
 } kinds[RECORDING_TABLES] = {
     {offsetof(Options, states), "step:whole,time,node:whole,x,y,vx,vy",
-     "pane:whole", add_states},
+     add_states},
     {offsetof(Options, log),
      "step:whole,iteration:whole,residual,alpha,trials:whole,slope,change,"
      "projected:whole,factorised:whole,shift,status:text,seconds,"
      "solver:text,kind:text",
-     "pane:whole", NULL},
-    {offsetof(Options, energies), "step:whole,time,total,kinetic,gravity", NULL,
+     NULL},
+    {offsetof(Options, energies), "step:whole,time,total,kinetic,gravity",
      add_energies},
     {offsetof(Options, springs),
      "step:whole,time,spring:whole,i:whole,j:whole,whole:whole,rest,strain,"
      "plastic,flowed",
-     "pane:whole", add_springs},
+     add_springs},
 };
 
 /* Writes red, green, blue of each pixel; libpng keeps errno of a failure. */
@@ -172,7 +171,7 @@ static Status open_table(const Options *options, Recording *recording, int t)
     if (t == RECORDING_ENERGIES)
         table_add_columns(table, "work,dissipated,run:whole");
     else if (recording->panes > 1)
-        table_add_columns(table, kinds[t].pane_column);
+        table_add_columns(table, "pane:whole");
     return table_open(name, recording->message, table);
 }
 

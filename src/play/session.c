@@ -45,11 +45,9 @@ int player_copy_options(const Player *player,
 }
 
 Status player_find_defaults(Player *player, const char *scene,
-                            const LecturePage *page, Options *options,
-                            int *count)
+                            const LecturePage *page, Options *options)
 {
     const Options *given = &player->setup.options[0];
-    *count = 1;
     Status status =
         page ? lecture_make_options(page, options, MESSAGE(player->message))
              : options_parse_line(scene, options, MESSAGE(player->message));
@@ -59,10 +57,8 @@ Status player_find_defaults(Player *player, const char *scene,
     if (page)
         return STATUS_OK;
     options->speed = given->speed;
-    if (options->scene == given->scene && !given->page) {
-        *count = given->panes;
-        memcpy(options, given, (size_t)*count * sizeof *given);
-    }
+    if (options->scene == given->scene && !given->page)
+        memcpy(options, given, (size_t)given->panes * sizeof *given);
     return STATUS_OK;
 }
 

@@ -16,12 +16,10 @@
 Status obey_scene(Player *player, const Command *command)
 {
     Options options[OPTIONS_MAX_PANES];
-    int count;
     bool runs = player->time.mode >= MODE_END || !player_is_stopped(player);
-    Status status =
-        player_find_defaults(player, command->text, NULL, options, &count);
+    Status status = player_find_defaults(player, command->text, NULL, options);
     if (!status)
-        status = player_begin_runs(player, options, count, command);
+        status = player_begin_runs(player, options, options->panes, command);
     if (status)
         return status;
     sheet_close(player);
@@ -193,7 +191,6 @@ Status player_reveal_answer(Player *player, const char *typed)
 Status obey_page(Player *player, const Command *command)
 {
     Options options;
-    int count;
     const LecturePage *page = player_active_options(player)->page;
     bool on = command->kind == COMMAND_PAGE_ON;
     if (command->kind == COMMAND_PAGE) {
@@ -212,7 +209,7 @@ Status obey_page(Player *player, const Command *command)
     } else {
         page = &lecture_pages[0];
     }
-    Status status = player_find_defaults(player, "", page, &options, &count);
+    Status status = player_find_defaults(player, "", page, &options);
     if (status)
         return status;
     player_store_own_options(player, &options);

@@ -70,12 +70,12 @@ EMSCRIPTEN_KEEPALIVE const char *web_address(void)
     words[0] = '\0';
     if (!plays)
         return words;
-    int count, panes = player_copy_options(player, now);
+    int panes = player_copy_options(player, now);
     bool same = now->page == given->page && now->scene == given->scene;
     base[0] = *given; /* base: an option that has this value is left out */
     if ((panes != given->panes && !now->page) ||
-        (!same && player_find_defaults(player, now->scene->name, now->page,
-                                       base, &count)))
+        (!same &&
+         player_find_defaults(player, now->scene->name, now->page, base)))
         return words;
     for (int i = 0; same && (i = player_find_scene_word(player, i + 1));)
         append(words, sizeof words, "%s\n", player->setup.arguments[i]);
