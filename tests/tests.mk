@@ -66,12 +66,13 @@ analyse: build/config.mk
 	  -D_GNU_SOURCE -Iinclude -Isrc $(DEP_CFLAGS) || exit 1; done
 
 # ---- pictures of the README -----------------------------------------------
-# tests/data/pictures.txt: name, step, command line; a test holds them.  What
+# tests/data/pictures.txt: name, step, command line; a test holds them.  The
+# sessions "a picture of ..." draw what hands lead to.  What
 # moves needs ffmpeg: the square, and a sheet of eight films of 61 frames each
 # (tests/data/films.txt: name, steps a picture, steps, command line).
 SHEET = [0][1][2][3]hstack=inputs=4[a];[4][5][6][7]hstack=inputs=4[b];[a][b]vstack
 
-pictures: build/elasto
+pictures: build/elasto $(B)/tests/unit/test_session
 	@command -v ffmpeg >/dev/null 2>&1 || { \
 	  echo 'make pictures needs ffmpeg (apt-get install ffmpeg)'; exit 1; }
 	@while read -r name step line; do \
@@ -81,6 +82,7 @@ pictures: build/elasto
 	    tests/data/$$name.png || exit 1; \
 	  rm -rf build/frames-$$name; echo "tests/data/$$name.png"; \
 	done <tests/data/pictures.txt
+	@PICTURES=1 $(B)/tests/unit/test_session 'a picture of*'
 	@echo '0 bare' >build/bare.txt; ./build/elasto --headless --quiet \
 	  --segments 10 --steps 75 --speed 1 --size 360x360 --script build/bare.txt \
 	  --film build/relax.apng && ffmpeg -v error -nostdin -y \

@@ -1,54 +1,19 @@
 /* Shapes, axes, words and numbers; pictures of the README; files that are
  * replaced at the end. */
-#include <errno.h>
 #include <math.h>
-#include <png.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "attended.h"
+#include "golden.h"
 #include "test.h"
 
 #include "picture/colour_map.h"
 #include "picture/plot.h"
 
-enum { FRAME = 900 };
-
 /* ---- helpers ------------------------------------------------------------ */
-
-/* Pixels of a PNG file as 0xffRRGGBB; free it with canvas_free. */
-static Canvas read_png(const char *name)
-{
-    png_image image = {.version = PNG_IMAGE_VERSION};
-    Canvas canvas;
-    if (!png_image_begin_read_from_file(&image, name))
-        fail_msg("%s: %s", name, image.message);
-    image.format = PNG_FORMAT_RGB;
-    assert_int_equal(
-        canvas_create((int)image.width, (int)image.height, &canvas), 0);
-    uint8_t *bytes = malloc(PNG_IMAGE_SIZE(image));
-    assert_non_null(bytes);
-    assert_true(png_image_finish_read(&image, NULL, bytes, 0, NULL));
-    for (size_t i = 0; i < (size_t)image.width * image.height; i++)
-        canvas.pixels[i] = 0xff000000u | (uint32_t)bytes[3 * i] << 16 |
-                           (uint32_t)bytes[3 * i + 1] << 8 | bytes[3 * i + 2];
-    free(bytes);
-    return canvas;
-}
-
-/* Largest difference of a colour channel of two pixels. */
-static int pixel_distance(Colour a, Colour b)
-{
-    int largest = 0;
-    for (int shift = 0; shift < 24; shift += 8) {
-        int d = (int)(a >> shift & 255) - (int)(b >> shift & 255);
-        largest = abs(d) > largest ? abs(d) : largest;
-    }
-    return largest;
-}
 
 /* Darkness of a box: sum over pixels of 1 - green/255. */
 static double ink_in(const Canvas *canvas, Box box)
@@ -310,24 +275,6 @@ TEST(words_keep_off_lines_and_words)
 
 /* ---- frames ------------------------------------------------------------- */
 
-/* Marks the pixels around those that differ: where words are, whatever the
- * version of the library that drew them.  mask [FRAME FRAME] out. */
-static void mask_words(const Canvas *words, const Canvas *plain,
-                       unsigned char *mask)
-{
-    enum { AROUND = 24, ABOVE = 4 };
-    memset(mask, 0, FRAME * FRAME);
-    for (int j = 0; j < FRAME; j++)
-        for (int i = 0; i < FRAME; i++) {
-            if (words->pixels[FRAME * j + i] == plain->pixels[FRAME * j + i])
-                continue;
-            for (int b = j - ABOVE; b <= j + ABOVE; b++)
-                for (int a = i - AROUND; a <= i + AROUND; a++)
-                    if (a >= 0 && b >= 0 && a < FRAME && b < FRAME)
-                        mask[FRAME * b + a] = 1;
-        }
-}
-
 /* The frame of a step, with and without words; free both. */
 static void frame_of(const char *line, int step, Canvas frame[2])
 {
@@ -340,57 +287,15 @@ static void frame_of(const char *line, int step, Canvas frame[2])
         Status status = player_make_step(&player);
         CHECK(!status || status_is_unconverged(status));
     }
-    /* measured as where they were drawn */
-    assert_int_equal(text_create(&player.screen.paper.text), 0);
-    for (int plain = 0; plain < 2; plain++) {
-        Paper paper;
-        assert_int_equal(paper_create(FRAME, FRAME, &paper), 0);
-        if (plain) {
-            text_free(paper.text);
-            paper.text = NULL;
-        }
-        player_paint_frame(&player, &paper);
-        frame[plain] = paper.canvas;
-        paper.canvas = (Canvas){0};
-        paper_free(&paper);
-    }
+    paint_frames(frame);
     end();
-}
-
-/* Pixels of tests/data/NAME.png, away from words, that are off by more than 4
- * of 255. */
-static int count_far_pixels(const char *name, const char *line, int step)
-{
-    static unsigned char mask[FRAME * FRAME];
-    char file[64];
-    struct stat info;
-    int far = 0, compared = 0;
-    snprintf(file, sizeof file, "tests/data/%s.png", name);
-    Canvas reference = read_png(file);
-    Canvas now[2];
-    frame_of(line, step, now);
-    assert_int_equal(reference.width, FRAME);
-    assert_int_equal(reference.height, FRAME);
-    mask_words(&now[0], &now[1], mask);
-    for (int i = 0; i < FRAME * FRAME; i++)
-        if (!mask[i]) {
-            far += pixel_distance(now[0].pixels[i], reference.pixels[i]) > 4;
-            compared++;
-        }
-    CHECK(compared > FRAME * FRAME / 2);
-    canvas_free(&reference);
-    canvas_free(&now[0]);
-    canvas_free(&now[1]);
-    assert_int_equal(stat(file, &info), 0);
-    CHECK(info.st_size < 250000);
-    return far;
 }
 
 /* The pictures that `make pictures` made are those of now; with all variations
  * also of those that take long to come to. */
 TEST(readme_shows_what_is_drawn)
 {
-    char name[32], line[128];
+    char name[32], line[128], file[64];
     int step, count = 0, different = 0;
     FILE *list = fopen("tests/data/pictures.txt", "r");
     assert_non_null(list);
@@ -398,11 +303,12 @@ TEST(readme_shows_what_is_drawn)
         count++;
         if (!tests_are_long() && (strstr("dent tear", name) || step == 100))
             continue;
-        int far = count_far_pixels(name, line, step);
+        Canvas frame[2];
+        frame_of(line, step, frame);
+        snprintf(file, sizeof file, "tests/data/%s.png", name);
+        int far = count_far_pixels(file, frame);
         if (far)
-            print_error("tests/data/%s.png differs; if it should: make "
-                        "pictures\n",
-                        name);
+            print_error("%s differs; if it should: make pictures\n", file);
         different += far > 0;
     }
     fclose(list);

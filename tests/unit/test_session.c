@@ -1,7 +1,7 @@
 /* Sessions: tests/data/sessions.txt, what hands do in the window and what they
  * see, as text.  This driver turns each line into the Input that a window would
  * send. */
-#include "attended.h"
+#include "golden.h"
 #include "model/contact.h"
 #include "oracle.h"
 #include "picture/live_values.h"
@@ -10,6 +10,7 @@
 
 #include <ctype.h>
 #include <glob.h>
+#include <limits.h>
 #include <math.h>
 
 enum { SIDE = 900, MARKS = 16, CHANGES = 80, STEPS = 80 };
@@ -18,6 +19,7 @@ static uint64_t marks[MARKS]; /* by letter */
 static double mouse[2];       /* pixels */
 static bool open_player;
 static double heap_before; /* bytes, as the session began */
+static char home[PATH_MAX]; /* where the tests began */
 static char folder[] = "/tmp/elasto-session-XXXXXX";
 
 /* What the window shows, as player_fill_frame filled it last. */
@@ -476,6 +478,21 @@ static void compare(const char *verb, const char *rest)
         *mark = now;
     else if ((now == *mark) != (strcmp(verb, "same") == 0))
         fail_msg("not %s: %s", verb, rest);
+}
+
+/* Whether the window, away from words, is tests/data/NAME.png; with PICTURES=1
+ * in the environment it becomes so. */
+static void check_picture(const char *name)
+{
+    char file[PATH_MAX + 64];
+    Canvas frame[2];
+    snprintf(file, sizeof file, "%s/tests/data/%s.png", home, name);
+    player_fill_frame(&player);
+    paint_frames(frame);
+    if (getenv("PICTURES"))
+        CHECK_OK(png_file_write(file, NULL, &frame[0]));
+    if (count_far_pixels(file, frame) > 0)
+        fail_msg("%s differs; if it should: make pictures", file);
 }
 
 /* ---- what is seen -------------------------------------------------------- */
@@ -944,7 +961,8 @@ static void session_line(const char *line)
                 {"value", check_value},    {"keeps", keep_value},
                 {"replays", replay},       {"tables", check_tables},
                 {"row", check_row},        {"times", count_texts},
-                {"near", check_text_near}, {"colour", check_text_colour}};
+                {"near", check_text_near}, {"colour", check_text_colour},
+                {"picture", check_picture}};
     char verb[16] = "", rest[128] = "";
     sscanf(line, "%15s %127[^\n]", verb, rest);
     if (getenv("SHOW"))
@@ -1339,11 +1357,10 @@ int main(int argc, char **argv)
         cmocka_unit_test_teardown(
             pages_are_the_same_when_they_are_entered_again, end_session),
         cmocka_unit_test(each_page_is_tried_and_held)};
-    char before[4096];
     int count = 5;
     read_sessions("tests/data/sessions.txt");
     read_sessions("tests/data/claims.txt");
-    assert_true(getcwd(before, sizeof before) && mkdtemp(folder));
+    assert_true(getcwd(home, sizeof home) && mkdtemp(folder));
     for (int i = 0; i < session_count; i++)
         if (strcmp(sessions[i].name, "hand") &&
             strcmp(sessions[i].name, "acts"))
@@ -1359,7 +1376,7 @@ int main(int argc, char **argv)
         cmocka_set_test_filter(argv[1]);
     int failed =
         _cmocka_run_group_tests("sessions", tests, (size_t)count, NULL, NULL);
-    assert_int_equal(chdir(before), 0);
+    assert_int_equal(chdir(home), 0);
     rmdir(folder);
     return failed;
 }

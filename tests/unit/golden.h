@@ -1,0 +1,106 @@
+/* golden.h - frames of a player beside the pictures of tests/data. */
+#ifndef ELASTO_GOLDEN_H
+#define ELASTO_GOLDEN_H
+
+#include "attended.h"
+
+#include <png.h>
+#include <sys/stat.h>
+
+enum { FRAME = 900 }; /* pixels, both sides of a golden picture */
+
+/* Pixels of a PNG file as 0xffRRGGBB; free it with canvas_free. */
+static inline Canvas read_png(const char *name)
+{
+    png_image image = {.version = PNG_IMAGE_VERSION};
+    Canvas canvas;
+    if (!png_image_begin_read_from_file(&image, name))
+        fail_msg("%s: %s", name, image.message);
+    image.format = PNG_FORMAT_RGB;
+    assert_int_equal(
+        canvas_create((int)image.width, (int)image.height, &canvas), 0);
+    uint8_t *bytes = malloc(PNG_IMAGE_SIZE(image));
+    assert_non_null(bytes);
+    assert_true(png_image_finish_read(&image, NULL, bytes, 0, NULL));
+    for (size_t i = 0; i < (size_t)image.width * image.height; i++)
+        canvas.pixels[i] = 0xff000000u | (uint32_t)bytes[3 * i] << 16 |
+                           (uint32_t)bytes[3 * i + 1] << 8 | bytes[3 * i + 2];
+    free(bytes);
+    return canvas;
+}
+
+/* Largest difference of a colour channel of two pixels. */
+static inline int pixel_distance(Colour a, Colour b)
+{
+    int largest = 0;
+    for (int shift = 0; shift < 24; shift += 8) {
+        int d = (int)(a >> shift & 255) - (int)(b >> shift & 255);
+        largest = abs(d) > largest ? abs(d) : largest;
+    }
+    return largest;
+}
+
+/* Marks the pixels around those that differ: where words are, whatever the
+ * version of the library that drew them.  mask [FRAME FRAME] out. */
+static inline void mask_words(const Canvas *words, const Canvas *plain,
+                       unsigned char *mask)
+{
+    enum { AROUND = 24, ABOVE = 4 };
+    memset(mask, 0, FRAME * FRAME);
+    for (int j = 0; j < FRAME; j++)
+        for (int i = 0; i < FRAME; i++) {
+            if (words->pixels[FRAME * j + i] == plain->pixels[FRAME * j + i])
+                continue;
+            for (int b = j - ABOVE; b <= j + ABOVE; b++)
+                for (int a = i - AROUND; a <= i + AROUND; a++)
+                    if (a >= 0 && b >= 0 && a < FRAME && b < FRAME)
+                        mask[FRAME * b + a] = 1;
+        }
+}
+
+/* Paints the frame of now, with and without words; free both. */
+static inline void paint_frames(Canvas frame[2])
+{
+    /* measured as where they were drawn */
+    if (!player.screen.paper.text)
+        assert_int_equal(text_create(&player.screen.paper.text), 0);
+    for (int plain = 0; plain < 2; plain++) {
+        Paper paper;
+        assert_int_equal(paper_create(FRAME, FRAME, &paper), 0);
+        if (plain) {
+            text_free(paper.text);
+            paper.text = NULL;
+        }
+        player_paint_frame(&player, &paper);
+        frame[plain] = paper.canvas;
+        paper.canvas = (Canvas){0};
+        paper_free(&paper);
+    }
+}
+
+/* Pixels of a picture, away from words, that are off by more than 4 of 255 from
+ * these frames, which are freed. */
+static inline int count_far_pixels(const char *file, Canvas frame[2])
+{
+    static unsigned char mask[FRAME * FRAME];
+    struct stat info;
+    int far = 0, compared = 0;
+    Canvas reference = read_png(file);
+    assert_int_equal(reference.width, FRAME);
+    assert_int_equal(reference.height, FRAME);
+    mask_words(&frame[0], &frame[1], mask);
+    for (int i = 0; i < FRAME * FRAME; i++)
+        if (!mask[i]) {
+            far += pixel_distance(frame[0].pixels[i], reference.pixels[i]) > 4;
+            compared++;
+        }
+    CHECK(compared > FRAME * FRAME / 2);
+    canvas_free(&reference);
+    canvas_free(&frame[0]);
+    canvas_free(&frame[1]);
+    assert_int_equal(stat(file, &info), 0);
+    CHECK(info.st_size < 250000);
+    return far;
+}
+
+#endif
