@@ -10,8 +10,8 @@ static const double map_levels[] = {0.1, 0.2, 0.4, 0.6, 1,  1.5, 2,
                                     3,   5,   7,   10,  15, 30,  50};
 enum { MAP_LEVELS = sizeof map_levels / sizeof *map_levels };
 
-/* Colours of g1 = 0 and g2 = 0, g = grad E; "green", "purple" in cards.txt. */
-static const Colour curve_colour[2] = {0xff009e73u, 0xffb0559au};
+/* Colours of g1 = 0 and g2 = 0, g = grad E; "green", "blue" in cards.txt. */
+static const Colour curve_colour[2] = {0xff009e73u, 0xff0072b2u};
 
 /* ---- the map ------------------------------------------------------------ */
 
