@@ -53,8 +53,8 @@ void square_mesh_list_springs(const SquareMesh *shape, int *e);
  * a Cholesky factor has O(n log n) entries.  order [n] out. */
 void square_mesh_order_nodes(const SquareMesh *shape, int *order);
 
-/* Returns the body of node i, and replaces i by its number in that body. */
-int square_mesh_locate_body(const SquareMesh *shape, int *i);
+/* Returns the body that has a node. */
+int square_mesh_locate_body(const SquareMesh *shape, int node);
 
 /* Writes the position of node i at rest.  x [2] m, out. */
 void square_mesh_rest_position(const SquareMesh *shape, int i, double x[2]);

@@ -32,16 +32,16 @@ static int grid_index(const SquareMesh *shape, int i, int j)
     return i * (shape->rows + 1) + j;
 }
 
-int square_mesh_locate_body(const SquareMesh *shape, int *i)
+int square_mesh_locate_body(const SquareMesh *shape, int node)
 {
-    return locate_in_body(shape, shape->nodes, i);
+    return locate_in_body(shape, shape->nodes, &node);
 }
 
 /* x_(i,j) = (-side/2 + i spacing, -high/2 + j spacing) */
 void square_mesh_rest_position(const SquareMesh *shape, int i, double x[2])
 {
     int stride = grid_index(shape, 1, 0);
-    square_mesh_locate_body(shape, &i);
+    locate_in_body(shape, shape->nodes, &i);
     double step = shape->spacing;
     double high =
         shape->rows == shape->segments ? shape->side : shape->rows * step;
@@ -51,7 +51,7 @@ void square_mesh_rest_position(const SquareMesh *shape, int i, double x[2])
 
 int square_mesh_get_sides(const SquareMesh *shape, int i)
 {
-    square_mesh_locate_body(shape, &i);
+    locate_in_body(shape, shape->nodes, &i);
     int stride = grid_index(shape, 1, 0), column = i / stride, row = i % stride;
     return (column == 0 ? MESH_LEFT : 0) |
            (column == shape->segments ? MESH_RIGHT : 0) |

@@ -125,7 +125,6 @@ static double find_present_energy(const Curve *curve)
 double energies_needed_height(const FrameContent *content, double wide,
                               double em)
 {
-    (void)wide, (void)em;
     int count = find_curves(content).count;
     return MIN_HEIGHT + ROW_HEIGHT * fmin(fmax(count - 4, 0), 3);
 }

@@ -73,7 +73,6 @@ static double flow_force_at(const void *data, double s)
 /* Returns the force over the force at the break; 0 after the break. */
 static double breaking_force_ratio(const void *now, double part)
 {
-    (void)now;
     return part > 1 ? 0 : part;
 }
 

@@ -85,7 +85,6 @@ static double find_row_pitch(const FrameContent *content)
 double listing_needed_height(const FrameContent *content, double wide,
                              double em)
 {
-    (void)wide, (void)em;
     return find_row_pitch(content) *
                lay_out_listing(content, rows_listing, NULL, (Box){0}) +
            2.6;

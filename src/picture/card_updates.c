@@ -153,7 +153,6 @@ bool updates_fill_row(const FrameContent *content, int row, CardTableRow *cells)
 double updates_needed_height(const FrameContent *content, double wide,
                              double em)
 {
-    (void)wide, (void)em;
     const Trace *trace = active_pane(content)->trace;
     return CARD_ROW * (1 + fmax(6, trace ? trace->records : 0)) + 2.8;
 }

@@ -35,6 +35,9 @@ extern const ListingRow rows_listing[];
 extern const char text_sentences[], text_methods[], text_states[],
     text_eigenvalues[], text_undrawn[], text_node[], text_spring[];
 
+/* Functions of one kind have the same parameters; some use only one. */
+#pragma GCC diagnostic ignored "-Wunused-parameter"
+
 /* Functions that cards.txt names; picture.h describes each kind. */
 typedef void StageBounds(const Plot *stage, double bounds[4]);
 typedef void StageDraw(Plot *stage);

@@ -79,7 +79,6 @@ void envelope_pick(const Plot *stage, double x, double y, Pick *pick)
 {
     double column = round(2 * (pick->point[0] + 9));
     double row = round(pick->point[1] + 6);
-    (void)stage, (void)x, (void)y;
     if (column >= 0 && column < ENVELOPE_COLUMNS && row >= 0 &&
         row < ENVELOPE_ROWS) {
         pick->kind = PICK_CELL;

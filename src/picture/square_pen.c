@@ -35,7 +35,7 @@ static bool node_is_fixed(const SquarePen *pen, int node)
 {
     const SquareMesh *mesh = &pen->simulation->mesh;
     return pen->fixed_bodies && node < mesh->nodes &&
-           pen->fixed_bodies >> square_mesh_locate_body(mesh, &node) & 1;
+           pen->fixed_bodies >> square_mesh_locate_body(mesh, node) & 1;
 }
 
 SquarePen square_pen_create(Plot *stage, int run)
@@ -62,11 +62,9 @@ SquarePen square_pen_create(Plot *stage, int run)
         content->view->lens.zoom * stage->box.width / stage->camera.scale[0];
     if (seen > FLOWN_VIEW * mesh->side) /* the nodes have flown apart */
         pen.spacing *= seen / mesh->side;
-    for (int i = 0; pen.fixed_bodies && i < mesh->nodes; i++) {
-        int node = i;
+    for (int i = 0; pen.fixed_bodies && i < mesh->nodes; i++)
         if (!system->pinned[i])
-            pen.fixed_bodies &= ~(1u << square_mesh_locate_body(mesh, &node));
-    }
+            pen.fixed_bodies &= ~(1u << square_mesh_locate_body(mesh, i));
     pen.width = fmax(fmin(fmax(0.06 * pen.spacing / unit, 1.1), 1.9), 1 / unit);
     pen.node_radius = NODE_RADIUS * pen.spacing / unit;
     if (!content->is_bare)

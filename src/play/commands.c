@@ -1,6 +1,4 @@
 /* commands.c - finds commands by key, reads and writes commands and scripts. */
-#define _POSIX_C_SOURCE 200809L /* getline */
-
 #include "play/command.h"
 
 #include <ctype.h>

@@ -164,11 +164,10 @@ Status player_begin_runs(Player *player, const Options *options, int count,
 
 Status player_edit(Player *player, const Command *change, int pane, bool again)
 {
-    Past *past = &player->past;
     if (player->time.mode == MODE_REST)
         player->time.mode = MODE_RUN; /* bodies may move again */
     Status status =
-        past_edit(past, change, pane, again, player->commands.gesture);
+        past_edit(&player->past, change, pane, again, player->commands.gesture);
     if (!status)
         update_after_edit(player);
     return status || again ? status : record_step(player);

@@ -51,9 +51,9 @@ const char *pins_read(const char *text, const SquareMesh *shape,
         if (!is_pin || number > most || (text[end] && text[end] != ','))
             return text;
         for (int i = 0; pinned && i < shape->nodes; i++) {
-            int own = i, sides = square_mesh_get_sides(shape, i);
-            bool in_body = !digits[0] ||
-                           square_mesh_locate_body(shape, &own) + 1 == number;
+            int sides = square_mesh_get_sides(shape, i);
+            bool in_body =
+                !digits[0] || square_mesh_locate_body(shape, i) + 1 == number;
             bool on_side = (sides & word->on_all_sides) == word->on_all_sides &&
                            (!word->on_one_side || (sides & word->on_one_side));
             pinned[i] |= name[0] ? in_body && on_side : i == number;
@@ -265,7 +265,7 @@ static Status place_body(const Options *options, int run, double *x, double *v,
                                 message);
     for (int i = 0; i < shape.nodes; i++) {
         double rest[2];
-        int node = i, body = square_mesh_locate_body(&shape, &node);
+        int body = square_mesh_locate_body(&shape, i);
         const double *start =
             options->bodies > 0 ? options->body[body] : single;
         double angle = start[2] * DEGREE, c = cos(angle), s = sin(angle);
@@ -601,8 +601,8 @@ static Status check_crossing_outlines(const Options *options, const double *x,
             bool neighbours = other[1] == edge[0] || other[0] == edge[1];
             if (neighbours || !edges_cross(x, edge, other))
                 continue;
-            int a = square_mesh_locate_body(&shape, &other[0]) + 1;
-            int b = square_mesh_locate_body(&shape, &edge[0]) + 1;
+            int a = square_mesh_locate_body(&shape, other[0]) + 1;
+            int b = square_mesh_locate_body(&shape, edge[0]) + 1;
             return a == b ? refuse(message,
                                    "--self-contact: body %d would cross itself "
                                    "at the start; --self-contact off allows it",

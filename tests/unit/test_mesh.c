@@ -86,7 +86,7 @@ TEST(cells_triangles_and_outline_are_those_of_the_springs)
         square_mesh_get_outline_edge(&mesh, k, node);
         int i = node[0], j = node[1];
         const double *a = x + 2 * i, *b = x + 2 * j;
-        CHECK(i / 24 == j / 24 && square_mesh_locate_body(&mesh, &i) == k / 16);
+        CHECK(i / 24 == j / 24 && square_mesh_locate_body(&mesh, i) == k / 16);
         CHECK(fabs(a[0] - b[0]) + fabs(a[1] - b[1]) == 0.5);
         CHECK(square_mesh_get_sides(&mesh, i) ==
               (a[0] == -1.25 ? MESH_LEFT : 0) +
