@@ -44,9 +44,10 @@ void paper_shorten(Paper *paper, double size, int width, char *words,
 int paper_write_in_box(Paper *paper, Face face, double size, Colour colour,
                        Box box, Align align, const char *markup);
 
-/* Draws a line on a translucent white panel, to be read on a picture. */
+/* Draws markup, formatted as by printf, on a panel that hides the picture. */
 void paper_write_on_panel(Paper *paper, Face face, double size, Colour colour,
-                          double x, double y, Align align, const char *markup);
+                          double x, double y, Align align, const char *format,
+                          ...);
 
 /* Returns the width of a line in pixels. */
 int paper_width(Paper *paper, Face face, double size, const char *markup);

@@ -365,7 +365,7 @@ static void draw_pane_label(const Plot *stage, const char *label)
         paper_write_on_panel(
             paper, FACE_BOLD, 1, colour_of_run(plot_pane_index(stage)),
             box->x + 0.5 * box->width, low - 1.36 * (lines - 1 - i) * paper->em,
-            ALIGN_CENTRE, line[i]);
+            ALIGN_CENTRE, "%s", line[i]);
 }
 
 /* Draws the picture of a pane with its words, and the note at the mouse. */

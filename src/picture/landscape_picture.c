@@ -111,10 +111,10 @@ static void write_levels(const Plot *plot)
             if (before < map_levels[k] && value >= map_levels[k] &&
                 gone > last + space &&
                 box_contains(inside, place[0], place[1])) {
-                paper_write_on_panel(plot->paper, FACE_REGULAR, 0.85,
-                                     COLOUR_FAINT, place[0],
-                                     place[1] - 0.6 * plot->em, ALIGN_CENTRE,
-                                     format_number(map_levels[k] * e).text);
+                paper_write_on_panel(
+                    plot->paper, FACE_REGULAR, 0.85, COLOUR_FAINT, place[0],
+                    place[1] - 0.6 * plot->em, ALIGN_CENTRE, "%s",
+                    format_number(map_levels[k] * e).text);
                 last = gone;
             }
         before = value;

@@ -431,7 +431,7 @@ int card_write_flow(const Plot *card, int at[2], double size, double gap,
     if (draw)
         paper_write_on_panel(paper, line->face, size, line->colour,
                              card->box.x + at[0], card->box.y + at[1],
-                             ALIGN_LEFT, line->text);
+                             ALIGN_LEFT, "%s", line->text);
     at[0] += width + paper_pixels(paper, gap);
     return at[1] + paper_pixels(paper, 1.5 * size);
 }

@@ -81,16 +81,19 @@ int paper_write_in_box(Paper *paper, Face face, double size, Colour colour,
 }
 
 void paper_write_on_panel(Paper *paper, Face face, double size, Colour colour,
-                          double x, double y, Align align, const char *markup)
+                          double x, double y, Align align, const char *format,
+                          ...)
 {
-    int wide = paper_width(paper, face, size, markup);
+    char words[PAPER_TEXT];
+    write_formatted(words, sizeof words, format);
+    int wide = paper_width(paper, face, size, words);
     int left = pixel_from_coordinate(x) - (int)align * wide / 2;
     int air = paper_pixels(paper, 0.3);
     Box panel = {left - air, pixel_from_coordinate(y), wide + 2 * air,
                  paper_pixels(paper, 1.36 * size)};
     canvas_fill(&paper->canvas, panel, COLOUR_PANEL);
     paper_keep_words(paper, panel);
-    paper_write(paper, face, size, colour, x, y, align, "%s", markup);
+    paper_write(paper, face, size, colour, x, y, align, "%s", words);
 }
 
 void paper_shorten(Paper *paper, double size, int width, char *words,

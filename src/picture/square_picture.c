@@ -1,6 +1,5 @@
 /* square_picture.c - the picture of the square: bounds, layers, live values. */
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "picture/cards.h"
@@ -377,9 +376,7 @@ static void add_colour_legend(const SquarePen *pen)
 static void draw_node_numbers(const SquarePen *pen)
 {
     double at[2], em = pen->stage->em, size = pen->spacing < 6 * em ? 1 : 1.3;
-    char number[16];
     for (int i = 0; i < pen->system->nodes; i++) {
-        snprintf(number, sizeof number, "%d", i);
         plot_to_pixel(pen->stage, pen->x + 2 * i, at);
         const Box *box = &pen->stage->box;
         bool low = at[1] + 2.3 * em > box->y + box->height;
@@ -388,7 +385,8 @@ static void draw_node_numbers(const SquarePen *pen)
         at[1] += (low ? -2.1 : 0.4) * em;
         if (box_contains(pen->stage->box, at[0], at[1]))
             paper_write_on_panel(pen->stage->paper, FACE_BOLD, size,
-                                 COLOUR_TEXT, at[0], at[1], ALIGN_LEFT, number);
+                                 COLOUR_TEXT, at[0], at[1], ALIGN_LEFT, "%d",
+                                 i);
     }
 }
 
@@ -491,7 +489,6 @@ static void draw_magnifier(const SquarePen *pen)
     Plot lens = *pen->stage;
     Canvas *canvas = &lens.paper->canvas;
     LawGap gap;
-    char words[60];
     double bounds[4], least = INFINITY;
     const Box stage = lens.box;
     int air = (int)lens.em, side = (int)(MAGNIFIER_SIDE * lens.em);
@@ -522,11 +519,10 @@ static void draw_magnifier(const SquarePen *pen)
     square_draw_springs(&near);
     square_draw_nodes(&near);
     plot_line(&lens, gap.nearest, gap.node, 3, COLOUR_P);
-    snprintf(words, sizeof words, "\u03b4 = %s mm",
-             format_number(1e3 * gap.d).text);
     paper_write_on_panel(lens.paper, FACE_BOLD, 1, COLOUR_P,
                          lens.box.x + 0.6 * lens.em, lens.box.y + 0.4 * lens.em,
-                         ALIGN_LEFT, words);
+                         ALIGN_LEFT, "\u03b4 = %s mm",
+                         format_number(1e3 * gap.d).text);
     canvas_set_clip(canvas, before);
 }
 

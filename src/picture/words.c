@@ -75,7 +75,6 @@ NumberText format_power(const char *value)
 void plot_scale(const Plot *plot)
 {
     Paper *paper = plot->paper;
-    char words[64];
     double scale = plot->camera.scale[0];
     double metres = plot_round_up(SCALE_PART * plot->box.width / scale);
     double length = metres * scale;
@@ -84,10 +83,9 @@ void plot_scale(const Plot *plot)
                 (int)length, (int)(1.5 * paper->unit) + 1};
     if (!(length > 4) || !isfinite(length) || length > 0.6 * plot->box.width)
         return;
-    snprintf(words, sizeof words, "%s m", format_number(metres).text);
     paper_write_on_panel(paper, FACE_REGULAR, 0.85, COLOUR_FAINT,
                          line.x + 0.5 * length, line.y - 1.4 * paper->em,
-                         ALIGN_CENTRE, words);
+                         ALIGN_CENTRE, "%s m", format_number(metres).text);
     canvas_fill(&paper->canvas, line, COLOUR_GREY);
 }
 
