@@ -187,12 +187,12 @@ typedef struct Player {
 } Player;
 
 /* Creates a player, which without a screen writes 100 frames to "frames".
- *   options  [count] in, options of each pane
+ *   options  [options->panes] in, options of each pane
  *   words    in, command line, ended by NULL, or NULL; outlives the player
  *   stop     in, not 0 ends the run after the present step; outlives the player
  *   player   out; must not be moved; free it in any case
  * Returns OK or a failure; player->message may explain INVALID_INPUT. */
-Status player_create(const Options *options, int count, char *const *words,
+Status player_create(const Options *options, char *const *words,
                      const volatile sig_atomic_t *stop, Player *player);
 
 /* Shows the next step, made before or new, and records it; with a window may

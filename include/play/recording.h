@@ -66,11 +66,10 @@ typedef struct Recording {
 } Recording;
 
 /* Opens the frames, film and tables that the options ask for; makes the folder.
- *   panes      in, number of panes
  *   recording  out; free it in any case
  * Returns OK, FILE_FAILED, OUT_OF_MEMORY, or INVALID_INPUT with a message; the
  * other functions here return the first three. */
-Status recording_open(const Options *options, int panes, Recording *recording);
+Status recording_open(const Options *options, Recording *recording);
 
 /* Writes the frame of a step to the folder, and `times` times to the film. */
 Status recording_write_frame(Recording *recording, const Canvas *canvas,

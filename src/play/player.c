@@ -205,7 +205,7 @@ static void open_view(Player *player)
         player->screen.paper_size[i] = size[i] > 0 ? size[i] : FRAME_SIZE;
 }
 
-Status player_create(const Options *options, int count, char *const *words,
+Status player_create(const Options *options, char *const *words,
                      const volatile sig_atomic_t *stop, Player *player)
 {
     const Command begin = {.kind = COMMAND_RESTART};
@@ -214,7 +214,8 @@ Status player_create(const Options *options, int count, char *const *words,
     player->setup.arguments = words;
     player->setup.stop_signal = stop;
     player->tour.last_page = options->page;
-    memcpy(player->setup.options, options, (size_t)count * sizeof *options);
+    memcpy(player->setup.options, options,
+           (size_t)options->panes * sizeof *options);
     player->setup.start_time = clock_now();
     Status status = script_read(options->script, &player->setup.script,
                                 MESSAGE(player->message));
@@ -230,12 +231,11 @@ Status player_create(const Options *options, int count, char *const *words,
     if (options->paused || (player->setup.asks_guess && options->steps < 0 &&
                             (options->page || options->scene->starts_paused)))
         player->time.mode = MODE_PAUSE;
-    status = recording_open(options, count, &player->recording);
+    status = recording_open(options, &player->recording);
     past_create(player->setup.is_attended || player->screen.draws_frames,
                 player->setup.is_attended && options->steps < 0, &player->past);
     if (!status)
-        status =
-            player_begin_runs(player, player->setup.options, count, &begin);
+        status = player_begin_runs(player, options, options->panes, &begin);
     /* A script starts running, so the journal needs the pause. */
     if (!status && player_is_stopped(player))
         status = script_add(&player->commands.journal, 0, &pause, 0);

@@ -307,6 +307,6 @@ int program_begin(int argc, char **argv, const volatile sig_atomic_t *stop,
     if (check_file_names(options, MESSAGE(message)))
         return print_error(EXIT_MISUSED, "%s", message);
     warn_of_fresh_terms(options);
-    Status status = player_create(options, options->panes, argv, stop, player);
+    Status status = player_create(options, argv, stop, player);
     return status ? program_end(player, status) : PROGRAM_PLAYS;
 }

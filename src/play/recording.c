@@ -175,10 +175,10 @@ static Status open_table(const Options *options, Recording *recording, int t)
     return table_open(name, recording->message, table);
 }
 
-Status recording_open(const Options *options, int panes, Recording *recording)
+Status recording_open(const Options *options, Recording *recording)
 {
     const char *folder = options->frames;
-    *recording = (Recording){.folder = folder, .panes = panes};
+    *recording = (Recording){.folder = folder, .panes = options->panes};
     char *message = recording->message;
     Status status = STATUS_OK;
     if (folder && mkdir(folder, 0777) && errno != EEXIST)

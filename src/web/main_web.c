@@ -195,7 +195,7 @@ EMSCRIPTEN_KEEPALIVE void web_print_page(int page, int width, int height)
     Status status = lecture_make_options(row, &options, MESSAGE(message));
     options.headless = options.quiet = true;
     options.steps = row->print_step;
-    status = status ? status : player_create(&options, 1, NULL, &never, player);
+    status = status ? status : player_create(&options, NULL, &never, player);
     player->screen.draws_frames = true;
     status = status ? status : player_enqueue_page(player);
     status = status ? status : player_obey_queue(player, false);
