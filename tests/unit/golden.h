@@ -43,7 +43,7 @@ static inline int pixel_distance(Colour a, Colour b)
 /* Marks the pixels around those that differ: where words are, whatever the
  * version of the library that drew them.  mask [FRAME FRAME] out. */
 static inline void mask_words(const Canvas *words, const Canvas *plain,
-                       unsigned char *mask)
+                              unsigned char *mask)
 {
     enum { AROUND = 24, ABOVE = 4 };
     memset(mask, 0, FRAME * FRAME);

@@ -18,7 +18,7 @@ enum { SIDE = 900, MARKS = 16, CHANGES = 80, STEPS = 80 };
 static uint64_t marks[MARKS]; /* by letter */
 static double mouse[2];       /* pixels */
 static bool open_player;
-static double heap_before; /* bytes, as the session began */
+static double heap_before;  /* bytes, as the session began */
 static char home[PATH_MAX]; /* where the tests began */
 static char folder[] = "/tmp/elasto-session-XXXXXX";
 
