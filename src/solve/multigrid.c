@@ -14,10 +14,9 @@
 static const double NEARBY = 0.02;
 
 /* A direction is poor if the bound of p after it is more than STALLS times the
- * bound before.  After the first poor direction of a step, conjugate gradients
- * find the directions.  After each further one, or if the step's first
- * direction is poor, tiles relax in the next iteration, too.  A sweep of a tile
- * is worth its time if it lowers E by more than PACE times the last direction's
+ * bound before.  Tiles relax after each poor direction, and after the first one
+ * of a step conjugate gradients find the directions.  A sweep of a tile is
+ * worth its time if it lowers E by more than PACE times the last direction's
  * decrease, divided by the number of tiles. */
 static const double STALLS = 0.3, PACE = 0.06;
 
@@ -254,9 +253,8 @@ static Status multigrid_update_iterate(Newton *newton)
     newton->counters.iterations++;
     if (newton->passes_test)
         return STATUS_OK;
-    bool poor = mg->p_bound > STALLS * mg->last_p_bound;
-    mg->has_relaxed = poor && (mg->is_slow || record->iteration == 1);
-    mg->is_slow = mg->is_slow || poor;
+    mg->has_relaxed = mg->p_bound > STALLS * mg->last_p_bound;
+    mg->is_slow = mg->is_slow || mg->has_relaxed;
     if (mg->has_relaxed) {
         tiles_relax(&mg->tiles, PACE * record->change * unit / tiles, p);
         multigrid_compute_line(mg);

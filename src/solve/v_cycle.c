@@ -428,10 +428,11 @@ enum { MAX_CYCLES = 60 };
 
 /* Conjugate gradients end when p would pass the test even with MARGIN times the
  * bound of its error.  If p is longer than HOPEFUL times the longest p that
- * passes, a further direction is needed anyway; then a linear residual of LOOSE
- * times the gradient is enough, in the norm of M^-1.  Else the limit is LEAST,
- * which is all that single precision reaches. */
-static const double MARGIN = 1.3, HOPEFUL = 0.5, LOOSE = 0.3, LEAST = 1e-4;
+ * passes, a further iteration costs no more than a p that is exact enough for
+ * the test, and leaves a smaller error; then a linear residual of LOOSE times
+ * the gradient is enough, in the norm of M^-1.  Else the limit is LEAST, which
+ * is all that single precision reaches. */
+static const double MARGIN = 1.3, HOPEFUL = 0.2, LOOSE = 0.3, LEAST = 1e-4;
 
 /* Returns the largest |x_x| + |x_y| of a node. */
 FAST static double find_largest(const Level *level)
