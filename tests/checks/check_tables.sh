@@ -157,6 +157,9 @@ verdict other_tables_are_refused "$(
 # through a program that changes what is written: a line says why not.
 other_programs() {
     run --steps 2 --states plain --springs springs
+    awk -F, '$1 == 0 { n[int(100 * $8 + 0.5)]++ }
+        END { print n[0], n[48], n[96] }' springs >strains
+    grep -qx '20 32 20' strains || echo "strains of 0, 48, 96 %: $(cat strains)"
     run --steps 3 --state plain --states wanted
     for change in 's/$/\r/' '1s/^/\xef\xbb\xbf/' '$!b;N' 's/,/ , /g' \
         '1s/[a-z]\{1,\}/"&"/g' '$G' 's/e-/E-/' 's/$/,1/;1s/,1$/,mine/'; do

@@ -678,8 +678,7 @@ static double add_masses(const Simulation *simulation)
     return sum;
 }
 
-/* The height of the lowest node, and of the highest node of the first body, m
- */
+/* m, height of the lowest node, and of the highest node of the first body */
 static double find_lowest(const Simulation *simulation)
 {
     double low = INFINITY;

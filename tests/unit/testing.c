@@ -1,5 +1,4 @@
-/* testing.c - checks, random systems and runs of command lines for all suites.
- */
+/* testing.c - checks, random systems and command lines for all suites. */
 #include "testing.h"
 
 #ifdef __GLIBC__
