@@ -75,9 +75,9 @@ int newton_most_iterations(const Newton *newton)
 }
 
 /* Decides whether the loop ends: p or a bound of the next p has passed the test
- * of Algorithm 3, a failure, rounding, or too many iterations.  If p passes the test and rounding
- * hides the decrease of E, the step has converged without p.  Without a line
- * search an end above the start is DIVERGED.
+ * of Algorithm 3, a failure, rounding, or too many iterations.  If p passes the
+ * test and rounding hides the decrease of E, the step has converged without p.
+ * Without a line search an end above the start is DIVERGED.
  *   status  in, result of direction, step length and update */
 static Status test_iterate(Newton *newton, Status status)
 {

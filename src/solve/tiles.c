@@ -65,9 +65,9 @@ typedef float NodeSums[SUMS][LANES];
 
 /* Computes the sums of LANES nodes of a row, in a loop of its own, since steps
  * that do not wait for each other are faster.
- *   is_fine  Tiles.is_fine: a spring's force has changed since the start by
+ *   is_close  Tiles.is_close: a spring's force has changed since the start by
  *            c (s d - s0 d0) = c (s w + (s - s0) d0), d = d0 + w */
-INLINE void gather_springs(const Tiles *tiles, NodeRun at, bool is_fine,
+INLINE void gather_springs(const Tiles *tiles, NodeRun at, bool is_close,
                            NodeSums of)
 {
     const Grid *grid = tiles->grid;
@@ -84,7 +84,7 @@ INLINE void gather_springs(const Tiles *tiles, NodeRun at, bool is_fine,
     {                                                                          \
         SingleSpring s = evaluate_single_spring(grid, kind, q, to, numbers);   \
         Few wx = s.dx, wy = s.dy;                                              \
-        if (is_fine) {                                                         \
+        if (is_close) {                                                        \
             wx = FEW(ux, q) - FEW(ux, q + (to));                               \
             wy = FEW(uy, q) - FEW(uy, q + (to));                               \
             Few more = (2 * s.dx + wx) * wx + (2 * s.dy + wy) * wy;            \
@@ -138,7 +138,7 @@ INLINE void node_line_polynomial(const NodeSums of, int e, float px, float py,
 }
 
 /* Moves LANES nodes of a row that share no spring; adds E's changes to sum. */
-INLINE void relax_nodes(const Tiles *tiles, NodeRun at, bool is_fine,
+INLINE void relax_nodes(const Tiles *tiles, NodeRun at, bool is_close,
                         double *sum)
 {
     const Grid *grid = tiles->grid;
@@ -146,7 +146,7 @@ INLINE void relax_nodes(const Tiles *tiles, NodeRun at, bool is_fine,
     float *const x = grid->float_x, *const y = x + plane;
     float *const ux = tiles->u, *const uy = ux + plane;
     NodeSums of;
-    gather_springs(tiles, at, is_fine, of);
+    gather_springs(tiles, at, is_close, of);
     EACH_OF (NEXT(at, LANES)) {
         const int q = at.first + e;
         float gx = of[GX][e], gy = of[GY][e], negative = of[NEGATIVE][e];
@@ -162,7 +162,7 @@ INLINE void relax_nodes(const Tiles *tiles, NodeRun at, bool is_fine,
         float go = find_lowering_step(along, &lower);
         ux[q] += go * px;
         uy[q] += go * py;
-        if (!is_fine) {
+        if (!is_close) {
             x[q] += go * px;
             y[q] += go * py;
         }
@@ -172,7 +172,7 @@ INLINE void relax_nodes(const Tiles *tiles, NodeRun at, bool is_fine,
 
 /* Moves each node of a tile once: even rows first, then odd rows, in each of
  * them the even columns first.  Returns the change of E. */
-INLINE double relax_tile(const Tiles *tiles, int tile, bool is_fine)
+INLINE double relax_tile(const Tiles *tiles, int tile, bool is_close)
 {
     const Grid grid = *tiles->grid;
     int top = tile / tiles->columns * TILE_ROWS, column = tile % tiles->columns;
@@ -184,7 +184,7 @@ INLINE double relax_tile(const Tiles *tiles, int tile, bool is_fine)
             NodeRun at = grid_nodes(&grid, i, colour % 2);
             at.first += column * LANES;
             if (at.first < at.end)
-                relax_nodes(tiles, at, is_fine, sum);
+                relax_nodes(tiles, at, is_close, sum);
         }
     return sum_lanes(sum);
 }
@@ -205,8 +205,8 @@ FAST static double relax_active(Tiles *tiles, double activity, int *visits)
                 if (tiles->activity[i * wide + j] <= activity)
                     tiles->chosen[count++] = i * wide + j;
         for (int t = 0; t < count; t++) {
-            int tile = tiles->chosen[t]; /* is_fine is constant in each copy */
-            tiles->change[tile] = tiles->is_fine
+            int tile = tiles->chosen[t]; /* is_close is constant in each copy */
+            tiles->change[tile] = tiles->is_close
                                       ? relax_tile(tiles, tile, true)
                                       : relax_tile(tiles, tile, false);
         }
@@ -226,7 +226,7 @@ FAST static double relax_active(Tiles *tiles, double activity, int *visits)
 }
 
 /* Starts a relaxation at the grid's x.
- *   g  [2 planes] out, grad E, only if is_fine */
+ *   g  [2 planes] out, grad E, only if is_close */
 INLINE void begin_relaxation(const Tiles *tiles, double *g)
 {
     const Grid *grid = tiles->grid;
@@ -234,11 +234,11 @@ INLINE void begin_relaxation(const Tiles *tiles, double *g)
     float *const start_g = tiles->start_g;
     grid_narrow_x(grid);
     memset(tiles->u, 0, 2 * (size_t)plane * sizeof(float));
-    if (tiles->is_fine)
+    if (tiles->is_close)
         grid_gradient(grid, g);
-    narrow_numbers(tiles->is_fine ? g : grid->from_target, 1, 0, 2 * plane,
+    narrow_numbers(tiles->is_close ? g : grid->from_target, 1, 0, 2 * plane,
                    start_g);
-    for (int c = 0; c < 2 && !tiles->is_fine; c++)
+    for (int c = 0; c < 2 && !tiles->is_close; c++)
         EACH_OF (plane)
             start_g[c * plane + e] *= grid->float_m[e];
 }
@@ -247,7 +247,7 @@ FAST void tiles_relax(Tiles *tiles, double pace, double *p)
 {
     int count = tiles->rows * tiles->columns, visits;
     double rounding = tiles->grid->segments * FLT_EPSILON; /* error of x */
-    tiles->is_fine = pace > -tiles->grid->stiffest * rounding * rounding;
+    tiles->is_close = pace > -tiles->grid->stiffest * rounding * rounding;
     begin_relaxation(tiles, p);
     for (int t = 0; t < count; t++)
         tiles->activity[t] = 0;
