@@ -49,7 +49,7 @@ typedef struct TermStep {
 } TermStep;
 
 struct TermKind {
-    /* Name in messages, such as "friction".  NULL: no option adds the term. */
+    /* Name in messages, such as "friction".  NULL: no message names it. */
     const char *name;
 
     /* Adds the term with the numbers of its option, at least one of them not 0,
@@ -87,8 +87,8 @@ struct TermKind {
      * weight -1 and u NULL to collect forces. */
     void (*gradient)(const EvalPoint *at, double *g);
 
-    /* Appends the triplets of the Hessian, by term_add_block.  The triplets
-     * stay the same during a step, except for grow.  NULL: the Hessian is 0. */
+    /* Appends the triplets of the Hessian, by term_add_block.  Those
+     * triplets stay the same in a step.  NULL: the Hessian is 0. */
     void (*pattern)(const EvalPoint *at, Triplets *triplets);
 
     /* Appends the triplets that the Hessian at x needs and the pattern lacks,

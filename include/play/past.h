@@ -167,7 +167,7 @@ Status past_begin_runs(Past *past, const Options *options, int panes,
 Status past_edit(Past *past, const Command *edit, int pane, bool again,
                  int gesture);
 
-/* Sets the shown step, cut to 0 ... newest + 1; abandons the present work.
+/* Sets aim_step, cut to 0 ... newest + 1; abandons the present work.
  *   again  the step is made once more, with samples of E in each iteration */
 void past_choose_step(Past *past, long step, bool again);
 

@@ -6,8 +6,9 @@
  *   that function: edits the past, or chooses the step to be shown
  *   player_work: past_iterate until that step is shown (steps.c)
  *
- * From key to Newton's method: player_obey_input, player_obey, player_work,
- * past_iterate, simulation_advance, time_integrator_advance, newton_minimise.
+ * From key to Newton: player_obey_input, player_obey, player_work,
+ * past_iterate, pane_run_iterate, simulation_advance,
+ * time_integrator_advance, newton_minimise.
  */
 #pragma once
 
@@ -48,7 +49,7 @@ typedef enum AfterWork {
     AFTER_NOTHING,
     AFTER_SHOW_FIRST, /* show the step's first line of Algorithm 3 */
     AFTER_SHOW_LAST,  /* show the step's last line of Algorithm 3 */
-    AFTER_SHOW_PEAK,  /* show the peak of E, if E exploded in the step */
+    AFTER_SHOW_PEAK,  /* show the end; the peak of E if E exploded */
     AFTER_COMPARE     /* compare the outcomes before and after an edit */
 } AfterWork;
 

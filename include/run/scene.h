@@ -1,4 +1,4 @@
-/* scene.h - what a scene is: a row of the table in scenes.h.
+/* scene.h - what a scene is: a row of the table in scene.c.
  *
  * A new scene is a row in scene.c, whose function, such as create_square, fills
  * the system and the start.  Keys, files, options and --list read the row. */

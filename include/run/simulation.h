@@ -56,8 +56,8 @@ typedef struct Energy {
  *   total = kinetic + gravity + what the terms store (TermKind.energy_name)
  * and its balance since the start is
  *   total at the start + work
- *     = total + what the terms have taken out (TermKind.loss_name) +
- * dissipated. Each term books its own energy; several terms may share a name.
+ *     = total + what terms took out (TermKind.loss_name) + dissipated.
+ * Each term books its own energy; several terms may share a name.
  *
  * The work of a moving wall, pin or hand is its force at the end of the step
  * times its way, which is right to O(h): backward Euler then dissipates in

@@ -106,15 +106,15 @@ typedef struct SearchDirection {
 
 /* Data for the rounding errors of a minimisation (rounding.c). */
 typedef struct Rounding {
-    unsigned bounds_version; /* 1 + System.version for which lightest, stiffest
-                               and shortest hold; 0: not computed yet */
+    unsigned bounds_version; /* 1 + System.version of min_mass, max_curvature
+                               and shortest; 0: not computed yet */
     double min_mass;         /* kg, the smallest mass */
     double max_curvature;    /* J/m^2, the largest curvature of a term */
     double shortest; /* m, the shortest spring at rest; 1 without springs */
-    bool stiff;      /* w stiffest > 1e5 lightest, with w the weight of P in E:
+    bool stiff;      /* w max_curvature > 1e5 min_mass, w: P's weight in E:
                         a decrease of E is checked by a second computation */
-    bool factor_is_inexact; /* w stiffest > 1e10 lightest: the residual is
-                               only an estimate */
+    bool factor_is_inexact; /* w max_curvature > 1e10 min_mass: the residual
+                               is only an estimate */
     double start_energy;    /* J s^2, E at the start; NAN: not needed */
     double energy_limit; /* J s^2, upper limit of E: its value at the start plus
                             rounding; INFINITY: no limit */
@@ -145,7 +145,7 @@ typedef struct Newton {
     int clamps_left;           /* iterations for which on-demand clamps */
     Rounding rounding;
     Multigrid *multigrid; /* data of multigrid; NULL: not created yet */
-    Solver active_solver; /* solver of this minimisation: NEWTON or MULTIGRID */
+    Solver active_solver; /* solver of the next iteration: NEWTON, MULTIGRID */
     const char
         *refusal_reason;  /* why multigrid refused the minimisation, or NULL */
     double change_sum;    /* J s^2, sum of the updates' changes of E */
@@ -171,7 +171,7 @@ void newton_start(Newton *newton, const double *x_n, const double *u,
 /* Runs the loop of Algorithm 3 from newton_start or a pause to the end or the
  * next pause.  At least one update is made, if one lowers E.  u and x are the
  * last iterate; with a line search E is not higher there than at the start.
- * Returns RUNNING after a pause; OK if the last p passed the test and was used,
+ * Returns RUNNING after a pause; OK if the last p passed the test, used or not,
  * or if the next p is negligible; otherwise how the minimisation failed. */
 Status newton_minimise(Newton *newton);
 

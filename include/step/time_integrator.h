@@ -37,7 +37,7 @@ typedef struct IntegratorMethod {
 /* Time as a number of equal steps since h was last changed.  A sum of steps has
  * wrong last digits: 60 steps of 0.002 s would not be 0.12 s. */
 typedef struct StepClock {
-    double time;        /* s, last_change + steps h */
+    double time;        /* s, change_time + steps h */
     double change_time; /* s, time of the last change of h */
     double h;           /* s, time step since change_time */
     long steps;         /* number of steps since the last change of h */
@@ -58,7 +58,7 @@ struct TimeIntegrator {
     double *v;         /* [2n] m/s, velocities */
     double *new_x;   /* [2n] m, x at the end of a step; before that workspace */
     double *new_v;   /* [2n] m/s, v at the end; before that workspace */
-    double *memory;  /* [memory * 2n] arrays that the method remembers */
+    double *memory;  /* [arrays * 2n] arrays that the method remembers */
     double memory_h; /* s, time step at which the method filled `memory`; 0: the
                         contents of `memory` are not valid */
     Newton *newton;  /* NULL for explicit methods */

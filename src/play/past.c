@@ -228,7 +228,7 @@ static Status store_state(Past *past, int pane, bool set, Entry *entry)
 
 /* Leaves the step of a pane's run.  Until now an edit could have needed the
  * state of the step; now the state is dropped unless its entry keeps it. */
-static void pane_run_drop_state(Past *past, int pane)
+static void pane_run_leave_step(Past *past, int pane)
 {
     PaneRun *run = &past->pane[pane];
     const Branch *branch = present_branch(past);
@@ -242,10 +242,10 @@ static void pane_run_drop_state(Past *past, int pane)
     run->has_state = false;
 }
 
-static void drop_states_of_panes(Past *past)
+static void leave_steps_of_panes(Past *past)
 {
     for (int p = 0; p < past_panes(past); p++)
-        pane_run_drop_state(past, p);
+        pane_run_leave_step(past, p);
 }
 
 /* Puts a branch on top of the present one, and drops undone branches.  The
@@ -272,7 +272,7 @@ static Branch *push_branch(Past *past, Branch wanted, const Command *edit)
     for (int p = 0; p < past_panes(past); p++)
         if (branch->from_options || p >= branch->panes ||
             past->pane[p].step > branch->first_step)
-            pane_run_drop_state(past, p);
+            pane_run_leave_step(past, p);
     for (int p = 0; p < branch->panes && !branch->from_options; p++)
         for (int i = 0; i < branch->copies; i++) {
             Entry *to = &branch->entry[i * branch->panes + p];
@@ -426,7 +426,7 @@ static Status pane_run_seek(Past *past, int pane, long goal)
         return STATUS_OUT_OF_MEMORY;
     Status status = STATUS_OK;
     if (!run->has_state || run->step != from) {
-        pane_run_drop_state(past, pane);
+        pane_run_leave_step(past, pane);
         pane_run_forget_step(run);
         run->outcome = entry->outcome;
     }
@@ -477,7 +477,7 @@ static Status end_failed_pane(Past *past, int pane, Status why)
 {
     PaneRun *run = &past->pane[pane];
     long step = run->step, last = past_find_drawable_step(past, pane, step);
-    pane_run_drop_state(past, pane);
+    pane_run_leave_step(past, pane);
     Status status = pane_run_seek(past, pane, last);
     while (run->step < last && (!status || status == STATUS_RUNNING))
         status = pane_run_iterate(past, pane);
@@ -530,7 +530,7 @@ static Status pane_run_finish_step(Past *past, int pane)
     if (past_makes_step(past) && run->substeps > 0)
         past->work_stage = WORK_MADE;
     run->substeps = 0;
-    pane_run_drop_state(past, pane);
+    pane_run_leave_step(past, pane);
     if (to->state && to->state->is_set)
         status = pane_run_load_state(run, to->state);
     else if (past->stores_states && !to->state)
@@ -704,7 +704,7 @@ void past_choose_step(Past *past, long step, bool again)
     past->load_step = past->aim_step - 1;
     for (int p = 0; p < past_panes(past); p++)
         step_trace_clear(&past->pane[p].trace);
-    drop_states_of_panes(past);
+    leave_steps_of_panes(past);
 }
 
 /* ---- edits --------------------------------------------------------------- */
@@ -733,7 +733,7 @@ Status past_begin_runs(Past *past, const Options *options, int panes,
         .from_options = true, .panes = panes, .gesture = gesture};
     Status status = STATUS_OK;
     abandon_work(past);
-    drop_states_of_panes(past);
+    leave_steps_of_panes(past);
     for (int p = 0; p < panes && !status; p++) {
         PaneRun *run = &past->pane[p];
         status = pane_run_create(run, &options[p]);
@@ -892,7 +892,7 @@ const Command *past_undo(Past *past, int way)
                           past->branch[b].from_options ||
                               edit_changes_state(&past->branch[b].edit));
     abandon_work(past);
-    drop_states_of_panes(past);
+    leave_steps_of_panes(past);
     present_branch(past)->left_step = past->step;
     past->current = to;
     past->step = present_branch(past)->left_step;

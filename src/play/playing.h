@@ -100,7 +100,7 @@ Status player_edit(Player *player, const Command *change, int pane, bool again);
 /* Iterates until the chosen step is shown; in a window at most for SLICE. */
 Status player_work(Player *player);
 
-/* Sets the shown step, cut to 0 ... newest + 1.  player_work makes it;
+/* Sets the step to show, 0 ... newest + 1.  player_work makes it;
  * player_obey calls player_work after each command. */
 Status player_seek(Player *player, long step, AfterWork after);
 

@@ -74,10 +74,10 @@ int newton_most_iterations(const Newton *newton)
                : newton->settings.max_iterations;
 }
 
-/* Decides whether the loop ends: p or a bound of the next p has passed the test
- * of Algorithm 3, a failure, rounding, or too many iterations.  If p passes the
- * test and rounding hides the decrease of E, the step has converged without p.
- * Without a line search an end above the start is DIVERGED.
+/* Turns a free body.  Decides whether the loop ends: p, or a bound of the next
+ * p, passes the test, a failure, rounding, too many iterations.  If p passes
+ * the test and rounding hides the decrease of E, the step has converged without
+ * p.  Without a line search an end above the start is DIVERGED.
  *   status  in, result of direction, step length and update */
 static Status test_iterate(Newton *newton, Status status)
 {
@@ -131,7 +131,7 @@ static const NewtonPhases newton_phases = {find_direction, find_step_length,
  *         p = -H^-1 grad E, H projected
  *         alpha = backtracking line search
  *         x = x + alpha p
- *     while |p|_inf / h > tolerance
+ *     while residual > tolerance
  *
  * The last p is used: p is known, and its use makes the result ten to 1e11
  * times more accurate.  The course's Python tests p before it uses p, and
