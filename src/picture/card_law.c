@@ -31,6 +31,7 @@ typedef struct Law {
     const TermKind *element_term; /* term of the elements; NULL: springs */
     double (*evaluate)(const void *now, double x);
     double axis_low, axis_high; /* ends of the axis, times axis_unit */
+    bool is_milli;              /* the label's unit is mm or mm/s */
 } Law;
 
 static double element_energy_at(const void *data, double d)
@@ -78,17 +79,17 @@ static double breaking_force_ratio(const void *now, double part)
 
 static const Law laws[] = {
     {"barrier", "gap \u03b4 in mm", "W in J", &contact_energy, &contact_energy,
-     element_energy_at, 0, 1.2},
+     element_energy_at, 0, 1.2, true},
     {"pair", "", "", &self_contact_energy, &self_contact_energy,
-     element_energy_at, 0, 1.2},
+     element_energy_at, 0, 1.2, false},
     {"rub", "slip in mm/s", "f/(\u03bc f_{N})", &self_friction_energy,
-     &self_contact_energy, friction_force_ratio, 0, 2},
+     &self_contact_energy, friction_force_ratio, 0, 2, true},
     {"triangle", "J", "\u03a8 in J/m\u00b2", &neo_hookean_energy,
-     &neo_hookean_energy, triangle_energy_density, 0, 1.5},
+     &neo_hookean_energy, triangle_energy_density, 0, 1.5, false},
     {"yield", "strain s", "f/(2k|d|)", &plastic_energy, NULL, flow_force_at, -1,
-     1},
+     1, false},
     {"break", "s/s_{c}", "f/(2k|d| s_{c})", &fracture, NULL,
-     breaking_force_ratio, 0, 1.3},
+     breaking_force_ratio, 0, 1.3, false},
 };
 
 static void fill_spring_law(LawPoint *now, int s)
@@ -284,7 +285,8 @@ void law_draw(const Plot *card)
     const double dot[2] = {fmin(fmax(x, low), high), y};
     most = plot_round_axis_end(1.1 * fmax(most, fabs(y)));
     Plot plot = plot_create(
-        card, (Axis){low, high, .is_milli = strstr(law->x_label, "mm"), .label = law->x_label},
+        card,
+        (Axis){low, high, .is_milli = law->is_milli, .label = law->x_label},
         (Axis){both ? -most : -0.02 * most, most, .label = law->y_label});
     plot_graph(&plot, law->evaluate, now, 2.4, COLOUR_X);
     if (law->evaluate == element_energy_at && !isnan(x))

@@ -98,7 +98,7 @@ void highlight_draw(Paper *paper, const FrameContent *content)
                                                [LINE_SEARCH] = COLOUR_ALPHA};
     const Trace *trace = active_pane(content)->trace;
     const WindowHit *mouse = &content->view->mouse_hit;
-    int layers = (int)active_pane(content)->simulation->options.layers;
+    unsigned layers = active_pane(content)->simulation->options.layers;
     bool stage = mouse->zone == ZONE_STAGE;
     Colour colour = 0;
     if (!content->lecture.page)

@@ -138,7 +138,7 @@ Status obey_set(Player *player, const Command *command)
     Status status = STATUS_OK;
     const Message message = MESSAGE(player->message);
     for (int p = 0; p < panes && !status; p++) {
-        if (one && p != pane)
+        if (pane != PAST_ALL && pane != p)
             continue;
         status =
             options_set(&options[p], row, command->text, command->x, message);

@@ -66,7 +66,7 @@ typedef float NodeSums[SUMS][LANES];
 /* Computes the sums of LANES nodes of a row, in a loop of its own, since steps
  * that do not wait for each other are faster.
  *   is_close  Tiles.is_close: a spring's force has changed since the start by
- *            c (s d - s0 d0) = c (s w + (s - s0) d0), d = d0 + w */
+ *             c (s d - s0 d0) = c (s w + (s - s0) d0), d = d0 + w */
 INLINE void gather_springs(const Tiles *tiles, NodeRun at, bool is_close,
                            NodeSums of)
 {

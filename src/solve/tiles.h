@@ -26,7 +26,7 @@ typedef struct Tiles {
     double *change;    /* [tiles] change of E by the tile's last sweep */
     int *chosen;       /* [tiles] numbers of the tiles that are swept next */
     bool is_close;     /* nodes move by less than the rounding of
-                         Grid.float_x, which stays as at the start */
+                          Grid.float_x, which stays as at the start */
     float *u;          /* [2 planes] displacements since the start */
     float *start_g;    /* [2 planes] grad E at the start if is_close, otherwise
                           only the gradient of the masses' energy */
