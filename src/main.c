@@ -42,7 +42,7 @@ static void handle_signals(void)
 int main(int argc, char **argv)
 {
     handle_signals();
-    int code = program_begin(argc, argv, &main_stop, &main_player);
+    int code = program_begin(argc, argv, &window_sdl, &main_stop, &main_player);
     if (code == PROGRAM_PLAYS)
         code = program_end(&main_player, player_run(&main_player));
     player_free(&main_player);

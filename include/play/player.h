@@ -18,7 +18,7 @@
 #include "play/command.h"
 #include "run/options.h"
 #include "play/recording.h"
-#include "play/view.h"
+#include "play/window.h"
 
 /* Command line and script of the program, and what follows from them. */
 typedef struct Setup {
@@ -124,7 +124,7 @@ typedef struct Frame {
 /* How the window or the frames show the past. */
 typedef struct Screen {
     bool draws_frames; /* frames are drawn, for a window or for files */
-    bool has_window;   /* a window is open */
+    const Window *window; /* the open window, or NULL */
     Paper paper;
     int paper_size[2]; /* pixels of the paper; 0: the size of the window */
     bool must_redraw;  /* the frame must be drawn again */
@@ -190,11 +190,13 @@ typedef struct Player {
 /* Creates a player, which without a screen writes 100 frames to "frames".
  *   options  [options->panes] in, options of each pane
  *   words    in, command line, ended by NULL, or NULL; outlives the player
+ *   window   in, NULL only with --headless
  *   stop     in, not 0 ends the run after the present step; outlives the player
  *   player   out; must not be moved; free it in any case
  * Returns OK or a failure; player->message may explain INVALID_INPUT. */
 Status player_create(const Options *options, char *const *words,
-                     const volatile sig_atomic_t *stop, Player *player);
+                     const Window *window, const volatile sig_atomic_t *stop,
+                     Player *player);
 
 /* Shows the next step, made before or new, and records it; with a window may
  * only begin it.  Returns OK also for a step that did not converge. */
@@ -263,8 +265,8 @@ int player_find_scene_word(const Player *player, int i);
  *   stop    in, not 0 ends the run after the present step; outlives the player
  *   player  out, before its first frame; free it in any case
  * Returns PROGRAM_PLAYS, or an exit code if there is no run. */
-int program_begin(int argc, char **argv, const volatile sig_atomic_t *stop,
-                  Player *player);
+int program_begin(int argc, char **argv, const Window *window,
+                  const volatile sig_atomic_t *stop, Player *player);
 
 /* Finishes the files after the last status of a run, and prints the summary or
  * why the run failed.  Returns the exit code. */

@@ -353,16 +353,17 @@ static void fill_own_options(const Player *player, LectureContent *lecture)
 static void fill_frame(const Player *player, Frame *frame)
 {
     const Past *past = &player->past;
+    const Window *window = player->screen.window;
     FrameContent *content = &frame->content;
     const int active = player->active;
     frame_create(player_simulation(player), content);
     content->view = &player->screen.view;
     content->text = player->screen.paper.text;
-    content->min_em = player->screen.has_window     ? window_find_font_size()
+    content->min_em = window                        ? window->find_font_size()
                       : player->screen.draws_frames ? SMALL_LETTER
                                                     : 0;
-    content->in_page = player->screen.has_window && window_is_in_page();
-    content->in_document = content->in_page && window_has_document();
+    content->in_page = window && window->has_document;
+    content->in_document = content->in_page && window->has_document();
     content->panes = past_panes(past);
     if (content->panes > LAYOUT_PANES) /* scripts can have more panes */
         content->panes = LAYOUT_PANES;
@@ -447,7 +448,7 @@ Paper *player_prepare_paper(Player *player)
     if (!player->screen.draws_frames)
         return NULL;
     if (size[0] == 0)
-        window_find_size(size);
+        player->screen.window->find_size(size);
     for (int i = 0; i < 2; i++)
         size[i] = (int)fmin(fmax(size[i], 1), CANVAS_MAX_SIZE);
     if (canvas->pixels && canvas->width == size[0] && canvas->height == size[1])

@@ -33,8 +33,9 @@ Status player_draw(Player *player)
     bool fresh = player->screen.drawn_step != player->past.step;
     player->screen.drawn_step = player->past.step;
     player_paint_frame(player, paper);
-    Status status =
-        player->screen.paper_size[0] ? STATUS_OK : window_show(&paper->canvas);
+    Status status = player->screen.paper_size[0]
+                        ? STATUS_OK
+                        : player->screen.window->show(&paper->canvas);
     int slow = player->time.log_speed < 0 ? -player->time.log_speed : 0;
     if (!status && (fresh || film_is_open(&player->recording.film)))
         status = recording_write_frame(&player->recording, &paper->canvas,
@@ -55,8 +56,8 @@ bool player_ended(const Player *player)
         past_is_working(&player->past))
         return false;
     return (counted && player->past.step >= options->steps) ||
-           ((!player->screen.has_window || counted) && simulation->is_over) ||
-           (!player->screen.has_window && player_is_stopped(player));
+           ((!player->screen.window || counted) && simulation->is_over) ||
+           (!player->screen.window && player_is_stopped(player));
 }
 
 static Status obey_script(Player *player)
@@ -89,7 +90,7 @@ static Status make_due_steps(Player *player)
 {
     const Past *past = &player->past;
     Status status = STATUS_OK;
-    int count = player->screen.has_window && player->time.log_speed > 0
+    int count = player->screen.window && player->time.log_speed > 0
                     ? 1 << player->time.log_speed
                     : 1;
     double begin = count > 1 ? clock_now() : 0;
@@ -115,23 +116,23 @@ Status player_frame(Player *player)
               player->time.log_speed < 0 ? -player->time.log_speed : 0);
     double start = clock_now();
     Status status = STATUS_OK;
-    while (player->screen.has_window && !status && !player->is_quitting) {
-        Input input = window_read_input();
+    while (player->screen.window && !status && !player->is_quitting) {
+        Input input = player->screen.window->read_input();
         if (input.kind == INPUT_NONE)
             break;
         status = player_show_refusal(player, player_obey_input(player, &input));
     }
     if (!status && !past_is_working(&player->past))
         status = obey_script(player);
-    double now = player->screen.has_window ? clock_now() : 0;
+    double now = player->screen.window ? clock_now() : 0;
     if (player->screen.drawn_step < 0) /* draw a run before its first step */
         player->time.due = now + period;
-    bool due = !player->screen.has_window || now >= player->time.due - EARLY;
+    bool due = !player->screen.window || now >= player->time.due - EARLY;
     bool first = player->screen.drawn_step < 0 && player->screen.draws_frames;
     bool works = past_is_working(&player->past);
     /* Work that begins in this frame waits until the frame is drawn. */
     bool begins = works && player->time.work_start > start;
-    bool lives = player->screen.sheet && player->screen.has_window;
+    bool lives = player->screen.sheet && player->screen.window;
     bool goes = !lives && !player_is_stopped(player) && due && !first &&
                 !player_ended(player);
     if (!status && !begins && (works || goes)) {
@@ -150,7 +151,7 @@ Status player_frame(Player *player)
 
 bool player_is_idle(const Player *player)
 {
-    return player->screen.has_window && player_is_stopped(player) &&
+    return player->screen.window && player_is_stopped(player) &&
            !player->screen.sheet && !past_is_working(&player->past) &&
            script_is_over(&player->setup.script);
 }
@@ -160,7 +161,7 @@ int player_find_wait_time(const Player *player)
     double wait = 1e3 * (player->time.due - clock_now());
     if (player_is_idle(player))
         return IDLE_WAIT;
-    if (!player->screen.has_window || past_is_working(&player->past) ||
+    if (!player->screen.window || past_is_working(&player->past) ||
         (player_is_stopped(player) && !script_is_over(&player->setup.script)))
         return 0;
     return (int)fmax(fmin(ceil(wait), IDLE_WAIT), 0);
@@ -170,8 +171,9 @@ Status player_run(Player *player)
 {
     Status status = player_frame(player);
     while (!status && !player_ended(player)) {
-        if (player->screen.has_window)
-            window_wait_for_input(player_find_wait_time(player));
+        if (player->screen.window)
+            player->screen.window->wait_for_input(
+                player_find_wait_time(player));
         status = player_frame(player);
     }
     return status;
@@ -180,33 +182,34 @@ Status player_run(Player *player)
 /* ---- beginning and end --------------------------------------------------- */
 
 /* Opens the window.  If there is no screen, the frames are written to files. */
-static void open_view(Player *player)
+static void open_window(Player *player, const Window *window)
 {
     Options *options = &player->setup.options[0];
     const int size[] = {(int)options->size[0], (int)options->size[1]};
-    if (!options->headless)
-        player->screen.has_window = window_open(size, options->fullscreen);
-    if (!options->headless && !player->screen.has_window) {
+    if (!options->headless && window->open(size, options->fullscreen))
+        player->screen.window = window;
+    if (!options->headless && !player->screen.window) {
         if (!options->frames && !options->film)
             options->frames = "frames";
         print_line(stderr, "no screen: %.300s; the frames go to %.300s%s",
-                   window_failure(),
+                   window->find_failure(),
                    options->frames ? options->frames : options->film,
                    options->frames ? "/" : "");
-        window_close();
+        window->close();
     }
-    if (!player->screen.has_window && !options->script) {
+    if (!player->screen.window && !options->script) {
         options->steps = options->steps < 0 ? WINDOWLESS_STEPS : options->steps;
         options->paused = 0; /* without a window no key can end a pause */
     }
     player->screen.draws_frames =
-        player->screen.has_window || options->frames || options->film;
-    for (int i = 0; i < 2 && !player->screen.has_window; i++)
+        player->screen.window || options->frames || options->film;
+    for (int i = 0; i < 2 && !player->screen.window; i++)
         player->screen.paper_size[i] = size[i] > 0 ? size[i] : FRAME_SIZE;
 }
 
 Status player_create(const Options *options, char *const *words,
-                     const volatile sig_atomic_t *stop, Player *player)
+                     const Window *window, const volatile sig_atomic_t *stop,
+                     Player *player)
 {
     const Command begin = {.kind = COMMAND_RESTART};
     const Command pause = {.kind = COMMAND_PAUSE};
@@ -221,10 +224,10 @@ Status player_create(const Options *options, char *const *words,
                                 MESSAGE(player->message));
     if (status)
         return status;
-    open_view(player);
-    player->setup.asks_guess = player->screen.has_window && !options->script;
+    open_window(player, window);
+    player->setup.asks_guess = player->screen.window && !options->script;
     player->setup.is_attended =
-        player->screen.has_window || options->script || options->page;
+        player->screen.window || options->script || options->page;
     options = player->setup.options;
     if (options->page)
         player_store_own_options(player, options);
@@ -253,10 +256,11 @@ Status player_create(const Options *options, char *const *words,
     return status;
 }
 
-static void close_view(Player *player)
+static void close_window(Player *player)
 {
     paper_free(&player->screen.paper);
-    window_close();
+    if (player->screen.window)
+        player->screen.window->close();
     player->screen.draws_frames = false;
 }
 
@@ -269,14 +273,14 @@ Status player_finish(Player *player, Status status)
     FileEnding keep = player->past.written_to < 0 ? KEEP_NOTHING
                       : status                    ? KEEP_PART
                                                   : KEEP_WHOLE;
-    close_view(player);
+    close_window(player);
     Status closed = recording_close(&player->recording, keep);
     return status ? status : closed;
 }
 
 void player_free(Player *player)
 {
-    close_view(player);
+    close_window(player);
     recording_free(&player->recording);
     past_free(&player->past);
     player_forget_step(player);

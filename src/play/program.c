@@ -90,7 +90,7 @@ static int report_failure(const Player *player, Status status)
         return print_error(code, "%s", message);
     if (status == STATUS_SCREEN_FAILED)
         return print_error(code, "%s: %s", status_text(status),
-                           window_failure());
+                           player->screen.window->find_failure());
     if (p < panes)
         return print_error(code, "%sstep %ld failed: %s%s", pane,
                            player->past.pane[p].simulation.steps + 1,
@@ -281,8 +281,8 @@ static void warn_of_fresh_terms(const Options *options)
         fprintf(stderr, "--state: the ceiling begins where it did\n");
 }
 
-int program_begin(int argc, char **argv, const volatile sig_atomic_t *stop,
-                  Player *player)
+int program_begin(int argc, char **argv, const Window *window,
+                  const volatile sig_atomic_t *stop, Player *player)
 {
     Options options[OPTIONS_MAX_PANES] = {{.panes = 1}};
     char message[OUTPUT_MESSAGE] = "";
@@ -307,6 +307,6 @@ int program_begin(int argc, char **argv, const volatile sig_atomic_t *stop,
     if (check_file_names(options, MESSAGE(message)))
         return print_error(EXIT_MISUSED, "%s", message);
     warn_of_fresh_terms(options);
-    Status status = player_create(options, argv, stop, player);
+    Status status = player_create(options, argv, window, stop, player);
     return status ? program_end(player, status) : PROGRAM_PLAYS;
 }

@@ -16,6 +16,7 @@ static bool could_lose_work(const Player *player)
 
 Status obey_screen(Player *player, const Command *command)
 {
+    const Window *window = player->screen.window;
     CommandKind kind = command->kind;
     if (kind == COMMAND_FASTER)
         player->time.log_speed += player->time.log_speed < SPEED_MOST;
@@ -27,8 +28,8 @@ Status obey_screen(Player *player, const Command *command)
         player->screen.is_bare = !player->screen.is_bare;
     else if (kind == COMMAND_BLANK)
         player->screen.is_black = !player->screen.is_black;
-    else if (kind == COMMAND_FULL && player->screen.has_window)
-        window_set_full(!window_is_full_screen());
+    else if (kind == COMMAND_FULL && window)
+        window->set_full_screen(!window->is_full_screen());
     else if (kind == COMMAND_PANE)
         player->active = (int)command->number;
     else if (kind == COMMAND_CLOSE)
@@ -69,6 +70,7 @@ Status obey_quit(Player *player, const Command *command)
  * the program, if there is no work to lose. */
 Status obey_escape(Player *player, const Command *command)
 {
+    const Window *window = player->screen.window;
     bool asked = player->commands.leave_command == COMMAND_ESCAPE;
     player->commands.leave_command = COMMAND_NONE;
     if (player->screen.is_black)
@@ -81,8 +83,8 @@ Status obey_escape(Player *player, const Command *command)
         player_deselect(player);
     else if (player->screen.column)
         player->screen.column = COLUMN_CARDS;
-    else if (player->screen.has_window && window_is_full_screen())
-        window_set_full(false);
+    else if (window && window->is_full_screen())
+        window->set_full_screen(false);
     else if (could_lose_work(player))
         player_note(player, "nothing is open; Q ends the program");
     else if (asked)

@@ -125,8 +125,8 @@ static void enter_scene(Player *player)
     player->hands.mouse.drag = COMMAND_NONE;
     snprintf(title, sizeof title, "elasto: %s (press ? for the keys)",
              options->scene->name);
-    if (player->screen.has_window)
-        window_set_title(title);
+    if (player->screen.window)
+        player->screen.window->set_title(title);
 }
 
 /* Adapts the player to an edit of the past: frame, active pane, scene. */
@@ -427,8 +427,7 @@ Status player_work(Player *player)
         }
         player->is_quitting = player->is_quitting || *player->setup.stop_signal;
         bool begins = past_makes_step(past) && !made && player_is_slow(player);
-        if (player->screen.has_window &&
-            (begins || clock_now() - begin > SLICE))
+        if (player->screen.window && (begins || clock_now() - begin > SLICE))
             break;
     }
     player->screen.must_redraw = true;

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "play/view.h"
+#include "play/window.h"
 
 /* Usual size of the window, and room for its borders, points. */
 enum {
@@ -22,7 +22,7 @@ static bool tab_alone; /* Tab is down, and no other key was pressed since */
 static bool tab_held;
 static SDL_Point mouse;
 
-const char *window_failure(void)
+static const char *sdl_find_failure(void)
 {
     return SDL_GetError();
 }
@@ -45,19 +45,19 @@ static bool open_video(void)
     return false;
 }
 
-void window_set_full(bool full)
+static void sdl_set_full_screen(bool full)
 {
     SDL_SetWindowFullscreen(window, full ? SDL_WINDOW_FULLSCREEN_DESKTOP : 0);
 }
 
-bool window_is_full_screen(void)
+static bool sdl_is_full_screen(void)
 {
     return (SDL_GetWindowFlags(window) & SDL_WINDOW_FULLSCREEN_DESKTOP) != 0;
 }
 
 /* Without acceleration X11 shows a frame of 900 x 900 pixels in 6 ms, with
  * OpenGL computed by the processor in 14 ms (measured). */
-bool window_open(const int size[2], bool full)
+static bool sdl_open(const int size[2], bool full)
 {
     SDL_Rect area = {0, 0, WINDOW_WIDTH, WINDOW_HEIGHT};
     SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
@@ -78,12 +78,12 @@ bool window_open(const int size[2], bool full)
     if (!window || !SDL_GetWindowSurface(window))
         return false;
     if (full)
-        window_set_full(true);
+        sdl_set_full_screen(true);
     SDL_StartTextInput();
     return true;
 }
 
-void window_close(void)
+static void sdl_close(void)
 {
     if (window)
         SDL_DestroyWindow(window);
@@ -93,12 +93,12 @@ void window_close(void)
 
 /* ---- output -------------------------------------------------------------- */
 
-void window_set_title(const char *title)
+static void sdl_set_title(const char *title)
 {
     SDL_SetWindowTitle(window, title);
 }
 
-void window_find_size(int size[2])
+static void sdl_find_size(int size[2])
 {
     const SDL_Surface *surface = SDL_GetWindowSurface(window);
     size[0] = surface ? surface->w : 1;
@@ -108,30 +108,20 @@ void window_find_size(int size[2])
 static void find_pixels_per_point(double scale[2])
 {
     int size[2], points[2] = {0, 0};
-    window_find_size(size);
+    sdl_find_size(size);
     SDL_GetWindowSize(window, &points[0], &points[1]);
     for (int i = 0; i < 2; i++)
         scale[i] = points[i] > 0 ? (double)size[i] / points[i] : 1;
 }
 
-double window_find_font_size(void)
+static double sdl_find_font_size(void)
 {
     double scale[2];
     find_pixels_per_point(scale);
     return 9 * scale[0];
 }
 
-bool window_is_in_page(void)
-{
-    return false;
-}
-
-bool window_has_document(void)
-{
-    return false;
-}
-
-Status window_show(const Canvas *canvas)
+static Status sdl_show(const Canvas *canvas)
 {
     SDL_Surface *surface = SDL_GetWindowSurface(window);
     SDL_Surface *picture = SDL_CreateRGBSurfaceWithFormatFrom(
@@ -239,7 +229,7 @@ static Input read_event(const SDL_Event *event)
     return input;
 }
 
-Input window_read_input(void)
+static Input sdl_read_input(void)
 {
     SDL_Event event, next;
     Input input = {.kind = INPUT_NONE};
@@ -254,7 +244,7 @@ Input window_read_input(void)
 
 /* SDL_WaitEventTimeout would end the program after the window is closed: on X
  * it sends itself an event of a second connection. */
-void window_wait_for_input(int milliseconds)
+static void sdl_wait_for_input(int milliseconds)
 {
     enum { PAUSE = 8 }; /* ms */
     for (; milliseconds > 0; milliseconds -= PAUSE) {
@@ -264,3 +254,17 @@ void window_wait_for_input(int milliseconds)
         SDL_Delay((Uint32)(milliseconds < PAUSE ? milliseconds : PAUSE));
     }
 }
+
+const Window window_sdl = {
+    .open = sdl_open,
+    .close = sdl_close,
+    .find_size = sdl_find_size,
+    .find_font_size = sdl_find_font_size,
+    .set_title = sdl_set_title,
+    .find_failure = sdl_find_failure,
+    .show = sdl_show,
+    .set_full_screen = sdl_set_full_screen,
+    .is_full_screen = sdl_is_full_screen,
+    .read_input = sdl_read_input,
+    .wait_for_input = sdl_wait_for_input,
+};

@@ -3,36 +3,35 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "play/view.h"
+#include "play/window.h"
 
 /* Empty functions: the document has its own title, the browser has keys for the
  * full screen, and no input arrives while C runs, so it need not wait. */
 /* clang-format off */
-EM_JS(bool, window_open, (const int *size, bool full), { return true; });
-EM_JS(void, window_close, (void), {});
-EM_JS(void, window_set_title, (const char *title), {});
-EM_JS(void, window_set_full, (bool full), {});
-EM_JS(bool, window_is_full_screen, (void), { return false; });
-EM_JS(void, window_wait_for_input, (int milliseconds), {});
-EM_JS(void, window_find_size, (int *size), {
+EM_JS(bool, page_open, (const int *size, bool full), { return true; });
+EM_JS(void, page_close, (void), {});
+EM_JS(void, page_set_title, (const char *title), {});
+EM_JS(void, page_set_full_screen, (bool full), {});
+EM_JS(bool, page_is_full_screen, (void), { return false; });
+EM_JS(void, page_wait_for_input, (int milliseconds), {});
+EM_JS(void, page_find_size, (int *size), {
     HEAP32[size >> 2] = Page.width();
     HEAP32[(size >> 2) + 1] = Page.height();
 });
-EM_JS(double, window_find_font_size, (void), { return Page.letter(); });
-EM_JS(bool, window_is_in_page, (void), { return true; });
-EM_JS(bool, window_has_document, (void), { return Page.hasDocument(); });
-EM_JS(void, page_show, (const void *pixels, int width, int height, int card), {
+EM_JS(double, page_find_font_size, (void), { return Page.letter(); });
+EM_JS(bool, page_has_document, (void), { return Page.hasDocument(); });
+EM_JS(void, page_draw, (const void *pixels, int width, int height, int card), {
     Page.show(HEAPU8, pixels, width, height, card);
 });
 /* clang-format on */
 
-const char *window_failure(void)
+static const char *page_find_failure(void)
 {
     return "";
 }
 
 /* The page reads red, green, blue and alpha of each pixel. */
-Status window_show_card(const Canvas *canvas, int card)
+Status page_show_card(const Canvas *canvas, int card)
 {
     static uint32_t *rgba; /* [room] */
     static size_t room;
@@ -49,13 +48,13 @@ Status window_show_card(const Canvas *canvas, int card)
         rgba[i] =
             0xff000000 | (p & 0xff00) | (p & 0xff) << 16 | (p >> 16 & 0xff);
     }
-    page_show(rgba, canvas->width, canvas->height, card);
+    page_draw(rgba, canvas->width, canvas->height, card);
     return STATUS_OK;
 }
 
-Status window_show(const Canvas *canvas)
+static Status page_show(const Canvas *canvas)
 {
-    return window_show_card(canvas, -1);
+    return page_show_card(canvas, -1);
 }
 
 enum { INPUTS = 256 };
@@ -91,7 +90,7 @@ EMSCRIPTEN_KEEPALIVE void web_mouse(int kind, double x, double y, int button,
     queue_input(&input);
 }
 
-Input window_read_input(void)
+static Input page_read_input(void)
 {
     Input input = {.kind = INPUT_NONE};
     if (input_count == 0)
@@ -101,3 +100,18 @@ Input window_read_input(void)
     input_count--;
     return input;
 }
+
+const Window window_web = {
+    .open = page_open,
+    .close = page_close,
+    .find_size = page_find_size,
+    .find_font_size = page_find_font_size,
+    .has_document = page_has_document,
+    .set_title = page_set_title,
+    .find_failure = page_find_failure,
+    .show = page_show,
+    .set_full_screen = page_set_full_screen,
+    .is_full_screen = page_is_full_screen,
+    .read_input = page_read_input,
+    .wait_for_input = page_wait_for_input,
+};

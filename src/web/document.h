@@ -4,7 +4,7 @@
 #include "play/player.h"
 
 /* Shows a drawn card, or the picture (-1), in the page (window_web.c). */
-Status window_show_card(const Canvas *canvas, int card);
+Status page_show_card(const Canvas *canvas, int card);
 
 enum { DOCUMENT_SIZE = 48 << 10 };
 

@@ -43,7 +43,8 @@ EMSCRIPTEN_KEEPALIVE int web_begin(const char *words)
     while (count < MOST_WORDS && (next->word[count] = strtok(NULL, "\n")))
         count++;
     next->word[count] = NULL;
-    int code = program_begin(count, next->word, &never, &next->player);
+    int code =
+        program_begin(count, next->word, &window_web, &never, &next->player);
     if (code != PROGRAM_PLAYS) {
         player_free(&next->player);
         return code;
@@ -135,7 +136,7 @@ EMSCRIPTEN_KEEPALIVE void web_draw_card(int card, int width, int height)
     paper.text = player->screen.paper.text;
     if (plays && !canvas_create(width, height, &paper.canvas)) {
         frame_draw_card(&paper, &player->screen.frame.content, card);
-        window_show_card(&paper.canvas, card);
+        page_show_card(&paper.canvas, card);
     }
 }
 
@@ -195,7 +196,9 @@ EMSCRIPTEN_KEEPALIVE void web_print_page(int page, int width, int height)
     Status status = lecture_make_options(row, &options, MESSAGE(message));
     options.headless = options.quiet = true;
     options.steps = row->print_step;
-    status = status ? status : player_create(&options, NULL, &never, player);
+    status = status
+                 ? status
+                 : player_create(&options, NULL, &window_web, &never, player);
     player->screen.draws_frames = true;
     status = status ? status : player_enqueue_page(player);
     status = status ? status : player_obey_queue(player, false);
@@ -205,14 +208,14 @@ EMSCRIPTEN_KEEPALIVE void web_print_page(int page, int width, int height)
         status = player_obey(player, &next);
     if (!status && !row->presses)
         player_run(player);
-    player->screen.has_window = true; /* fills the texts as for a window */
+    player->screen.window = &window_web; /* fills the texts as for a window */
     player->screen.paper_size[0] = width;
     player->screen.paper_size[1] = height;
     Paper *paper = player_prepare_paper(player);
     if (!paper)
         return;
     player_paint_frame(player, paper);
-    window_show_card(&paper->canvas, -1);
+    page_show_card(&paper->canvas, -1);
 }
 
 /* Hides the answer of the printed page, as before a guess. */
@@ -237,7 +240,7 @@ EMSCRIPTEN_KEEPALIVE int web_frame(void)
         return -1;
     do
         status = player_frame(player);
-    while (!status && !player->screen.has_window && !player_ended(player) &&
+    while (!status && !player->screen.window && !player_ended(player) &&
            clock_now() < begin + SLICE);
     if (!status && !player_ended(player))
         return player_is_idle(player) ? INT_MAX : player_find_wait_time(player);

@@ -165,7 +165,7 @@ const begin = (words) => {
 
 const key = (name, repeats = false) => FS && wake(ask('web_key', null, name, repeats));
 
-// Returns the name of a key in view.h, also on keyboards without Latin letters; ''
+// Returns the name of a key in window.h, also on keyboards without Latin letters; ''
 // for a key without a name there, and for Escape, which does nothing in a page.
 const NAMED = /^(Arrow\w+|Page\w+|Home|End|Enter|Backspace|Delete|.)$/;
 const nameOf = ({ key, code }) => {
@@ -198,7 +198,7 @@ canvas.addEventListener('blur', () => {
 
 // ---- mouse, pen and fingers -------------------------------------------------
 
-// InputKind and buttons of view.h; a button is one more than the browser's.
+// InputKind and buttons of window.h; a button is one more than the browser's.
 const [REDRAW, MOVE, PRESS, RELEASE, WHEEL, LEAVE] = [3, 4, 5, 6, 7, 8];
 const [LEFT, MIDDLE, RIGHT] = [1, 2, 3];
 const LONG_TOUCH = 500; // ms

@@ -11,7 +11,7 @@ EMCC = NODE_PATH=/usr/share/nodejs emcc -O2 -msimd128 -mbulk-memory
 WEB_CFLAGS = -std=gnu11 -D_GNU_SOURCE -Iinclude -Isrc -I$(W)/libraries/include \
              -ffp-contract=off -Wall -Wextra -Wno-missing-field-initializers
 
-# In a page another source is the window: the same header answered.
+# A page has the window of window_web.c.
 WEB_SOURCES = $(filter-out src/play/window_sdl.c,\
               $(wildcard $(ROOMS:%=src/%/*.c))) src/web/main_web.c \
               src/web/document.c

@@ -40,7 +40,7 @@ static inline void begin_script(const char *script, const char *line)
         CHECK_OK(options_parse(argc, argv, i, &options[i], MESSAGE(message)));
         count = options[0].panes;
     }
-    CHECK_OK(player_create(options, NULL, &stop, &player));
+    CHECK_OK(player_create(options, NULL, NULL, &stop, &player));
     unlink(name);
 }
 

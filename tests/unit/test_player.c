@@ -71,7 +71,8 @@ int __wrap_clock_gettime(clockid_t clock, struct timespec *now)
 static void begin_window(const char *line)
 {
     begin(line);
-    player.screen.draws_frames = player.screen.has_window = true;
+    player.screen.draws_frames = true;
+    player.screen.window = &window_sdl;
     player.screen.paper_size[0] = player.screen.paper_size[1] = 100;
     wound = 100;
 }

@@ -1,0 +1,71 @@
+/* window.h - the window of SDL or of a web page: pictures out, inputs in. */
+#pragma once
+
+#include <stdbool.h>
+
+#include "picture/paper.h"
+
+/* Kinds of events, and the fields of Input that each has. */
+typedef enum InputKind {
+    INPUT_NONE,
+    INPUT_KEY,     /* a key is down: key, is_repeat */
+    INPUT_CLOSE,   /* the user closes the window */
+    INPUT_REDRAW,  /* the window was uncovered or resized */
+    INPUT_MOVE,    /* the mouse moves: x, y */
+    INPUT_PRESS,   /* a button is pressed: button, clicks, x, y */
+    INPUT_RELEASE, /* a button is released: button, x, y */
+    INPUT_WHEEL,   /* turned: wheel_notches, x, y */
+    INPUT_LEAVE    /* the mouse has left the window */
+} InputKind;
+
+enum { BUTTON_LEFT = 1, BUTTON_MIDDLE = 2, BUTTON_RIGHT = 3 };
+
+/* An event that keyboard, mouse or window sends. */
+typedef struct Input {
+    InputKind kind;
+    char key[32];   /* "N", "Shift+N", "Ctrl+R", "Tab+M", "Left", "+" */
+    bool is_repeat; /* the key is held down */
+    int button, clicks;
+    double x, y; /* place of the mouse, pixels of the picture in the window */
+    double wheel_notches; /* notches of the wheel; > 0: away from the user */
+} Input;
+
+/* Functions of the only window. */
+typedef struct Window {
+    /* Opens the window.  Returns false after a failure (find_failure).
+     *   size  [2] in, pixels; 0: 1280 x 800, or what fits on the screen
+     *   full  the window fills the screen */
+    bool (*open)(const int size[2], bool full);
+    void (*close)(void);
+
+    /* Finds the size of a paper that fills the window, pixels. */
+    void (*find_size)(int size[2]);
+
+    /* Returns the size of letters that are easy to read, pixels. */
+    double (*find_font_size)(void);
+
+    /* Whether the web page has texts, numbers, switches and cards beside the
+     * canvas that is the window.  NULL: the window is not in a page. */
+    bool (*has_document)(void);
+
+    void (*set_title)(const char *title);
+
+    /* Returns the reason of the last failure, or "". */
+    const char *(*find_failure)(void);
+
+    /* Shows the paper's canvas.  Returns OK, OUT_OF_MEMORY, SCREEN_FAILED. */
+    Status (*show)(const Canvas *canvas);
+
+    /* Switches to the full screen or back. */
+    void (*set_full_screen)(bool full);
+    bool (*is_full_screen)(void);
+
+    /* Returns the next input, or INPUT_NONE; skips movements but the last. */
+    Input (*read_input)(void);
+
+    /* Waits for an input, at most for this time. */
+    void (*wait_for_input)(int milliseconds);
+} Window;
+
+extern const Window window_sdl; /* on a computer */
+extern const Window window_web; /* in a web page */
