@@ -1,4 +1,4 @@
-/* past.h - the past has all steps and edits of up to six runs side by side.
+/* past.h - the past has all steps and edits of up to six panes side by side.
  *
  * A step is a pure function: state and control of entry k give the state of
  * entry k+1.  Therefore states can be dropped and made again with the same
@@ -17,11 +17,12 @@
  * of the topmost one counts.  A drag of a point or node sets a new state, which
  * its branch stores.
  *
- * To show a step, the run of each pane loads the nearest stored state up to
- * that step, and makes the steps from there once more (past_iterate).
- * The panes share their time and count of steps.  A step is one time step of
- * the pane with the longest one, and as many of the others as fit into it.  A
- * pane that cannot make its part ends; the others go on. */
+ * To show a step, each pane loads the nearest stored state up to that step, and
+ * makes the steps from there once more (past_iterate).  A short step of
+ * Newton's method is made once more although its state is stored, to show its
+ * iterates. The panes share their time and count of steps.  A step is one time
+ * step of the pane with the longest one, and as many of the others as fit into
+ * it.  A pane that cannot make its part ends; the others go on. */
 #pragma once
 
 #include "play/command.h"
@@ -87,12 +88,12 @@ typedef struct Branch {
 } Branch;
 
 /* The simulation of a pane, and its position in the present branch. */
-typedef struct PaneRun {
+typedef struct PastPane {
     Simulation simulation;
-    const Control *start_control; /* control at step 0 of the run, or NULL */
+    const Control *start_control; /* control at step 0, or NULL */
     const Control *control; /* control of the simulation */
     bool has_state;         /* the simulation has the state of `step` */
-    long step;
+    long step;              /* last step that the pane has finished */
     bool is_iterating; /* a step of the simulation has begun */
     int substeps;    /* steps of the simulation since `step` */
     long start_steps;    /* steps of the simulation before this substep */
@@ -101,12 +102,12 @@ typedef struct PaneRun {
     StepTrace trace; /* iterates of the last step that was made */
     bool has_trace;  /* trace, records: of `step` or the failed step */
     Records records; /* Newton's records of the last step, for the log */
-} PaneRun;
+} PastPane;
 
 /* Stages of the work that leads to the step that is to be shown. */
 typedef enum WorkStage {
     WORK_DONE,    /* the step is shown */
-    WORK_LOADS,   /* the runs of panes load stored states */
+    WORK_LOADS,   /* the panes load stored states */
     WORK_REPEATS, /* known steps are made once more */
     WORK_MAKES,   /* a new step is made; no pane has finished its part */
     WORK_MADE     /* a pane has finished its part of the new step */
@@ -117,7 +118,7 @@ typedef struct Past {
     int branches, capacity; /* branches; branches that memory is reserved for */
     int current; /* index of the present branch; those above are undone */
     long step;          /* step that is shown in all panes */
-    PaneRun pane[OPTIONS_MAX_PANES];
+    PastPane pane[OPTIONS_MAX_PANES];
     bool stores_states;    /* states are stored: the user may go back */
     bool panes_fail_alone; /* a pane that fails ends alone; the others go on */
     long written_to; /* last step with valid rows in the tables; -1: none */

@@ -7,9 +7,8 @@
  *   player_work: past_iterate until that step is shown (steps.c)
  *
  * From key to Newton: player_obey_input, player_obey, player_work,
- * past_iterate, pane_run_iterate, simulation_advance,
- * time_integrator_advance, newton_minimise.
- */
+ * past_iterate, pane_iterate, simulation_advance, time_integrator_advance,
+ * newton_minimise. */
 #pragma once
 
 #include <signal.h>

@@ -241,8 +241,8 @@ void player_write_label(const Player *player, int pane, char label[LABEL_SIZE])
 
 static void fill_pane(const Player *player, int p, Frame *frame)
 {
-    const PaneRun *run = &player->past.pane[p];
-    const Simulation *simulation = &run->simulation;
+    const PastPane *shown = &player->past.pane[p];
+    const Simulation *simulation = &shown->simulation;
     const PaneView *view = &player->view_of_pane[p];
     Pane *pane = &frame->content.pane[p];
     past_fill_history(&player->past, p, &frame->history[p]);
@@ -251,12 +251,12 @@ static void fill_pane(const Player *player, int p, Frame *frame)
                    .history = &frame->history[p],
                    .ghost_x = view->ghost,
                    .ghost_label = view->ghost_label,
-                   .failure = run->outcome.status};
+                   .failure = shown->outcome.status};
     if (past_panes(&player->past) > 1)
         pane->label = frame->label[p];
-    if (run->has_trace && simulation_has_updates(simulation)) {
+    if (shown->has_trace && simulation_has_updates(simulation)) {
         pane->trace = &frame->trace[p];
-        pane->x = step_trace_fill(&run->trace, view->place, &frame->trace[p]);
+        pane->x = step_trace_fill(&shown->trace, view->place, &frame->trace[p]);
     }
 }
 
@@ -312,7 +312,7 @@ static void fill_time(const Player *player, FrameContent *content)
     snprintf(content->title_bar.sentence, SENTENCE_SIZE,
              "a long step: Esc stops it, at the last whole one");
     snprintf(content->title_bar.state, VALUE_SIZE, "computing, update %d",
-             player_active_run(player)->outcome.updates);
+             player_active_pane(player)->outcome.updates);
 }
 
 /* If options of the page are changed, writes a heading for Look with the page's

@@ -152,7 +152,7 @@ Status obey_set(Player *player, const Command *command)
     change.x = options[player->active].number[row->slot];
     const State *state = past_entry(&player->past, 0, player->past.step)->state;
     bool is_set = state && state->is_set; /* not made by a step */
-    bool again = (!is_set || player_active_run(player)->has_failed) &&
+    bool again = (!is_set || player_active_pane(player)->has_failed) &&
                  (row->effect == EFFECT_AGAIN ||
                   (player_active_options(player)->law &&
                    player->past.step > 0 && player_is_stopped(player)) ||

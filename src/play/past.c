@@ -159,7 +159,7 @@ static void drop_branches(Past *past, int from)
 
 /* ---- states -------------------------------------------------------------- */
 
-/* Whether an entry keeps its state when the run of its pane leaves the step.
+/* Whether an entry keeps its state when its pane leaves the step.
  * In a thinned branch entry 0 keeps only a state of a start or a drag. */
 static bool branch_keeps_state(const Branch *branch, const Entry *entry)
 {
@@ -206,10 +206,10 @@ void past_fill_history(const Past *past, int pane, History *history)
 }
 
 /* Stores a pane's state in an entry; drops others beyond the memory's limit. */
-static Status store_state(Past *past, int pane, bool set, Entry *entry)
+static Status store_state(Past *past, int p, bool set, Entry *entry)
 {
-    const PaneRun *run = &past->pane[pane];
-    const Simulation *simulation = &run->simulation;
+    const PastPane *pane = &past->pane[p];
+    const Simulation *simulation = &pane->simulation;
     size_t size = sizeof *entry->state + state_save(simulation, NULL);
     /* Memory for the state and for the sample, which is made next. */
     size_t both = size + sizeof *entry->sample;
@@ -219,33 +219,33 @@ static Status store_state(Past *past, int pane, bool set, Entry *entry)
     State *state = malloc(size);
     if (!state)
         return STATUS_OUT_OF_MEMORY;
-    *state = (State){1, size, set, control_retain(run->control)};
+    *state = (State){1, size, set, control_retain(pane->control)};
     state_save(simulation, state->bytes);
     past->used_bytes += size;
     entry->state = state;
     return STATUS_OK;
 }
 
-/* Leaves the step of a pane's run.  Until now an edit could have needed the
+/* Leaves the present step of a pane.  Until now an edit could have needed the
  * state of the step; now the state is dropped unless its entry keeps it. */
-static void pane_run_leave_step(Past *past, int pane)
+static void pane_leave_step(Past *past, int p)
 {
-    PaneRun *run = &past->pane[pane];
+    PastPane *pane = &past->pane[p];
     const Branch *branch = present_branch(past);
-    if (!run->has_state)
+    if (!pane->has_state)
         return;
-    while (run->step < branch->first_step && !branch->from_options)
+    while (pane->step < branch->first_step && !branch->from_options)
         branch--;
-    Entry *entry = find_entry(past, pane, run->step);
+    Entry *entry = find_entry(past, p, pane->step);
     if (!branch_keeps_state(branch, entry))
         drop_state(past, entry);
-    run->has_state = false;
+    pane->has_state = false;
 }
 
 static void leave_steps_of_panes(Past *past)
 {
     for (int p = 0; p < past_panes(past); p++)
-        pane_run_leave_step(past, p);
+        pane_leave_step(past, p);
 }
 
 /* Puts a branch on top of the present one, and drops undone branches.  The
@@ -272,7 +272,7 @@ static Branch *push_branch(Past *past, Branch wanted, const Command *edit)
     for (int p = 0; p < past_panes(past); p++)
         if (branch->from_options || p >= branch->panes ||
             past->pane[p].step > branch->first_step)
-            pane_run_leave_step(past, p);
+            pane_leave_step(past, p);
     for (int p = 0; p < branch->panes && !branch->from_options; p++)
         for (int i = 0; i < branch->copies; i++) {
             Entry *to = &branch->entry[i * branch->panes + p];
@@ -292,12 +292,12 @@ static Branch *push_branch(Past *past, Branch wanted, const Command *edit)
     return branch;
 }
 
-/* ---- runs of panes ------------------------------------------------------- */
+/* ---- panes --------------------------------------------------------------- */
 
 /* Returns the time step of a pane, s; 1 in scenes without time. */
-static double find_pane_timestep(const PaneRun *run)
+static double find_pane_timestep(const PastPane *pane)
 {
-    const Simulation *simulation = &run->simulation;
+    const Simulation *simulation = &pane->simulation;
     return simulation->scene->needs & NEEDS_TIME ? simulation->options.timestep
                                                  : 1;
 }
@@ -316,16 +316,16 @@ static const Newton *find_traced_newton(const Simulation *simulation)
  * so that the window can read the mouse and the program its signals. */
 static bool observe_newton(void *user, const NewtonRecord *record)
 {
-    PaneRun *run = user;
-    if (!run->is_iterating)
+    PastPane *pane = user;
+    if (!pane->is_iterating)
         return false;
-    run->outcome.updates += record->alpha != 0;
-    if (run->simulation.scene->step) /* a step is one update */
-        run->outcome.energy_change = record->change;
-    const Newton *newton = find_traced_newton(&run->simulation);
-    if (newton && run->trace.x_length > 0 && record->iteration >= 0)
-        step_trace_add_round(&run->trace, newton, record);
-    Records *records = &run->records;
+    pane->outcome.updates += record->alpha != 0;
+    if (pane->simulation.scene->step) /* a step is one update */
+        pane->outcome.energy_change = record->change;
+    const Newton *newton = find_traced_newton(&pane->simulation);
+    if (newton && pane->trace.x_length > 0 && record->iteration >= 0)
+        step_trace_add_round(&pane->trace, newton, record);
+    Records *records = &pane->records;
     if (records_reserve(records, records->count + 1))
         records->record[records->count++] = *record;
     else
@@ -334,54 +334,54 @@ static bool observe_newton(void *user, const NewtonRecord *record)
 }
 
 /* Discards the records of the last step. */
-static void pane_run_forget_step(PaneRun *run)
+static void pane_forget_step(PastPane *pane)
 {
-    run->has_trace = run->has_failed = false;
-    run->substeps = 0;
-    run->trace.place_count = run->records.count = 0;
-    run->records.is_incomplete = false;
+    pane->has_trace = pane->has_failed = false;
+    pane->substeps = 0;
+    pane->trace.place_count = pane->records.count = 0;
+    pane->records.is_incomplete = false;
 }
 
-static void pane_run_free(PaneRun *run)
+static void pane_free(PastPane *pane)
 {
-    simulation_free(&run->simulation);
-    control_release(run->control);
-    control_release(run->start_control);
-    run->control = run->start_control = NULL;
-    run->has_state = run->is_iterating = false;
-    pane_run_forget_step(run);
+    simulation_free(&pane->simulation);
+    control_release(pane->control);
+    control_release(pane->start_control);
+    pane->control = pane->start_control = NULL;
+    pane->has_state = pane->is_iterating = false;
+    pane_forget_step(pane);
 }
 
-static Status pane_run_create(PaneRun *run, const Options *options)
+static Status pane_create(PastPane *pane, const Options *options)
 {
-    pane_run_free(run);
-    return simulation_create(options, observe_newton, run, &run->simulation);
+    pane_free(pane);
+    return simulation_create(options, observe_newton, pane, &pane->simulation);
 }
 
-static Status pane_run_use_control(PaneRun *run, const Control *control)
+static Status pane_use_control(PastPane *pane, const Control *control)
 {
-    if (run->control == control)
+    if (pane->control == control)
         return STATUS_OK;
-    Status status = control_apply(&run->simulation, control);
+    Status status = control_apply(&pane->simulation, control);
     control_retain(control);
-    control_release(run->control);
-    run->control = control;
+    control_release(pane->control);
+    pane->control = control;
     if (status)
-        pane_run_free(run);
+        pane_free(pane);
     return status;
 }
 
-/* Notes that a pane's run has the state of a step, gives the run the control of
- * the next step, and samples the energies if this control is new. */
-static Status pane_run_set_step(Past *past, int pane, long step)
+/* Notes that a pane has the state of a step, gives the pane the control of the
+ * next step, and samples the energies if this control is new. */
+static Status pane_set_step(Past *past, int p, long step)
 {
-    PaneRun *run = &past->pane[pane];
-    Entry *entry = find_entry(past, pane, step);
+    PastPane *pane = &past->pane[p];
+    Entry *entry = find_entry(past, p, step);
     bool samples = past->stores_states &&
-                   (!entry->sample || run->control != entry->control);
-    Status status = pane_run_use_control(run, entry->control);
-    run->step = step;
-    run->has_state = !status;
+                   (!entry->sample || pane->control != entry->control);
+    Status status = pane_use_control(pane, entry->control);
+    pane->step = step;
+    pane->has_state = !status;
     if (status || !samples)
         return status;
     if (!entry->sample) {
@@ -389,59 +389,58 @@ static Status pane_run_set_step(Past *past, int pane, long step)
         past->used_bytes += entry->sample ? sizeof *entry->sample : 0;
     }
     if (entry->sample) {
-        const Picture *picture = picture_of_scene(run->simulation.scene);
-        entry->sample->time = simulation_time(&run->simulation);
+        const Picture *picture = picture_of_scene(pane->simulation.scene);
+        entry->sample->time = simulation_time(&pane->simulation);
         entry->sample->rows = 0;
         if (picture->sample)
             entry->sample->rows =
-                picture->sample(&run->simulation, entry->sample->row);
+                picture->sample(&pane->simulation, entry->sample->row);
     }
     return STATUS_OK;
 }
 
-static Status pane_run_load_state(PaneRun *run, const State *state)
+static Status pane_load_state(PastPane *pane, const State *state)
 {
-    Status status = pane_run_use_control(run, state->control);
+    Status status = pane_use_control(pane, state->control);
     if (!status)
-        state_restore(state->bytes, &run->simulation);
+        state_restore(state->bytes, &pane->simulation);
     return status;
 }
 
-/* Brings a pane's run near `goal`, if need be to the last stored state before
- * it.  If states are not stored, the run is at that step already. */
-static Status pane_run_seek(Past *past, int pane, long goal)
+/* Brings a pane near the step `goal`, if need be to the last stored state
+ * before it.  If states are not stored, the pane is at that step already. */
+static Status pane_seek(Past *past, int p, long goal)
 {
-    PaneRun *run = &past->pane[pane];
-    const Control *start = past_start_control(past, pane);
+    PastPane *pane = &past->pane[p];
+    const Control *start = past_start_control(past, p);
     long from = goal;
-    while (past->stores_states && from > 0 &&
-           !find_entry(past, pane, from)->state)
+    while (past->stores_states && from > 0 && !find_entry(past, p, from)->state)
         from--;
-    bool is_near = run->has_state && run->step <= goal &&
-                   (run->step >= from || run->step >= goal - 1);
-    if (is_near && run->control == find_entry(past, pane, run->step)->control)
-        return pane_run_set_step(past, pane, run->step);
-    const Entry *entry = find_entry(past, pane, from);
+    bool is_near = pane->has_state && pane->step <= goal &&
+                   (pane->step >= from || pane->step >= goal - 1);
+    if (is_near && pane->control == find_entry(past, p, pane->step)->control)
+        return pane_set_step(past, p, pane->step);
+    const Entry *entry = find_entry(past, p, from);
     if (!entry->state)
         return STATUS_OUT_OF_MEMORY;
     Status status = STATUS_OK;
-    if (!run->has_state || run->step != from) {
-        pane_run_leave_step(past, pane);
-        pane_run_forget_step(run);
-        run->outcome = entry->outcome;
+    if (!pane->has_state || pane->step != from) {
+        pane_leave_step(past, p);
+        pane_forget_step(pane);
+        pane->outcome = entry->outcome;
     }
-    if (run->start_control != start) {
-        status = pane_run_create(run, &start->options);
-        run->start_control = status ? NULL : control_retain(start);
+    if (pane->start_control != start) {
+        status = pane_create(pane, &start->options);
+        pane->start_control = status ? NULL : control_retain(start);
     }
     if (!status)
-        status = pane_run_load_state(run, entry->state);
-    return status ? status : pane_run_set_step(past, pane, from);
+        status = pane_load_state(pane, entry->state);
+    return status ? status : pane_set_step(past, p, from);
 }
 
 /* ---- steps --------------------------------------------------------------- */
 
-/* Ends the present work at the last whole step.  A run of a pane that has left
+/* Ends the present work at the last whole step.  A pane that has left
  * this step must load its state again. */
 static void abandon_work(Past *past)
 {
@@ -449,11 +448,11 @@ static void abandon_work(Past *past)
         return;
     long new = past_newest(past) + 1;
     for (int p = 0; p < past_panes(past); p++) {
-        PaneRun *run = &past->pane[p];
-        if (run->is_iterating || run->substeps > 0 || run->step >= new)
-            run->has_state = false;
-        run->is_iterating = false;
-        run->substeps = 0;
+        PastPane *pane = &past->pane[p];
+        if (pane->is_iterating || pane->substeps > 0 || pane->step >= new)
+            pane->has_state = false;
+        pane->is_iterating = false;
+        pane->substeps = 0;
         if (!past_makes_step(past))
             continue;
         drop_state(past, find_entry(past, p, new));
@@ -468,91 +467,91 @@ static bool is_out_of_memory(Status status)
     return status == STATUS_OUT_OF_MEMORY || status == STATUS_TOO_LARGE;
 }
 
-static Status pane_run_finish_step(Past *past, int pane);
-static Status pane_run_iterate(Past *past, int pane);
+static Status pane_finish_step(Past *past, int p);
+static Status pane_iterate(Past *past, int p);
 
 /* Ends a pane that has failed while other panes go on.  From now on the pane
  * shows its last state that a picture can show (PAST_EXPLODED). */
-static Status end_failed_pane(Past *past, int pane, Status why)
+static Status end_failed_pane(Past *past, int p, Status why)
 {
-    PaneRun *run = &past->pane[pane];
-    long step = run->step, last = past_find_drawable_step(past, pane, step);
-    pane_run_leave_step(past, pane);
-    Status status = pane_run_seek(past, pane, last);
-    while (run->step < last && (!status || status == STATUS_RUNNING))
-        status = pane_run_iterate(past, pane);
+    PastPane *pane = &past->pane[p];
+    long step = pane->step, last = past_find_drawable_step(past, p, step);
+    pane_leave_step(past, p);
+    Status status = pane_seek(past, p, last);
+    while (pane->step < last && (!status || status == STATUS_RUNNING))
+        status = pane_iterate(past, p);
     if (status && status != STATUS_RUNNING)
         return status;
-    run->step = step;
-    run->substeps = 0;
-    run->outcome = past_entry(past, pane, last)->outcome;
-    run->outcome.status = past->worst_status = why;
+    pane->step = step;
+    pane->substeps = 0;
+    pane->outcome = past_entry(past, p, last)->outcome;
+    pane->outcome.status = past->worst_status = why;
     if (past_makes_step(past))
         past->work_stage = WORK_MADE;
-    return pane_run_finish_step(past, pane);
+    return pane_finish_step(past, p);
 }
 
 /* Ends the work after a failure, or only this pane if other panes can go on. */
-static Status pane_run_fail(Past *past, int pane, Status status)
+static Status pane_fail(Past *past, int p, Status status)
 {
-    PaneRun *run = &past->pane[pane];
+    PastPane *pane = &past->pane[p];
     if (past_makes_step(past) && past->panes_fail_alone &&
         past_panes(past) > 1 && !is_out_of_memory(status)) {
-        status = end_failed_pane(past, pane, status);
+        status = end_failed_pane(past, p, status);
         if (status == STATUS_RUNNING)
             return status;
     }
     abandon_work(past);
-    if (!is_out_of_memory(status) && run->start_control) {
-        run->has_failed = run->has_trace = true;
-        run->outcome.status = status;
+    if (!is_out_of_memory(status) && pane->start_control) {
+        pane->has_failed = pane->has_trace = true;
+        pane->outcome.status = status;
     }
-    /* Some runs may have made the next step, so the state is not of `step`. */
-    run->has_state = false;
+    /* Some panes may have made the next step, so the state is not of `step`. */
+    pane->has_state = false;
     past->aim_step = past->step;
     return status;
 }
 
-/* Moves a pane's run to the entry of the step that the run has finished. */
-static Status pane_run_finish_step(Past *past, int pane)
+/* Moves a pane to the entry of the step that the pane has finished. */
+static Status pane_finish_step(Past *past, int p)
 {
-    PaneRun *run = &past->pane[pane];
-    long step = run->step + 1;
-    Entry *to = find_entry(past, pane, step);
+    PastPane *pane = &past->pane[p];
+    long step = pane->step + 1;
+    Entry *to = find_entry(past, p, step);
     Status status = STATUS_OK;
     if (step > past_newest(past)) {
         if (!to->control)
             to->control =
-                control_retain(find_entry(past, pane, step - 1)->control);
-        to->substeps = run->substeps;
-        to->outcome = run->outcome;
+                control_retain(find_entry(past, p, step - 1)->control);
+        to->substeps = pane->substeps;
+        to->outcome = pane->outcome;
     }
-    if (past_makes_step(past) && run->substeps > 0)
+    if (past_makes_step(past) && pane->substeps > 0)
         past->work_stage = WORK_MADE;
-    run->substeps = 0;
-    pane_run_leave_step(past, pane);
+    pane->substeps = 0;
+    pane_leave_step(past, p);
     if (to->state && to->state->is_set)
-        status = pane_run_load_state(run, to->state);
+        status = pane_load_state(pane, to->state);
     else if (past->stores_states && !to->state)
-        store_state(past, pane, false, to);
+        store_state(past, p, false, to);
     if (!status)
-        status = pane_run_set_step(past, pane, step);
-    return status ? pane_run_fail(past, pane, status) : STATUS_RUNNING;
+        status = pane_set_step(past, p, step);
+    return status ? pane_fail(past, p, status) : STATUS_RUNNING;
 }
 
 /* Acts on the status of an iteration: if it ended a step of the simulation,
  * stores the outcome, and finishes the pane's step after the last substep. */
-static Status pane_run_end_iteration(Past *past, int pane, Status status)
+static Status pane_end_iteration(Past *past, int p, Status status)
 {
-    PaneRun *run = &past->pane[pane];
-    const Simulation *simulation = &run->simulation;
-    StepOutcome *outcome = &run->outcome;
+    PastPane *pane = &past->pane[p];
+    const Simulation *simulation = &pane->simulation;
+    StepOutcome *outcome = &pane->outcome;
     if (status == STATUS_RUNNING)
         return status;
-    run->is_iterating = false;
+    pane->is_iterating = false;
     if (past->stores_states)
-        step_trace_end(&run->trace, &simulation->options);
-    bool moved = simulation->steps > run->start_steps;
+        step_trace_end(&pane->trace, &simulation->options);
+    bool moved = simulation->steps > pane->start_steps;
     outcome->status = status ? status : outcome->status;
     outcome->extent = 0;
     for (int i = 0; i < 2 * simulation->system.nodes; i++)
@@ -561,45 +560,46 @@ static Status pane_run_end_iteration(Past *past, int pane, Status status)
         if (simulation->run[r].newton)
             outcome->energy_change += simulation->run[r].newton->change;
     if (status && !moved && (is_out_of_memory(status) || !simulation->is_over))
-        return pane_run_fail(past, pane, status);
-    run->has_trace = past->stores_states;
-    run->substeps += moved;
+        return pane_fail(past, p, status);
+    pane->has_trace = past->stores_states;
+    pane->substeps += moved;
     if (past_makes_step(past) && status)
         past->worst_status = status;
-    double middle = simulation_time(simulation) + 0.5 * find_pane_timestep(run);
-    const Entry *to = past_entry(past, pane, run->step + 1);
-    bool more = to ? run->substeps < to->substeps
+    double middle =
+        simulation_time(simulation) + 0.5 * find_pane_timestep(pane);
+    const Entry *to = past_entry(past, p, pane->step + 1);
+    bool more = to ? pane->substeps < to->substeps
                    : moved && middle < past->end_time &&
                          (simulation->scene->needs & NEEDS_TIME);
-    return more ? STATUS_RUNNING : pane_run_finish_step(past, pane);
+    return more ? STATUS_RUNNING : pane_finish_step(past, p);
 }
 
 /* Makes the next iteration of a pane, or begins its next step. */
-static Status pane_run_iterate(Past *past, int pane)
+static Status pane_iterate(Past *past, int p)
 {
-    PaneRun *run = &past->pane[pane];
-    const Entry *from = past_entry(past, pane, run->step);
-    const Entry *to = past_entry(past, pane, run->step + 1);
-    if (run->is_iterating)
-        return pane_run_end_iteration(past, pane,
-                                      simulation_advance(&run->simulation));
-    if (run->substeps == 0) {
-        run->outcome = (StepOutcome){0};
-        pane_run_forget_step(run);
+    PastPane *pane = &past->pane[p];
+    const Entry *from = past_entry(past, p, pane->step);
+    const Entry *to = past_entry(past, p, pane->step + 1);
+    if (pane->is_iterating)
+        return pane_end_iteration(past, p,
+                                  simulation_advance(&pane->simulation));
+    if (pane->substeps == 0) {
+        pane->outcome = (StepOutcome){0};
+        pane_forget_step(pane);
     }
     if (pane_has_ended(from)) {
-        run->outcome = from->outcome;
-        return pane_run_finish_step(past, pane);
+        pane->outcome = from->outcome;
+        return pane_finish_step(past, p);
     }
     if (to && entry_is_failure(to))
-        return end_failed_pane(past, pane, to->outcome.status);
+        return end_failed_pane(past, p, to->outcome.status);
     if (past->stores_states)
-        step_trace_begin(&run->trace, &run->simulation, past->samples_energy,
-                         pane == past->line_pane);
-    run->start_steps = run->simulation.steps;
-    run->is_iterating = true;
-    return pane_run_end_iteration(past, pane,
-                                  simulation_begin_step(&run->simulation));
+        step_trace_begin(&pane->trace, &pane->simulation, past->samples_energy,
+                         p == past->line_pane);
+    pane->start_steps = pane->simulation.steps;
+    pane->is_iterating = true;
+    return pane_end_iteration(past, p,
+                              simulation_begin_step(&pane->simulation));
 }
 
 /* ---- work ---------------------------------------------------------------- */
@@ -609,16 +609,16 @@ static Status begin_new_step(Past *past)
 {
     double longest = -1;
     for (int p = 0; p < past_panes(past); p++) {
-        const PaneRun *run = &past->pane[p];
-        double pace = find_pane_timestep(run);
-        if (pace <= longest || pane_has_ended(past_entry(past, p, run->step)))
+        const PastPane *pane = &past->pane[p];
+        double pace = find_pane_timestep(pane);
+        if (pace <= longest || pane_has_ended(past_entry(past, p, pane->step)))
             continue;
         longest = pace;
-        past->end_time = simulation_time(&run->simulation) + pace;
+        past->end_time = simulation_time(&pane->simulation) + pace;
     }
     past->worst_status = STATUS_OK;
     if (reserve_entry(past, present_branch(past)))
-        return pane_run_fail(past, 0, STATUS_OUT_OF_MEMORY);
+        return pane_fail(past, 0, STATUS_OUT_OF_MEMORY);
     past->work_stage = WORK_MAKES;
     return STATUS_RUNNING;
 }
@@ -647,9 +647,9 @@ Status past_iterate(Past *past)
         return STATUS_OK;
     int panes = past_panes(past), pane = 0;
     for (; past->work_stage == WORK_LOADS && pane < panes; pane++) {
-        Status status = pane_run_seek(past, pane, past->load_step);
+        Status status = pane_seek(past, pane, past->load_step);
         if (status)
-            return pane_run_fail(past, pane, status);
+            return pane_fail(past, pane, status);
     }
     if (past->work_stage == WORK_LOADS)
         past->work_stage = WORK_REPEATS;
@@ -659,7 +659,7 @@ Status past_iterate(Past *past)
          goal = past_makes_step(past) || aim < newest ? aim : newest;
     for (pane = 0; pane < panes; pane++)
         if (past->pane[pane].is_iterating || past->pane[pane].step < goal)
-            return pane_run_iterate(past, pane);
+            return pane_iterate(past, pane);
     return goal < past->aim_step ? begin_new_step(past) : end_past_work(past);
 }
 
@@ -677,12 +677,12 @@ static bool can_trace_aim(const Past *past)
     enum { SHORT = 400000 }; /* limit of nodes times updates */
     long work = 0;
     for (int p = 0; p < past_panes(past); p++) {
-        const PaneRun *run = &past->pane[p];
-        const Simulation *simulation = &run->simulation;
+        const PastPane *pane = &past->pane[p];
+        const Simulation *simulation = &pane->simulation;
         const Entry *entry = past_entry(past, p, past->aim_step);
-        long behind = past->aim_step - run->step;
-        bool is_known =
-            run->has_state && (behind == 1 || (behind == 0 && run->has_trace));
+        long behind = past->aim_step - pane->step;
+        bool is_known = pane->has_state &&
+                        (behind == 1 || (behind == 0 && pane->has_trace));
         if (!is_known && simulation->run[0].newton && entry->substeps > 0 &&
             simulation_is_draggable(simulation))
             work += simulation->system.nodes * (1 + entry->outcome.updates);
@@ -735,19 +735,19 @@ Status past_begin_runs(Past *past, const Options *options, int panes,
     abandon_work(past);
     leave_steps_of_panes(past);
     for (int p = 0; p < panes && !status; p++) {
-        PaneRun *run = &past->pane[p];
-        status = pane_run_create(run, &options[p]);
+        PastPane *pane = &past->pane[p];
+        status = pane_create(pane, &options[p]);
         Control *control =
-            status ? NULL : control_from_simulation(&run->simulation);
+            status ? NULL : control_from_simulation(&pane->simulation);
         if (!control) {
             status = status ? status : STATUS_OUT_OF_MEMORY;
             break;
         }
         control->options = options[p];
-        run->start_control = control;
-        run->control = control_retain(control);
-        run->outcome = (StepOutcome){.status = run->simulation.status};
-        step_trace_clear(&run->trace);
+        pane->start_control = control;
+        pane->control = control_retain(control);
+        pane->outcome = (StepOutcome){.status = pane->simulation.status};
+        step_trace_clear(&pane->trace);
     }
     if (status && past->current >= 0)
         past_choose_step(past, past->step, false);
@@ -764,7 +764,7 @@ Status past_begin_runs(Past *past, const Options *options, int panes,
         if (past->stores_states)
             status = store_state(past, p, true, entry);
         if (!status)
-            status = pane_run_set_step(past, p, 0);
+            status = pane_set_step(past, p, 0);
     }
     return status;
 }
@@ -838,7 +838,7 @@ static Status apply_pane_edit(Past *past, int pane, const Command *edit,
     else
         exhibit_flip_switch(simulation, (int)edit->number);
     Status status = store_state(past, pane, true, entry);
-    return status ? status : pane_run_set_step(past, pane, past->step);
+    return status ? status : pane_set_step(past, pane, past->step);
 }
 
 Status past_edit(Past *past, const Command *edit, int pane, bool again,
@@ -916,7 +916,7 @@ void past_free(Past *past)
     drop_branches(past, 0);
     free(past->branch);
     for (int p = 0; p < OPTIONS_MAX_PANES; p++) {
-        pane_run_free(&past->pane[p]);
+        pane_free(&past->pane[p]);
         step_trace_free(&past->pane[p].trace);
         free(past->pane[p].records.record);
     }

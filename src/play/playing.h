@@ -13,8 +13,8 @@ static const double SLICE = 0.05;
 
 /* ---- session.c ----------------------------------------------------------- */
 
-/* Return the run, the simulation and the present options of the active pane. */
-const PaneRun *player_active_run(const Player *player);
+/* Return the active pane, its simulation and its present options. */
+const PastPane *player_active_pane(const Player *player);
 const Simulation *player_simulation(const Player *player);
 const Options *player_active_options(const Player *player);
 

@@ -11,14 +11,14 @@ enum {
     UPDATE_SPEED = -5   /* log_speed if a step is a Newton update */
 };
 
-const PaneRun *player_active_run(const Player *player)
+const PastPane *player_active_pane(const Player *player)
 {
     return &player->past.pane[player->active];
 }
 
 const Simulation *player_simulation(const Player *player)
 {
-    return &player_active_run(player)->simulation;
+    return &player_active_pane(player)->simulation;
 }
 
 const Options *player_active_options(const Player *player)
@@ -101,11 +101,11 @@ void player_sample_line_energy(Player *player)
                     cards_need_line_energy(player_simulation(player),
                                            player->screen.toggled_cards);
     Past *past = &player->past;
-    const PaneRun *run = player_active_run(player);
+    const PastPane *pane = player_active_pane(player);
     past->line_pane = is_drawn ? player->active : -1;
-    bool lacks = is_drawn && run->has_trace && !past_is_working(past) &&
+    bool lacks = is_drawn && pane->has_trace && !past_is_working(past) &&
                  step_trace_lacks_samples(
-                     &run->trace, player->view_of_pane[player->active].place);
+                     &pane->trace, player->view_of_pane[player->active].place);
     for (int p = 0; p < past_panes(past); p++)
         lacks = lacks && !past->pane[p].has_failed;
     if (lacks)

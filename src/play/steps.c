@@ -16,11 +16,11 @@ static Status record_iterations(Player *player, long step)
     Status status = STATUS_OK;
     for (int p = 0; p < past_panes(&player->past) && p < recording->panes;
          p++) {
-        const PaneRun *run = &player->past.pane[p];
-        if (run->records.is_incomplete)
+        const PastPane *pane = &player->past.pane[p];
+        if (pane->records.is_incomplete)
             status = STATUS_OUT_OF_MEMORY;
-        for (int i = 0; i < run->records.count && !status; i++) {
-            NewtonRecord row = run->records.record[i];
+        for (int i = 0; i < pane->records.count && !status; i++) {
+            NewtonRecord row = pane->records.record[i];
             if (recording->panes > 1)
                 row.step_number = step;
             status = recording_write_iteration(recording, &row, p + 1);
@@ -39,9 +39,9 @@ static Status record_step(Player *player)
     long step = past->step;
     bool due = step == past->booked_to + 1, again = step <= past->written_to;
     for (int p = 0; p < panes; p++) {
-        const PaneRun *run = &past->pane[p];
-        simulation[p] = &run->simulation;
-        due = due && (run->has_trace || !past->stores_states || step == 0 ||
+        const PastPane *pane = &past->pane[p];
+        simulation[p] = &pane->simulation;
+        due = due && (pane->has_trace || !past->stores_states || step == 0 ||
                       past_entry(past, p, step)->substeps == 0);
     }
     if (!due)
@@ -228,16 +228,16 @@ static void stop_run_if_over(Player *player)
          past->step < player_simulation(player)->system.springs))
         return;
     for (int p = 0; p < past_panes(past); p++) {
-        const PaneRun *run = &past->pane[p];
-        const Simulation *simulation = &run->simulation;
+        const PastPane *pane = &past->pane[p];
+        const Simulation *simulation = &pane->simulation;
         if (past_find_made_step(past, p, past->step) < past->step)
             continue;
         going++;
-        ended = ended && (simulation->is_over || run->has_failed);
+        ended = ended && (simulation->is_over || pane->has_failed);
         rests = rests && (simulation->scene->needs & NEEDS_TIME) &&
-                simulation->runs == 1 && !control_hand_holds(run->control) &&
+                simulation->runs == 1 && !control_hand_holds(pane->control) &&
                 simulation_is_at_rest(simulation);
-        bad = bad || run->outcome.status;
+        bad = bad || pane->outcome.status;
     }
     bad = bad && past_panes(past) == 1;
     if (rests && going > 0)
@@ -305,7 +305,7 @@ static bool walk_lines(Player *player, int way)
 static void describe_outcome(const Player *player, const OptionRow *row,
                              char *text, size_t size)
 {
-    const StepOutcome *outcome = &player_active_run(player)->outcome;
+    const StepOutcome *outcome = &player_active_pane(player)->outcome;
     bool curve = player->screen.scene->picture == PICTURE_CURVE;
     char value[VALUE_SIZE], change[64] = "stays";
     player_format_value(row, player_active_options(player),
@@ -327,7 +327,7 @@ static void describe_outcome(const Player *player, const OptionRow *row,
 static void compare_outcomes(Player *player)
 {
     const Past *past = &player->past;
-    const StepTrace *trace = &player_active_run(player)->trace;
+    const StepTrace *trace = &player_active_pane(player)->trace;
     const TracePlace *at = &player->time.wanted_place;
     char has[256];
     if (at->round >= 0 && trace->place_count > 2) {
@@ -347,14 +347,14 @@ Status player_repeat_step(Player *player, const Command *change, int pane)
     Past *past = &player->past;
     PaneView *view = &player->view_of_pane[player->active];
     const OptionRow *row = &option_rows[change->number];
-    const PaneRun *run = player_active_run(player);
-    const Simulation *simulation = &run->simulation;
+    const PastPane *active = player_active_pane(player);
+    const Simulation *simulation = &active->simulation;
     size_t bytes = 2 * (size_t)simulation->system.nodes * sizeof(double);
-    bool failed = run->has_failed;
+    bool failed = active->has_failed;
     long step = past->step + failed;
     player->time.wanted_place = (TracePlace){.round = -1};
     if (view->place >= 0 && player->time.walk_unit != UNIT_STEP)
-        player->time.wanted_place = run->trace.place[view->place];
+        player->time.wanted_place = active->trace.place[view->place];
     player_forget_step(player);
     describe_outcome(player, row, view->ghost_label, sizeof view->ghost_label);
     if (row->effect == EFFECT_AGAIN && !failed && !simulation->scene->step)
@@ -515,7 +515,7 @@ Status obey_back(Player *player, const Command *command)
     if (player->time.walk_unit == UNIT_STEP || !panes_use_newton(player))
         return player_seek(player, step - 1, AFTER_NOTHING);
     if (player->view_of_pane[player->active].place < 0 && step > 0) {
-        if (!player_active_run(player)->has_trace)
+        if (!player_active_pane(player)->has_trace)
             return player_seek(player, step, AFTER_SHOW_LAST);
         enter_line_walk(player, AFTER_SHOW_LAST);
     }

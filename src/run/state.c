@@ -64,7 +64,7 @@ static void visit_exhibit(Cursor *cursor, Simulation *simulation)
     VISIT(simulation->descent);
     VISIT(simulation->options.timestep);
     VISIT(run->h);
-    if (run->newton)
+    if (cursor->is_restoring && run->newton)
         run->newton->settings.h = run->h;
 }
 

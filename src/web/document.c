@@ -336,7 +336,7 @@ static void put_event(Writer *to, const Player *player)
 {
     const FrameContent *content = &player->screen.frame.content;
     const Trace *trace = active_pane(content)->shown_trace;
-    const StepOutcome *outcome = &player_active_run(player)->outcome;
+    const StepOutcome *outcome = &player_active_pane(player)->outcome;
     const char *turn = player_simulation(player)->scene->step_name;
     print(to, "event\t%s %ld", turn ? turn : "step", content->time_line.step);
     if (trace && trace->at_line != LINE_NONE &&

@@ -63,7 +63,7 @@ static inline Status obey(const char *line)
     return player_obey(&player, &command);
 }
 
-static inline const PaneRun *pane_run(int pane)
+static inline const PastPane *past_pane(int pane)
 {
     return &player.past.pane[pane];
 }

@@ -22,7 +22,7 @@ TEST(the_curve_goes_through_the_step)
             past_choose_step(&player.past, step + 1, true);
             Status status = past_finish_work(&player.past);
             CHECK(!status || status_is_unconverged(status));
-            const StepTrace *kept = &pane_run(0)->trace;
+            const StepTrace *kept = &past_pane(0)->trace;
             for (int place = 0; place < kept->place_count; place++) {
                 Trace trace;
                 step_trace_fill(kept, place, &trace);
@@ -47,7 +47,7 @@ TEST(the_curve_goes_through_the_step)
         }
         CHECK(seen > 60 && (i == 3 || (rough > 0) == (i > 0)));
         Trace whole;
-        const StepTrace *kept = &pane_run(0)->trace;
+        const StepTrace *kept = &past_pane(0)->trace;
         step_trace_fill(kept, -1, &whole);
         CHECK(whole.residual > 0);
         end();

@@ -1230,7 +1230,7 @@ static uint64_t hash_run(void)
 {
     uint64_t hash = STATE_HASH_SEED;
     for (int p = 0; p < past_panes(&player.past); p++)
-        hash = hash_with_ledger(&pane_run(p)->simulation, hash);
+        hash = hash_with_ledger(&past_pane(p)->simulation, hash);
     return hash;
 }
 
