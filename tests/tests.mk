@@ -82,7 +82,8 @@ pictures: build/elasto $(B)/tests/unit/test_session
 	    tests/data/$$name.png || exit 1; \
 	  rm -rf build/frames-$$name; echo "tests/data/$$name.png"; \
 	done <tests/data/pictures.txt
-	@PICTURES=1 $(B)/tests/unit/test_session 'a picture of*'
+	@for tests in 'a picture of*' 'record*'; do \
+	  PICTURES=1 $(B)/tests/unit/test_session "$$tests" || exit 1; done
 	@echo '0 bare' >build/bare.txt; ./build/elasto --headless --quiet \
 	  --segments 10 --steps 75 --speed 1 --size 360x360 --script build/bare.txt \
 	  --film build/relax.apng && ffmpeg -v error -nostdin -y \

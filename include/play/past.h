@@ -27,7 +27,7 @@
 
 #include "play/command.h"
 #include "play/step_trace.h"
-#include "simulation/control.h"
+#include "run/control.h"
 
 /* Bytes for states and samples; beyond them every second state is dropped. */
 #define PAST_BYTES ((size_t)256 << 20)

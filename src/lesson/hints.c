@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "simulation/message.h"
+#include "run/message.h"
 
 Phrase list_names(NameTable names)
 {

@@ -113,24 +113,10 @@ TEST(small_windows_leave_parts_out)
         CHECK(l.chips - l.chips_left_out >= 7);
         CHECK(l.em >= 12 && l.stage.width >= 0.5 * l.width);
     }
-    /* shorter labels move the chips together */
-    for (int i = 0; i < content.chips.count; i++)
-        content.chips.chip[i].label[i + 3] = '\0';
-    CHECK(layout_create(&content, 900, 900).chips_left_out == 0);
     Layout small = layout_create(&content, 400, 300);
     CHECK(small.cards == 0 && small.settings == 0);
     CHECK(small.chips_left_out > 0 && small.chip[small.chips - 1].width > 0);
     CHECK(small.stage.width == 400 && small.stage.height > 200);
-    simulation.options.big = true;
-    Layout big = layout_create(&content, 1366, 768);
-    CHECK(big.setting[3].width > 0 && big.setting[8].width > 0);
-    CHECK(check_boxes(big.setting, 9, big.settings_row) < 9);
-    simulation.options.big = false;
-    /* wider than the window: the first line */
-    content.settings.item[0].min_letters = 400;
-    Layout wide = layout_create(&content, 900, 900);
-    CHECK(wide.settings > 1 && wide.setting[1].y > wide.setting[0].y);
-    CHECK(wide.setting[0].y < wide.settings_row.y + wide.em);
     content.is_bare = true;
     Layout bare = layout_create(&content, 900, 900);
     CHECK(bare.stage.width == 900 && bare.stage.height == 900);
@@ -179,33 +165,6 @@ TEST(a_click_hits_the_part_that_is_drawn_there)
     CHECK(layout_hit(&l, 640, 5).zone == ZONE_STRIP);
     CHECK(layout_hit(&l, 640, l.time_line.y + 1).zone == ZONE_TIME);
     CHECK(layout_hit(&l, -1, -1).zone == ZONE_NONE);
-}
-
-/* Cards that need half of the width share a row; a large one has the room; a
- * page has it all. */
-TEST(cards_share_the_column)
-{
-    show_all();
-    Layout pair = layout_create(&content, 1280, 800);
-    CHECK(pair.card[LINE].height > pair.card[RESIDUAL].height);
-    CHECK(pair.card[RESIDUAL].y == pair.card[ENERGIES].y);
-    CHECK(pair.card[RESIDUAL].width < 0.5 * pair.card[LINE].width);
-    Layout narrow = layout_create(&content, 900, 900);
-    CHECK(narrow.card[RESIDUAL].y < narrow.card[ENERGIES].y);
-    content.cards.closed_cards |= 1 << ENERGIES;
-    Layout apart = layout_create(&content, 1280, 800);
-    CHECK(apart.card[RESIDUAL].y < apart.card[ENERGIES].y);
-    content.cards.enlarged = LISTING;
-    Layout large = layout_create(&content, 1280, 800);
-    for (int i = LINE; i <= ASSEMBLY; i++)
-        CHECK(large.card[LISTING].height > 5 * large.card[i].height);
-    content.column = COLUMN_KEYS;
-    Layout page = layout_create(&content, 1280, 800);
-    CHECK(page.cards == 0 && page.column.width == pair.column.width);
-    CHECK(layout_hit(&page, page.column.x + 9, page.column.y + 9).zone ==
-          ZONE_LIST);
-    Box close = layout_close_box(&page, -1);
-    CHECK(layout_hit(&page, close.x + 9, close.y + 9).zone == ZONE_LIST_CLOSE);
 }
 
 /* There and back; zooming keeps the point under the mouse. */
@@ -345,16 +304,6 @@ TEST(parts_of_formulas_stand_apart)
             bands += ink(0, j, j + 1) > 0 && ink(0, j - 1, j) == 0;
         CHECK(bands == rows[i].bands);
     }
-}
-
-/* Braces of the markup are no facts. */
-TEST(braces_of_markup_are_no_values)
-{
-    const char *line = "{a}^{b}_{c}frac{d over {e}}matrix{f}#p{g}{x}# {h}";
-    const char *facts = "aeh";
-    for (const char *at = line; *at; at++)
-        if (*at == '{')
-            CHECK(text_is_markup_brace(line, at) == !strchr(facts, at[1]));
 }
 
 /* The slides' letters have their colours: orange keeps its red. */

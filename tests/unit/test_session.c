@@ -132,30 +132,18 @@ static void read_words(const char *verb, char *words)
     }
 }
 
-/* Checks a line "COUNT WORDS": how many texts have these words. */
-static void count_texts(const char *line)
-{
-    const char *words = strchr(line, ' ') + 1;
-    int count = 0;
-    write_window();
-    for (const char *at = written; (at = strstr(at, words)); count++)
-        at += strcspn(at, "\n");
-    if (count != atoi(line))
-        fail_msg("%d times '%s':\n%s", count, words, written);
-}
-
 /* The text with these words that is nearest to the mouse. */
-static int find_text(const char *words, double *distance)
+static int find_text(const char *words)
 {
     int nearest = -1;
-    *distance = INFINITY;
+    double distance = INFINITY;
     write_window();
     for (int i = 0; i < text_count; i++) {
         const char *text = written + texts[i].start;
         const char *at = strstr(text, words);
         double away = hypot(texts[i].x - mouse[0], texts[i].y - mouse[1]);
-        if (at && at < strchr(text, '\n') && away < *distance) {
-            *distance = away;
+        if (at && at < strchr(text, '\n') && away < distance) {
+            distance = away;
             nearest = i;
         }
     }
@@ -164,27 +152,14 @@ static int find_text(const char *words, double *distance)
     return nearest;
 }
 
-/* Checks a line "PIXELS WORDS". */
-static void check_text_near(const char *line)
-{
-    double distance;
-    find_text(strchr(line, ' ') + 1, &distance);
-    if (distance > atof(line))
-        fail_msg("%g pixels away: %s", distance, line);
-}
+/* Pixels a metre of the first pane, and before the mouse did something. */
+static double scale_before;
 
-/* Checks a line "COLOUR WORDS". */
-static void check_text_colour(const char *line)
+static double scale_now(void)
 {
-    double distance;
-    char *end;
-    const char *words = strchr(line, ' ') + 1;
-    Colour wanted = 0xff000000u | (Colour)strtoul(line, &end, 16);
-    if (end + 1 != words)
-        wanted = colour_find_name(line, strcspn(line, " "));
-    Colour now = texts[find_text(words, &distance)].colour;
-    if (now != wanted)
-        fail_msg("%06x: %s", now & 0xffffff, line);
+    player_fill_frame(&player);
+    Layout layout = layout_now();
+    return camera_of_pane(content, &layout, 0).scale[0];
 }
 
 static void finish_session(void)
@@ -204,6 +179,7 @@ static void begin_session(const char *line)
     player.screen.paper_size[0] = player.screen.paper_size[1] = SIDE;
     CHECK_OK(player_draw(&player)); /* as a window does before any input */
     heap_before = heap_in_use();
+    scale_before = scale_now();
 }
 
 /* A refused command leaves its message as a note. */
@@ -322,7 +298,7 @@ static void point_at(const char *place)
                mouse[0] < layout.width)
             mouse[0]++;
     } else if (strncmp(place, "text ", 5) == 0) {
-        i = find_text(place + 5, &x);
+        i = find_text(place + 5);
         mouse[0] = texts[i].x + 2;
         mouse[1] = texts[i].y;
     } else if (strcmp(place, "strip") == 0) {
@@ -342,16 +318,6 @@ static void point_at(const char *place)
         mouse[0] = layout.setting[i].x + 2;
         mouse[1] = layout.setting[i].y + layout.setting[i].height / 2;
     }
-}
-
-/* Pixels a metre of the first pane, and before the mouse did something. */
-static double scale_before;
-
-static double scale_now(void)
-{
-    player_fill_frame(&player);
-    Layout layout = layout_now();
-    return camera_of_pane(content, &layout, 0).scale[0];
 }
 
 /* Returns false if this is nothing that a mouse does. */
@@ -603,6 +569,122 @@ static void collect_facts(void)
     collect_parts();
 }
 
+/* ---- records ------------------------------------------------------------- */
+
+static char record[1 << 20];       /* lines of a session, and their changes */
+static char window_texts[1 << 16]; /* that were recorded last */
+
+static void begin_record(void)
+{
+    record[0] = facts[0] = window_texts[0] = '\0';
+}
+
+/* Adds the lines of a text to the record that an earlier text does not have. */
+static void record_changes(const char *before, const char *now)
+{
+    for (; *now; now += strcspn(now, "\n") + 1) {
+        char line[1024];
+        size_t used = strlen(record);
+        snprintf(line, sizeof line, "%.*s\n", (int)strcspn(now, "\n"), now);
+        if (!strstr(before, line))
+            snprintf(record + used, sizeof record - used, "%s", line);
+    }
+}
+
+/* Records a line of a session, and the facts that it has changed.  The texts of
+ * a page change often, so they are left out. */
+static void record_facts(const char *line)
+{
+    static char before[sizeof facts], head[160];
+    const Energies ledger = simulation_energies(player_simulation(&player), 0);
+    memcpy(before, facts, sizeof before);
+    player_fill_frame(&player);
+    collect_facts();
+    for (int i = 0; i < ledger.rows; i++)
+        fact("%s %.9g", ledger.row[i].name, ledger.row[i].value);
+    if (content->lecture.page)
+        for (char *at = facts; (at = strchr(at, '\t'));)
+            memset(at, '.', strcspn(at, "\n"));
+    snprintf(head, sizeof head, "> %s\n", line);
+    record_changes("", head);
+    record_changes(before, facts);
+}
+
+/* The card of the column in which a text stands, or "". */
+static const char *find_card(const Layout *layout, double x, double y)
+{
+    for (int c = 0; c < layout->cards; c++)
+        if (box_contains(layout->card[c], x, y))
+            return active_picture(content)->cards[c]->name;
+    return "";
+}
+
+/* Records the texts of the window that are new: places, colours and words.  On
+ * a page, texts of cards have no place, and its own text is left out. */
+static void record_words(const char *unused)
+{
+    static char before[sizeof window_texts];
+    char *now = window_texts;
+    int count = 0;
+    (void)unused;
+    write_window();
+    const Layout layout = layout_now();
+    memcpy(before, now, sizeof before);
+    for (int i = 0; i < text_count; i++) {
+        const char *text = written + texts[i].start;
+        const double x = texts[i].x, y = texts[i].y;
+        const char *card = find_card(&layout, x, y);
+        const Colour colour = texts[i].colour & 0xffffff;
+        const int length = (int)strcspn(text, "\n");
+        if (content->lecture.page && !box_contains(layout.stage, x, y)) {
+            if (!card[0] || strcmp(card, "page") == 0)
+                continue;
+            now += sprintf(now, "%s", card);
+        } else
+            now += sprintf(now, "%.0f %.0f", x, y);
+        now += sprintf(now, " %06x %.*s\n", colour, length, text);
+        count++;
+    }
+    sprintf(now, "%d texts\n", count);
+    record_changes(before, window_texts);
+}
+
+/* Whether a line is as it was.  A text of the window may stand some pixels
+ * away, since versions of the library of fonts differ. */
+static bool is_same_line(const char *was, const char *is)
+{
+    double a[2], b[2];
+    int from[2] = {0};
+    if (sscanf(was, "%lf %lf%n", &a[0], &a[1], &from[0]) == 2 &&
+        sscanf(is, "%lf %lf%n", &b[0], &b[1], &from[1]) == 2 &&
+        hypot(a[0] - b[0], a[1] - b[1]) > 3)
+        return false;
+    return strcmp(was + from[0], is + from[1]) == 0;
+}
+
+/* Whether the record is that of tests/data/records/NAME.txt; with PICTURES=1 in
+ * the environment it becomes so. */
+static void check_record(const char *name)
+{
+    char path[PATH_MAX + 64], was[1024];
+    snprintf(path, sizeof path, "%s/tests/data/records/%s.txt", home, name);
+    FILE *file = fopen(path, getenv("PICTURES") ? "w+" : "r");
+    assert_non_null(file);
+    if (getenv("PICTURES"))
+        CHECK(fputs(record, file) >= 0 && fseek(file, 0, SEEK_SET) == 0);
+    for (char *is = strtok(record, "\n"); is; is = strtok(NULL, "\n")) {
+        if (!fgets(was, sizeof was, file))
+            was[0] = '\0';
+        was[strcspn(was, "\n")] = '\0';
+        if (!is_same_line(was, is))
+            fail_msg("%s: '%s' is now '%s'; if it should: "
+                     "PICTURES=1 build/release/tests/unit/test_session '%s'",
+                     path, was, is, "record*");
+    }
+    CHECK(!fgets(was, sizeof was, file));
+    fclose(file);
+}
+
 /* Whether this line is one of the facts, or some words of a text. */
 static void look(const char *line)
 {
@@ -816,16 +898,6 @@ static double find_grown(const Simulation *simulation)
     return (heap_in_use() - heap_before) / 1e6;
 }
 
-/* Cells of the map in which steps make no update. */
-static double count_idle_cells(const Simulation *simulation)
-{
-    int idle = 0;
-    for (int i = 0; i < ENVELOPE_ROWS; i++)
-        for (int k = 0; k < ENVELOPE_COLUMNS; k++)
-            idle += simulation->exhibit.envelope.cell[i][k].updates == 0;
-    return idle;
-}
-
 /* Steps of the run that did not converge. */
 static double count_unconverged(const Simulation *simulation)
 {
@@ -866,7 +938,6 @@ static const struct {
                {"hand distance", find_hand_distance},
                {"hand step", find_hand_step},
                {"way from stop", find_way_from_stop},
-               {"idle cells", count_idle_cells},
                {"unconverged", count_unconverged}};
 
 /* Finds a number by its name: a name of the table above, a coordinate of a
@@ -956,12 +1027,11 @@ static void session_line(const char *line)
     static const struct {
         const char *verb;
         void (*act)(const char *rest);
-    } acts[] = {{"begin", begin_session},  {"size", resize_window},
-                {"value", check_value},    {"keeps", keep_value},
-                {"replays", replay},       {"tables", check_tables},
-                {"row", check_row},        {"times", count_texts},
-                {"near", check_text_near}, {"colour", check_text_colour},
-                {"picture", check_picture}};
+    } acts[] = {{"begin", begin_session}, {"size", resize_window},
+                {"value", check_value},   {"keeps", keep_value},
+                {"replays", replay},      {"tables", check_tables},
+                {"row", check_row},       {"picture", check_picture},
+                {"words", record_words}};
     char verb[16] = "", rest[128] = "";
     sscanf(line, "%15s %127[^\n]", verb, rest);
     if (getenv("SHOW"))
@@ -1050,8 +1120,15 @@ static const char *present; /* line of a session */
 static void a_session(void **state)
 {
     const Session *session = *state;
-    for (const char **line = session->line; *line; line++)
+    const bool records = strncmp(session->name, "record ", 7) == 0;
+    begin_record();
+    for (const char **line = session->line; *line; line++) {
         session_line(present = *line);
+        if (records)
+            record_facts(present);
+    }
+    if (records)
+        check_record(session->name + 7);
     present = NULL;
 }
 
@@ -1278,9 +1355,9 @@ static void undo_and_redo(uint64_t started)
 }
 
 /* Whatever hands do, with plenty of memory for states or little: each step of
- * each change stays as it was, Y's script leads to the same bits, and none of
- * its lines is refused. */
-static void random_hands_are_written_down(void **unused)
+ * each change stays as it was, Y's script leads to the same bits, none of its
+ * lines is refused, and the window shows what it showed. */
+static void record_of_random_hands(void **unused)
 {
     (void)unused;
     enum { ROUNDS = 60, LENGTH = 40 };
@@ -1289,6 +1366,7 @@ static void random_hands_are_written_down(void **unused)
         "drop --segments 2", "square --segments 2 --integrator bdf2"};
     static const size_t states[] = {1, 6, 1000};
     Random random = {21};
+    begin_record();
     const char **acts = session_called("acts")->line;
     int count = 0;
     while (acts[count])
@@ -1302,11 +1380,13 @@ static void random_hands_are_written_down(void **unused)
         for (int i = 0; i < LENGTH; i++) {
             session_line(present = acts[random_below(&random, count)]);
             player.is_quitting = false; /* by Escape */
+            record_facts(present);
         }
         undo_and_redo(started);
         replay(scene[round % 4]);
         count_files(true);
     }
+    check_record("hands");
     present = NULL;
 }
 
@@ -1352,7 +1432,7 @@ int main(int argc, char **argv)
     struct CMUnitTest tests[5 + SESSIONS + SCENES] = {
         cmocka_unit_test_teardown(grips_go_where_they_are_dragged, end_session),
         cmocka_unit_test_teardown(random_keys_stay_in_their_field, end_session),
-        cmocka_unit_test_teardown(random_hands_are_written_down, end_session),
+        cmocka_unit_test_teardown(record_of_random_hands, end_session),
         cmocka_unit_test_teardown(
             pages_are_the_same_when_they_are_entered_again, end_session),
         cmocka_unit_test(each_page_is_tried_and_held)};

@@ -157,20 +157,6 @@ TEST(every_size_is_drawn)
             }
 }
 
-/* Bare means bare: white, blue and what lies between. */
-TEST(a_bare_square_is_the_slide)
-{
-    stand_up("square", 3);
-    set_size(300, 300);
-    content.is_bare = true;
-    draw();
-    for (int i = 0; i < 300 * 300; i++) {
-        Colour at = paper.canvas.pixels[i];
-        CHECK((at & 255) == 255 && (at >> 8 & 255) == (at >> 16 & 255));
-    }
-    CHECK(on_stage(COLOUR_X) > 1000);
-}
-
 /* ---- what is seen -------------------------------------------------------- */
 
 enum { ENERGIES = 4 };
@@ -276,19 +262,6 @@ TEST(the_camera_does_not_jump)
         }
         CHECK_AT_MOST(jumps, 2);
     }
-}
-
-/* The place to which a script pulls a node is in the picture. */
-TEST(the_target_of_the_hand_is_in_the_picture)
-{
-    stand_up("square --stretch 1", 0);
-    content.held = (HeldByHand){true, 4, -1, {2, -1}};
-    draw_without_words();
-    CHECK(on_stage(COLOUR_HAND) > 100);
-    Camera camera = camera_of_pane(&content, &layout, 0);
-    double at[2];
-    camera_to_pixel(&camera, content.held.target, at);
-    CHECK(box_contains(layout.stage, at[0], at[1]));
 }
 
 /* ---- what the mouse finds ------------------------------------------------ */

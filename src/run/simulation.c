@@ -1,5 +1,5 @@
 /* simulation.c - creates a scene, makes its steps, tests whether it rests. */
-#include "simulation/simulation.h"
+#include "run/simulation.h"
 
 #include <math.h>
 

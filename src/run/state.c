@@ -1,5 +1,5 @@
 /* state.c - saves, restores and hashes the state of a simulation. */
-#include "simulation/control.h"
+#include "run/control.h"
 
 #include <string.h>
 
