@@ -18,7 +18,7 @@ endif
 # ---- sources and programs ---------------------------------------------------
 # Rooms (folders of src), from the bottom up.  A room uses itself and the rooms
 # before it.
-ROOMS = base model solve step run scenes lesson picture play
+ROOMS = base model solve step simulation scenes lesson picture play
 
 comma   := ,
 VARIANT := $(if $(SANITIZE),sanitize-$(subst $(comma),-,$(SANITIZE)),release)

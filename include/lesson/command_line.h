@@ -3,8 +3,8 @@
 
 #include <stdio.h>
 
-#include "run/message.h"
-#include "run/options.h"
+#include "simulation/message.h"
+#include "simulation/options.h"
 
 /* Reads a command line into options, whose texts point into argv.  Lists of
  * values make several panes: "--timestep 0.004,0.04 --projection clamp,none" is

@@ -5,8 +5,8 @@
  * session for its claim in tests/data/claims.txt. */
 #pragma once
 
-#include "run/message.h"
-#include "run/options.h"
+#include "simulation/message.h"
+#include "simulation/options.h"
 
 /* Length of lit_at_line: lines 1 to 8 of Algorithm 3; element 0 is unused. */
 enum { LINES_WALKED = 9 };

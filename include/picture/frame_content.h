@@ -8,7 +8,7 @@
 
 #include "picture/layout.h"
 #include "lesson/pages.h"
-#include "run/simulation.h"
+#include "simulation/simulation.h"
 #include "scenes/small_scenes.h"
 
 enum {

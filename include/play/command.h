@@ -8,7 +8,7 @@
 #include <stddef.h>
 #include <stdio.h>
 
-#include "run/message.h"
+#include "simulation/message.h"
 
 enum { COMMAND_TEXT_SIZE = 64 };
 

@@ -27,7 +27,7 @@
 
 #include "play/command.h"
 #include "play/step_trace.h"
-#include "run/control.h"
+#include "simulation/control.h"
 
 /* Bytes for states and samples; beyond them every second state is dropped. */
 #define PAST_BYTES ((size_t)256 << 20)

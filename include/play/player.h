@@ -15,7 +15,7 @@
 
 #include "play/past.h"
 #include "play/command.h"
-#include "run/options.h"
+#include "simulation/options.h"
 #include "play/recording.h"
 #include "play/window.h"
 

@@ -13,7 +13,7 @@
 
 #include "picture/canvas.h"
 #include "play/output.h"
-#include "run/simulation.h"
+#include "simulation/simulation.h"
 
 typedef struct Film {
     const struct FilmKind *kind;

@@ -1,7 +1,7 @@
 /* scenes.h - the table of scenes. */
 #pragma once
 
-#include "run/scene.h"
+#include "simulation/scene.h"
 
 /* The scenes; a NULL name ends the table.  The first row is the default; the
  * last rows are scenes that open by name only. */

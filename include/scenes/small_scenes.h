@@ -14,10 +14,10 @@
  *   is a point, its run time and its error.
  * envelope: the square for every time step and stiffness.
  *
- * run/exhibit.h has the data of these scenes. */
+ * simulation/exhibit.h has the data of these scenes. */
 #pragma once
 
-#include "run/simulation.h"
+#include "simulation/simulation.h"
 
 /* Stores a user's guess that the next step, or the longest step of the dial,
  * leads to (x, y), m.  No effect without a single point, or after the end. */

@@ -9,7 +9,7 @@
 
 #include "lesson/hints.h"
 #include "lesson/pages.h"
-#include "run/body.h"
+#include "simulation/body.h"
 #include "scenes/scenes.h"
 
 /* A word of a line: an option with its value, or the name of a scene. */

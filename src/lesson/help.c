@@ -3,7 +3,7 @@
 
 #include "lesson/command_line.h"
 #include "lesson/hints.h"
-#include "run/message.h"
+#include "simulation/message.h"
 #include "scenes/scenes.h"
 
 enum { HELP_COLUMNS = 80, HELP_INDENT = 21 };

@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "run/message.h"
+#include "simulation/message.h"
 
 Phrase list_names(NameTable names)
 {

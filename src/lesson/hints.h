@@ -1,7 +1,7 @@
 /* hints.h - names for users who mistyped one, or who used a removed option. */
 #pragma once
 
-#include "run/options.h"
+#include "simulation/options.h"
 
 /* A part of a message, returned by value. */
 typedef struct Phrase {

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "picture/colour_map.h"
-#include "run/message.h"
+#include "simulation/message.h"
 
 enum { PAPER_TEXT = 768, PAPER_EM = 14 };
 

@@ -6,7 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "run/message.h"
+#include "simulation/message.h"
 
 bool output_is_standard(const char *name)
 {

@@ -3,7 +3,7 @@
 
 #include "play/player.h"
 #include "lesson/command_line.h"
-#include "run/message.h"
+#include "simulation/message.h"
 
 /* The functions of commands have the same parameters; some use only one. */
 #pragma GCC diagnostic ignored "-Wunused-parameter"

@@ -10,7 +10,7 @@
 #include "base/clock.h"
 #include "model/contact.h"
 #include "lesson/command_line.h"
-#include "run/message.h"
+#include "simulation/message.h"
 #include "lesson/pages.h"
 #include "scenes/scenes.h"
 

@@ -7,7 +7,7 @@
 #include "picture/live_values.h"
 #include "picture/plot.h"
 #include "play/playing.h"
-#include "run/body.h"
+#include "simulation/body.h"
 #include "lesson/pages.h"
 #include "scenes/small_scenes.h"
 

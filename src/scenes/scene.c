@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-#include "run/body.h"
+#include "simulation/body.h"
 #include "scenes/small_scenes.h"
 
 /* ---- scenes of the square that no options describe ----------------------- */

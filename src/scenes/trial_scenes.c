@@ -5,7 +5,7 @@
 
 #include "base/clock.h"
 #include "model/spring_law.h"
-#include "run/body.h"
+#include "simulation/body.h"
 #include "scenes/small_scenes.h"
 #include "base/mathematics.h"
 

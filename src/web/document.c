@@ -37,7 +37,7 @@
 
 #include "picture/cards.h"
 #include "play/playing.h"
-#include "run/scene.h"
+#include "simulation/scene.h"
 #include "scenes/scenes.h"
 
 /* A text that grows; words that do not fit in are left out. */

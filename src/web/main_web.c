@@ -10,7 +10,7 @@
 #include "lesson/pages.h"
 #include "picture/picture.h"
 #include "play/playing.h"
-#include "run/scene.h"
+#include "simulation/scene.h"
 #include "web/document.h"
 
 enum { MOST_WORDS = 512, MOST_TEXT = 1 << 15 };

@@ -4,7 +4,7 @@
 # README names what there is.  (Layout is clang-format's, the length of functions
 # clang-tidy's: make analyse.)
 # From the ground up; a room uses itself and those before it.
-rooms='base model solve step run scenes lesson picture play bench web homework'
+rooms='base model solve step simulation scenes lesson picture play bench web homework'
 headers=$(echo include/*/*.h src/*/*.h)
 
 . "$(dirname "$0")/verdict.sh"

@@ -31,7 +31,7 @@ use Time::HiRes 'time';
 
 $| = 1;
 delete @ENV{qw(MAKEFLAGS MFLAGS MAKELEVEL)}; # what is made below has its own
-my @all_rooms = qw(base model solve step run scenes lesson picture play lecture);
+my @all_rooms = qw(base model solve step simulation scenes lesson picture play lecture);
 my @suites = grep !/check_(?:sources|bench)/, map { m{/(test_\w+)\.c|(check_\w+\.sh)} ? $1 // $2 : () }
              sort glob('tests/unit/*.c tests/checks/*.sh');
 

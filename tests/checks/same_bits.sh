@@ -80,7 +80,7 @@ build() {
     rm -rf program objects
     mkdir objects
     (cd "$sources" && ls src/base/*.c src/model/*.c src/solve/*.c src/step/*.c \
-        src/run/*.c src/scenes/*.c) | xargs -P "$(nproc)" -I FILE sh -c '
+        src/simulation/*.c src/scenes/*.c) | xargs -P "$(nproc)" -I FILE sh -c '
         cd "$0" && $1 $2 -std=c11 -D_GNU_SOURCE -Iinclude -Isrc -Ibuild/release \
             -ffp-contract=off -w $3 -c FILE -o "$4/$(echo FILE | tr / _).o"' \
         "$sources" "$1" "$2" "$DEP_CFLAGS" "$work/objects"

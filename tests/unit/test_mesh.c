@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "run/body.h"
+#include "simulation/body.h"
 
 /* A centred grid, column by column from below; springs as the slide's four
  * loops make them: to the right, up, and the diagonals of each cell.  Halves

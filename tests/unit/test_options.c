@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "run/message.h"
+#include "simulation/message.h"
 #include "lesson/pages.h"
 
 /* One option of a square.  message [512] */

@@ -12,7 +12,7 @@
 #include <cmocka.h>
 
 #include "lesson/command_line.h"
-#include "run/control.h"
+#include "simulation/control.h"
 #include "scenes/scenes.h"
 #include "scenes/small_scenes.h"
 

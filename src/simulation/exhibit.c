@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "run/simulation.h"
+#include "simulation/simulation.h"
 
 int exhibit_list_handles(const Simulation *simulation,
                          double at[SCENE_MAX_HANDLES][2])

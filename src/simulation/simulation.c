@@ -1,5 +1,5 @@
 /* simulation.c - creates a scene, makes its steps, tests whether it rests. */
-#include "run/simulation.h"
+#include "simulation/simulation.h"
 
 #include <math.h>
 

@@ -1,5 +1,5 @@
 /* state.c - saves, restores and hashes the state of a simulation. */
-#include "run/control.h"
+#include "simulation/control.h"
 
 #include <string.h>
 

@@ -1,5 +1,5 @@
 /* option_values.c - reads, writes and raises the values of options. */
-#include "run/options.h"
+#include "simulation/options.h"
 
 #include <math.h>
 #include <stdio.h>

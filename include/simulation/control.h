@@ -4,7 +4,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "run/simulation.h"
+#include "simulation/simulation.h"
 
 /* Decisions of a user about a run.  A control that steps share is constant. */
 typedef struct Control {

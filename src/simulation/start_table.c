@@ -1,5 +1,5 @@
 /* start_table.c - reads starts of runs from tables of states and springs. */
-#include "run/body.h"
+#include "simulation/body.h"
 
 #include <errno.h>
 #include <math.h>

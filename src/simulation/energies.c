@@ -1,7 +1,7 @@
 /* energies.c - computes the energies of a run and their balance. */
 #include <string.h>
 
-#include "run/simulation.h"
+#include "simulation/simulation.h"
 
 /* Adds a value, J, to the row with this name; a missing row is created. */
 static void add_energy(Energies *energies, const char *name, double value)

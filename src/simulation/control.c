@@ -1,5 +1,5 @@
 /* control.c - makes controls, and applies them to a simulation. */
-#include "run/control.h"
+#include "simulation/control.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -10,7 +10,7 @@
 #include "model/mass_spring_energy.h"
 #include "model/neo_hookean.h"
 #include "model/pull_energy.h"
-#include "run/body.h"
+#include "simulation/body.h"
 
 Control *control_from_simulation(const Simulation *simulation)
 {

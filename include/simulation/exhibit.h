@@ -2,7 +2,7 @@
  * state, and the points and switches that a user can move in them. */
 #pragma once
 
-#include "run/scene.h"
+#include "simulation/scene.h"
 #include "step/time_integrator.h"
 
 typedef struct Simulation Simulation;

@@ -1,5 +1,5 @@
 /* message.c - writes messages as one line. */
-#include "run/message.h"
+#include "simulation/message.h"
 
 #include <string.h>
 

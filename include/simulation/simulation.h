@@ -1,11 +1,11 @@
-/* simulation.h - a scene while it runs: a system and one to three runs of it,
- * each with its integrator and its state. */
+/* simulation.h - a scene while it moves, in one to three runs side by side, each
+ * with an integrator and a state of its own. */
 #pragma once
 
-#include "run/exhibit.h"
-#include "run/message.h"
-#include "run/options.h"
-#include "run/scene.h"
+#include "simulation/exhibit.h"
+#include "simulation/message.h"
+#include "simulation/options.h"
+#include "simulation/scene.h"
 #include "solve/newton.h"
 #include "model/square_mesh.h"
 
@@ -28,7 +28,7 @@ struct Simulation {
     SquareMesh mesh; /* mesh of the square; zero in other scenes */
     System system;   /* system of run 0, which all runs may share */
     System run_system[SIMULATION_MAX_RUNS]; /* own systems of runs 1, 2 */
-    int runs;
+    int runs; /* number of runs, 1 ... SIMULATION_MAX_RUNS */
     TimeIntegrator run[SIMULATION_MAX_RUNS];
     Ledger ledger[SIMULATION_MAX_RUNS];
     int step_run; /* run whose step is being computed */

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "model/contact.h"
-#include "run/simulation.h"
+#include "simulation/simulation.h"
 
 /* Returns the mesh of the options; a beam has fewer rows than columns. */
 SquareMesh body_make_mesh(const Options *options);

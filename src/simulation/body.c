@@ -1,5 +1,5 @@
 /* body.c - creates and checks bodies, obstacles and terms of the options. */
-#include "run/body.h"
+#include "simulation/body.h"
 
 #include <math.h>
 #include <stdio.h>

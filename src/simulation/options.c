@@ -2,7 +2,7 @@
  *
  * A new option is a field in options.h and a row in this table, from which all
  * that is said about it, its reading and its term come. */
-#include "run/options.h"
+#include "simulation/options.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -17,7 +17,7 @@
 #include "model/neo_hookean.h"
 #include "model/self_contact.h"
 #include "model/square_mesh.h"
-#include "run/scene.h"
+#include "simulation/scene.h"
 
 static const char *const solvers[] = {"newton", "multigrid", "auto", NULL};
 static const char *const projections[] = {"clamp", "none", "abs", "on-demand",
