@@ -8,7 +8,7 @@
 #include "simulation/message.h"
 #include "simulation/options.h"
 
-/* Length of lit_at_line: lines 1 to 8 of Algorithm 3; element 0 is unused. */
+/* Length of line_highlight: lines 1 to 8 of Algorithm 3; [0] is unused. */
 enum { LINES_WALKED = 9 };
 
 /* A page.  Texts are texts of live_values.h: live numbers stand in braces. */
@@ -35,17 +35,16 @@ typedef struct LecturePage {
     const char *function; /* functions shown by K, separated by ',' */
     const char *const *code; /* code lines of `function`, then NULL */
     const char *highlight;   /* code lines with this text are highlighted */
-    const char *const *line_highlight; /* [LINES_WALKED] text of the code lines
-                                       that are highlighted at each line of
-                                       Algorithm 3; NULL: `lit` */
+    /* [LINES_WALKED] text of the code lines that are highlighted at each line
+     * of Algorithm 3; NULL: `highlight` */
+    const char *const *line_highlight;
     const char *claim;       /* statement that a test checks */
     unsigned switch_flips;   /* bit s: switch s of the scene is turned over */
     int print_step;          /* step that the printed page shows */
     double speed;            /* steps for each frame; 0: as in the scene */
     const char *on_open;     /* commands at the opening, separated by ';' */
     const char *on_answer;   /* commands at the answer, separated by ';' */
-    int presses;             /* presses of N before the page is printed; 0: it
-                              is printed at the step `picture` */
+    int presses;     /* presses of N before the print; 0: print at print_step */
     unsigned layers; /* bits of PictureLayer: additions to the picture */
     NextAction next_action; /* effect of the key N after the answer */
     int pause_step;         /* step at which a run pauses; 0: none */
@@ -54,8 +53,7 @@ typedef struct LecturePage {
 /* All pages; the table ends with a page whose name is NULL. */
 extern const LecturePage lecture_pages[];
 
-/* A letter of the pages, in the markup of text.h, and its meaning; the table
- * ends with NULL. */
+/* A letter of the pages, in markup, and its meaning.  NULL ends the table. */
 typedef struct Letter {
     const char *letter, *meaning;
 } Letter;

@@ -37,7 +37,7 @@ typedef struct Boundary {
     unsigned char *node_role; /* [nodes] bits: in a triangle, on an edge */
 
     /* Motion for which the boxes were made: from x by alpha (p - mean). */
-    bool boxes_valid; /* whether the boxes belong to the present boundary */
+    bool boxes_valid; /* the boxes are those of the present boundary */
     bool is_swept;    /* false: the boxes are those of x alone */
     double *x, *p;    /* [2n] m; x is the start of the block of all arrays */
     double alpha;     /* the boxes hold the motion alpha p */
@@ -45,10 +45,10 @@ typedef struct Boundary {
                          share brings none closer to an edge */
     double margin;    /* m, each box is wider by it at all sides */
     double widest;    /* m, largest extent of an edge's box, coordinate 0 */
-    bool sorts_by_y;  /* whether coordinate 0 of the boxes is y */
-    bool has_near_edges; /* whether `near` had room for all near edges */
+    bool sorts_by_y;  /* coordinate 0 of the boxes is y, not x */
+    bool has_near_edges; /* near_edge had room for all near edges */
     int *near_edge;      /* [8 nodes] near edges, point by point */
-    int *near_list_end; /* [nodes] end of each point's edges in `near` */
+    int *near_list_end;  /* [nodes] end of each point's edges in near_edge */
 } Boundary;
 
 /* Allocates the arrays, which free(boundary->x) frees.  Returns OK or

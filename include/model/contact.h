@@ -85,8 +85,7 @@ typedef struct Contact {
     Barrier barrier;
     int obstacles;
     Obstacle obstacle[CONTACT_MAX_OBSTACLES];
-    int free_ball; /* number of the free ball, whose centre is a node; -1: none
-                    */
+    int free_ball; /* number of the ball whose centre is a node; -1: none */
     Push hand;
 } Contact;
 

@@ -24,11 +24,9 @@ typedef struct Element {
     int vector_count;          /* vectors that W depends on: 1: a, 2: a and b */
     int node[3];               /* [nodes] */
     const double (*weight)[3]; /* [vectors] weights of nodes in a and b */
-    int block_index; /* index of the matrix block of its entries; -1: none yet
-                      */
+    int block_index; /* index of its block of the Hessian; -1: none yet */
     int partner; /* obstacle (contact) or spring of the edge (self-contact) */
-    int search_cursor; /* > 0: place in a search that the next call of
-                   get_element continues, with the same i */
+    int search_cursor; /* > 0: where get_element(i) continues its search */
     double factor;  /* factor on gradient and Hessian: 1, or EvalPoint.weight
                        if the kind's functions do not multiply by it */
     double v[4];    /* m, the vectors a and b, if the kind uses them */

@@ -35,7 +35,7 @@ typedef struct Friction {
     double e;          /* m, eps_v h */
     int contacts;      /* number of contacts with a normal force in this step */
     int capacity;      /* number of contacts for which `contact` has room */
-    SlidingContact contact[]; /* [room] contacts of this step */
+    SlidingContact contact[]; /* [capacity] contacts of this step */
 } Friction;
 
 /* The sum of W over the contacts of the step's start: with obstacles

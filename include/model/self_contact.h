@@ -36,8 +36,7 @@ typedef struct SelfContact {
     int pairs;      /* number of blocks in this step */
     int capacity;   /* number of pairs for which `pair` has room */
     int sorted;     /* number of pairs at the start of this step */
-    SelfPair *pair; /* [room] the first `sorted` pairs are sorted by node, then
-                       by edge */
+    SelfPair *pair; /* [capacity] the first `sorted` by node, then by edge */
 } SelfContact;
 
 /* The sum of W over all points and edges; data: SelfContact.  An element is a

@@ -26,28 +26,24 @@ struct System {
     int nodes;   /* n */
     int springs; /* number of springs */
     int *e;      /* [2 springs] nodes of each spring */
-    double *m;   /* [n] kg, > 0; m, l2 and k share one allocation */
+    double *m;   /* [n] kg, > 0 */
     double *l2;  /* [springs] m^2, rest length squared, > 0 */
     double *k;   /* [springs] J/m^2, stiffness; 0: broken or without energy */
     double gravity[2];     /* m/s^2, acceleration of every node */
-    int *
-        elimination_order; /* [n] place of each node in the elimination order */
-    unsigned char *pinned; /* [n] 1: pinned; e, order, pinned share one
-                              allocation */
+    int *elimination_order; /* [n] place of each node in the elimination */
+    unsigned char *pinned;  /* [n] 1: pinned, 0: free */
     double *pin_v;         /* [2n] m/s, velocity of pinned nodes; NULL: 0 */
     int segments;     /* segments a side if the system is one square; else 0 */
     unsigned version; /* rises with every change of numbers or terms */
-    unsigned
-        pattern_version; /* rises when the pattern of the Hessian changes */
+    unsigned pattern_version; /* rises when the Hessian's pattern changes */
     int terms;
     Term term[SYSTEM_MAX_TERMS]; /* terms in the order of TermKind.place */
-    EnergyLoss
-        losses[SYSTEM_MAX_TERMS]; /* energy lost by column, to a NULL name;
-                             a loss stays when its term is removed */
+    /* Energy lost by column, to a NULL name.  A loss outlives its term. */
+    EnergyLoss losses[SYSTEM_MAX_TERMS];
 };
 
-/* Allocates the arrays, filled with 0, and sets order[i] = i.  The list has the
- * springs' term if springs > 0.  Returns OK or OUT_OF_MEMORY. */
+/* Allocates the arrays, filled with 0; elimination_order[i] is i.  The list has
+ * the springs' term if springs > 0.  Returns OK or OUT_OF_MEMORY. */
 Status system_create(int nodes, int springs, System *system);
 
 /* Whether spring s broke or was cut before the start. */

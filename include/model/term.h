@@ -52,8 +52,8 @@ struct TermKind {
     /* Name in messages, such as "friction".  NULL: no message names it. */
     const char *name;
 
-    /* Adds the term with the numbers of its option, at least one of them not 0,
-     * or changes the numbers of a term that is in the list.  NULL: the term
+    /* Adds the term with the numbers from its option's slot on, one of them not
+     * 0, or changes the numbers of a term that is in the list.  NULL: the term
      * needs more than these numbers.  Returns OK or OUT_OF_MEMORY. */
     Status (*configure)(System *system, const struct SquareMesh *mesh,
                         const double *number);

@@ -38,7 +38,7 @@ typedef struct Trace {
     StepLine at_line;
     double h, tolerance;        /* s, m/s, settings of the step */
     int records;                /* number of records */
-    const NewtonRecord *record; /* [records] */
+    const NewtonRecord *record; /* [records] records of the iterations */
     int iteration;              /* number of the present update, from 0 */
     const double *x;            /* [2n] m, present iterate x^i */
     const double *p;            /* [2n] m, NULL before LINE_SOLVE */

@@ -66,10 +66,10 @@ typedef struct Playback {
     AfterWork after_work;
     TracePlace wanted_place; /* place to show after an edit; round -1: none */
     int log_speed;           /* 2^log_speed steps a frame */
-    double due; /* s on the wall clock, time of the next step */
+    double due_time;         /* s on the wall clock, time of the next step */
     double work_start; /* s on the wall clock; 0: there is no work */
     bool has_warned;   /* the run has stopped at a step that did not converge */
-    bool told_gain;    /* a rise of the total energy was reported */
+    bool has_told_gain; /* a rise of the total energy was reported */
 } Playback;
 
 enum { QUEUE_MOST = 16 };
@@ -145,7 +145,7 @@ typedef struct Screen {
 typedef struct Mouse {
     double x, y;      /* pixels */
     bool has_position; /* x and y are known */
-    CommandKind drag; /* command of a drag; COMMAND_NONE: no button is down */
+    CommandKind drag_command; /* COMMAND_NONE: no button is down */
     int item;         /* index of what is dragged; -1: edge of the square */
     double drag_start[2];  /* pixels, start of the drag, or of its last pan */
     bool has_moved;        /* the mouse has moved farther than a click may */

@@ -32,7 +32,7 @@ Status film_open(const char *name, char *message, Film *film);
 
 /* Adds a frame `times` times.  A canvas larger than the first one is cut, a
  * smaller one filled with white.  Returns OK, FILE_FAILED. */
-Status film_add(Film *film, const Canvas *canvas, int times);
+Status film_add_frame(Film *film, const Canvas *canvas, int times);
 
 /* Ends a film, if any.  Returns OK, FILE_FAILED; a film needs a frame. */
 Status film_close(Film *film, FileEnding keep);

@@ -50,7 +50,7 @@ typedef struct Window {
 
     void (*set_title)(const char *title);
 
-    /* Returns the reason of the last failure, or "". */
+    /* Returns the reason of the last failure.  NULL: no function fails. */
     const char *(*find_failure)(void);
 
     /* Shows the paper's canvas.  Returns OK, OUT_OF_MEMORY, SCREEN_FAILED. */
@@ -63,7 +63,7 @@ typedef struct Window {
     /* Returns the next input, or INPUT_NONE; skips movements but the last. */
     Input (*read_input)(void);
 
-    /* Waits for an input, at most for this time. */
+    /* Waits for an input, at most for this time.  NULL: page.js waits. */
     void (*wait_for_input)(int milliseconds);
 } Window;
 

@@ -78,8 +78,8 @@ typedef struct RacePoint {
     double error;   /* m, most that a node is off the reference; NaN: failed */
     double seconds; /* s, processor time */
     bool converged; /* every step converged */
-    double energy_after_second; /* energy after 1 s over that at the start; only
-                                   for the step size RACE_SHOWN_ROW */
+    /* Energy after 1 s over that at the start; only in RACE_SHOWN_ROW. */
+    double energy_after_second;
     bool is_stable; /* the energy stays bounded when the run goes on */
 } RacePoint;
 
@@ -108,7 +108,7 @@ typedef struct EnvelopeMap {
 
 /* Data of all small scenes; a scene uses what it needs. */
 typedef struct Exhibit {
-    double exact_start[4]; /* m, m/s, start x, v of one mass's exact path */
+    double exact_start[4]; /* m, m/s, x and v where the exact path starts */
     double x_tilde[2];     /* m, x_tilde; in one unknown [0] alone counts */
     unsigned switches;     /* bit s: part s of E is on (LandscapePart); for
                               switches of kinds of springs, kind s is off */

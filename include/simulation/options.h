@@ -1,4 +1,4 @@
-/* options.h - the options of a run as a struct, and a table about them.
+/* options.h - the options of a simulation, and a table about them.
  *
  * A row of the table is the only description of an option: the command line,
  * --help, the window's row of numbers, scripts and labels of panes read it. */
@@ -65,7 +65,7 @@ typedef struct Options {
             double ball[OPTIONS_MAX_BALLS][3];
             double bodies; /* number of rows of body that are used */
             double body[SQUARE_MESH_MAX_BODIES][BODY_NUMBERS];
-            /* height, velocity, lowest height; velocity 0: no ceiling */
+            /* m, m/s, m: height, velocity, lowest height; velocity 0: none */
             double ceiling[3];
             double barrier[2]; /* d_hat, m; kappa, J/m^2; 0: side/100, 4 k */
             double friction, slip_speed, cells, self_contact;
@@ -99,7 +99,7 @@ typedef struct Options {
     const char *state;              /* CSV file with the start, or NULL */
     const char *state_springs;      /* CSV file with springs, or NULL */
     const char *frames, *states, *log, *energies, *springs, *film, *script;
-    int panes; /* runs side by side; 1 unless an option has a list of values */
+    int panes; /* number of panes; 1 unless an option has a list of values */
 } Options;
 
 /* Slot of a number in Options.number: OPTION_SLOT(timestep). */
@@ -107,7 +107,7 @@ typedef struct Options {
 
 _Static_assert(OPTION_SLOT(scene) == OPTIONS_NUMBERS, "each number has a slot");
 
-/* Largest number of runs of a command line, with pictures and without. */
+/* Largest number of panes, with pictures and without. */
 enum { OPTIONS_MAX_DRAWN = 6, OPTIONS_MAX_PANES = 64 };
 
 /* ---- the table ---------------------------------------------------------- */

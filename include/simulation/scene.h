@@ -67,7 +67,7 @@ typedef struct Scene {
     const char *title;    /* heading above the picture */
     const char *sentence; /* description, at most 60 letters */
     PictureKind picture;
-    unsigned needs;   /* enum SceneNeeds */
+    unsigned needs;   /* parts that the scene has, bits of SceneNeeds */
     const char *args; /* options with other values than on the slides */
     /* Fills simulation->system, the mesh and the start. */
     Status (*create)(struct Simulation *simulation);

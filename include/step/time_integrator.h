@@ -3,10 +3,8 @@
  * A method (methods.c) reads x and v of t_n and fills new_x and new_v of
  * t_n + h, which become x and v if they are finite.  An implicit method
  * minimises E once in each of its stages: set_target writes u_tilde, finish
- * reads the minimiser.
- *
- * Newton's observer may pause a step, which time_integrator_advance continues.
- */
+ * reads the minimiser.  Newton's observer may pause a step, and
+ * time_integrator_advance continues it. */
 #pragma once
 
 #include "solve/newton.h"
@@ -18,8 +16,7 @@ typedef struct IntegratorMethod {
     const char *label;      /* name in the window */
     int order;              /* order of accuracy */
     bool is_implicit;       /* needs Newton */
-    bool ends_at_minimiser; /* has the minimiser as x_(n+1), which contact,
-                               friction and flow need */
+    bool ends_at_minimiser; /* x_(n+1) is the minimiser: contact needs it */
     bool damps;        /* takes energy out of motion, which comes to rest */
     bool only_by_name; /* is chosen by name only, and skipped by key M */
     int arrays;        /* arrays [2n] kept between steps */
@@ -59,13 +56,11 @@ struct TimeIntegrator {
     double *new_x;   /* [2n] m, x at the end of a step; before that workspace */
     double *new_v;   /* [2n] m/s, v at the end; before that workspace */
     double *memory;  /* [arrays * 2n] arrays that the method remembers */
-    double memory_h; /* s, time step at which the method filled `memory`; 0: the
-                        contents of `memory` are not valid */
+    double memory_h; /* s, time step of `memory`; 0: `memory` is not valid */
     Newton *newton;  /* NULL for explicit methods */
     /* State of an unfinished step: */
     int stage;     /* 0 ... stages - 1 */
-    Status worst_status; /* last status of the step's minimisations that is not
-                            OK */
+    Status worst_status; /* OK, or the last other status of a minimisation */
     double weight; /* s^2, factor of P in E */
     double remaining_part; /* part of the prescribed way that is not done yet */
     int parts_made;        /* number of parts of the prescribed way so far */

@@ -31,7 +31,7 @@ typedef struct ArgLine {
     char copy[512]; /* texts of the words, if they stand in one text */
 } ArgLine;
 
-/* Returns the last word about an option; NULL: the option is not given. */
+/* Returns the last word that sets an option; NULL: no word sets it. */
 static ArgWord *find_arg(ArgLine *line, const char *option)
 {
     for (int i = line->words - 1; i >= 0; i--)

@@ -3,7 +3,7 @@
 
 #include "picture/cards.h"
 
-/* Blocks: zero in the factor, non-zero in it alone, non-zero in the matrix. */
+/* Blocks: zero; non-zero in the factor alone; non-zero in the Hessian, too. */
 enum { NOTHING, FILL, ENTRY };
 
 /* Returns the row of a node: the node's number in natural order, else the

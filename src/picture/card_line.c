@@ -16,7 +16,7 @@ static const double WORDS_WIDTH = 28;  /* ems, room for all words in a row */
 /* The change of E along p as functions of alpha. */
 typedef struct LineCurves {
     double alpha[LINE_POINTS], exact[LINE_POINTS], model[LINE_POINTS];
-    double projected[LINE_POINTS]; /* exact, along the projected p, or NaN */
+    double projected[LINE_POINTS]; /* E along the projected p; NaN: none */
     double low, high;              /* ends of the axis of E */
 } LineCurves;
 

@@ -14,7 +14,7 @@ typedef struct ListingRow {
     /* The row is shown if a line of shown_if has known values, struck out if a
      * line of struck_if has.  shown_if NULL: end of the listing. */
     const char *shown_if, *struck_if;
-    StepLine at_line;      /* the slides' line of Algorithm 3 */
+    StepLine at_line; /* line of Algorithm 3 that the row is */
     bool indented;
     const char *text;
     const char *value; /* text at the right, once this line has been executed */

@@ -15,10 +15,10 @@
 #define COLOUR_RULE      0xffdcdcdcu /* lines between zones */
 #define COLOUR_BORDER    0xffcfcfcfu /* borders of cards and chips */
 #define COLOUR_CHIP      0xfff6f6f6u
-#define COLOUR_LIT       0xfffff1cdu /* ground of the current row or chip */
-#define COLOUR_HIGHLIGHT 0xffffe14du /* ground of the term under the mouse */
-#define COLOUR_PANEL     0xd8ffffffu /* ground of words on a picture */
-#define COLOUR_NOTE      0xfffffff4u /* ground of the note at the mouse */
+#define COLOUR_LIT       0xfffff1cdu /* behind the current row or chip */
+#define COLOUR_HIGHLIGHT 0xffffe14du /* behind the term under the mouse */
+#define COLOUR_PANEL     0xd8ffffffu /* behind words on a picture */
+#define COLOUR_NOTE      0xfffffff4u /* behind the note at the mouse */
 #define COLOUR_WARNING   0xffd00000u
 #define COLOUR_VALUE     0xff0044b0u /* numbers that can be changed */
 #define COLOUR_BAR       0xffccd6eau /* a step in the time line */

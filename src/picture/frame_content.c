@@ -449,7 +449,7 @@ void frame_draw(Paper *paper, const FrameContent *content)
     for (int i = 0; i < layout.cells; i++)
         draw_sheet_cell(paper, layout.cell[i], &content->sheet.cell[i],
                         i == content->view->cell);
-    if (several) /* the colour of the lines between the panes */
+    if (several) /* lines between the panes */
         canvas_fill(&paper->canvas, layout.stage, COLOUR_RULE);
     for (int pane = 0; pane < layout.panes; pane++) {
         if (several)

@@ -107,7 +107,7 @@ static void add_setting_values(const Simulation *simulation, LiveValues *values)
     values_add_flag(values, "of a solid", neo_hookean_of(&simulation->system));
     values_add_flag(values, "done", simulation->is_over);
     if (simulation->is_over && scene->step == step_descent &&
-        descent->residual <= options->tolerance) { /* a stationary point */
+        descent->residual <= options->tolerance) { /* x is stationary */
         const double *x = descent->point;
         int down = descent_hessian_index(simulation, x[0], x[1]);
         values_add_flag(values, "saddle", down == 1);

@@ -95,9 +95,8 @@ double plot_round_axis_end(double value);
 /* Makes the plot inside a card, and draws its axes with their numbers. */
 Plot plot_create(const Plot *card, Axis x, Axis y);
 
-/* Makes the plot inside a stage.  Draws its axes if the stage has text.  Each
- * axis covers the range that the camera sees; y keeps its own range if y.high
- * is not 0. */
+/* Makes the plot inside a stage.  Draws its axes if the stage has text.  An
+ * axis covers the range that the camera sees, unless y.high is not 0. */
 Plot plot_create_on_stage(const Plot *stage, Axis x, Axis y);
 
 /* Maps a point to pixels, which are not finite for logarithms below 0. */

@@ -101,9 +101,8 @@ static void format_cell(char cell[CARD_CELL], const char *sign, double value)
                  format_digits(value, 2).text);
 }
 
-/* Fills a row: row 0 the heads; else of a method its error at h = 4 ms, m; the
- * factor by which halving h divides the error; the factor of the energy after a
- * second. */
+/* Fills a row: row 0 with heads, else with a method's error at h = 4 ms, m, the
+ * factor by which half of h divides the error, that of the energy after 1 s. */
 bool race_fill_row(const FrameContent *content, int row, CardTableRow *cells)
 {
     const Race *race = &active_pane(content)->simulation->exhibit.race;

@@ -183,8 +183,7 @@ void spring_add_values(const Simulation *simulation, LiveValues *values)
 
 typedef double SpringFunction(const void *system, double d);
 
-/* Draws a function of P, and the one of P_root if it is shown, with dots at the
- * spring's length. */
+/* Draws a function of P and one of P_root, with dots at the spring's length. */
 static Plot draw_profile(const Plot *card, Axis y, SpringFunction *of_p,
                          SpringFunction *of_root)
 {

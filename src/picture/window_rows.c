@@ -13,8 +13,8 @@ enum {
 static const double TOPIC_SIZE = 1.3; /* ems, letters of the topic */
 static const double TEXT_SIZE = 0.95; /* ems, letters of settings and time */
 
-/* Draws the white ground of a zone, with a thin line along one edge. */
-static void draw_zone_ground(Paper *paper, Box zone, bool rule_below)
+/* Draws the white background of a zone, with a thin line along one edge. */
+static void draw_zone_background(Paper *paper, Box zone, bool rule_below)
 {
     Box rule = {zone.x, zone.y, zone.width, (int)fmax(1, paper->unit)};
     rule.y += rule_below ? zone.height - rule.height : 0;
@@ -35,7 +35,7 @@ static void draw_title_bar(Paper *paper, Box room, const TitleBar *bar)
                     : bar->is_warning ? COLOUR_WARNING
                                       : COLOUR_VALUE;
     char words[2 * SENTENCE_SIZE];
-    draw_zone_ground(paper, room, true);
+    draw_zone_background(paper, room, true);
     box_cut_off(&room, EDGE_LEFT, (int)(0.9 * em));
     room.width -= (int)(0.9 * em);
     snprintf(words, sizeof words, "%s%s%s", bar->method,
@@ -135,7 +135,7 @@ static void draw_time_line(Paper *paper, const Layout *layout,
     double top = zone.y + (words ? 1.1 : 0.5) * em, at = x + 1.1 * em;
     if (zone.width <= 0)
         return;
-    draw_zone_ground(paper, zone, false);
+    draw_zone_background(paper, zone, false);
     if (line->get_bar)
         draw_step_bars(paper, bars, bars.width / room, line);
     canvas_line(&paper->canvas, x, top, x, bars.y + bars.height + 0.2 * em,
@@ -157,7 +157,7 @@ static void draw_chips(Paper *paper, const Layout *layout,
 {
     const double gap = 0.5 * paper->em, size = 0.92;
     const WindowHit *mouse = &content->view->mouse_hit;
-    draw_zone_ground(paper, layout->chip_row, false);
+    draw_zone_background(paper, layout->chip_row, false);
     for (int i = 0; i < layout->chips; i++) {
         const Chip *chip = &content->chips.chip[i];
         Box box = layout->chip[i];
@@ -186,7 +186,7 @@ void window_rows_draw(Paper *paper, const Layout *layout,
 {
     const WindowHit *mouse = &content->view->mouse_hit;
     draw_title_bar(paper, layout->title_bar, &content->title_bar);
-    draw_zone_ground(paper, layout->settings_row, false);
+    draw_zone_background(paper, layout->settings_row, false);
     for (int i = 0; i < layout->settings; i++)
         if (layout->setting[i].width > 0)
             draw_setting(paper, layout->setting[i], &content->settings.item[i],

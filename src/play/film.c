@@ -73,7 +73,7 @@ static void start_ffmpeg(Film *film, const Canvas *canvas)
         setvbuf(film->pipe, NULL, _IOFBF, 1 << 16); /* size of a pipe */
 }
 
-Status film_add(Film *film, const Canvas *canvas, int times)
+Status film_add_frame(Film *film, const Canvas *canvas, int times)
 {
     const Colour white = 0xffffffffu;
     if (!film->pipe)

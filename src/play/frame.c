@@ -423,8 +423,8 @@ static void update_hover(Player *player)
     PickKind kind = view->hovered.kind;
     bool body = kind == PICK_NODE || kind == PICK_SPRING ||
                 kind == PICK_OBSTACLE || kind == PICK_EDGE;
-    if (!body || !canvas->pixels || !mouse->has_position || mouse->drag ||
-        view->mouse_hit.zone != ZONE_STAGE)
+    if (!body || !canvas->pixels || !mouse->has_position ||
+        mouse->drag_command || view->mouse_hit.zone != ZONE_STAGE)
         return;
     Layout layout = layout_create(content, canvas->width, canvas->height);
     view->hovered = frame_pick(content, &layout, mouse->x, mouse->y);

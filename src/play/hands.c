@@ -191,18 +191,18 @@ static Status begin_press(Player *player, const MouseTarget *target)
         &player->screen.frame.content, &target->layout, target->pane);
     switch (target->pick.kind) {
     case PICK_OBSTACLE:
-        mouse->drag = COMMAND_OBSTACLE;
+        mouse->drag_command = COMMAND_OBSTACLE;
         simulation_find_obstacle(player_simulation(player), 0, mouse->item,
                                  point);
         mouse->grip_offset[0] = point[0] - target->place[0];
         mouse->grip_offset[1] = point[1] - target->place[1];
         return STATUS_OK;
     case PICK_EDGE:
-        mouse->drag = COMMAND_SET;
+        mouse->drag_command = COMMAND_SET;
         mouse->item = -1;
         return STATUS_OK;
     case PICK_HANDLE:
-        mouse->drag = COMMAND_HANDLE;
+        mouse->drag_command = COMMAND_HANDLE;
         return STATUS_OK;
     case PICK_SWITCH:
         return obey(player, COMMAND_FLIP, target->pick.index);
@@ -211,16 +211,16 @@ static Status begin_press(Player *player, const MouseTarget *target)
     case PICK_PLACE:
         if (page_wants_click(page) && player_hides_answer(player))
             return obey_at(player, COMMAND_PREDICT, 0, target->pick.point);
-        mouse->drag = COMMAND_START;
+        mouse->drag_command = COMMAND_START;
         return obey_at(player, COMMAND_START, mouse->item, target->pick.point);
     default:
         if (target->pick.kind !=
             PICK_NODE) /* a click ends the highlight of a spring */
             player->screen.view.hovered.kind = PICK_NONE;
         mouse->item = target->pick.nearest_node;
-        mouse->drag = mouse->item < 0             ? COMMAND_PAN
-                      : drag_places_nodes(player) ? COMMAND_PLACE
-                                                  : COMMAND_GRAB;
+        mouse->drag_command = mouse->item < 0             ? COMMAND_PAN
+                              : drag_places_nodes(player) ? COMMAND_PLACE
+                                                          : COMMAND_GRAB;
         return STATUS_OK;
     }
 }
@@ -272,7 +272,7 @@ static Status drag_obstacle(Player *player, const double at[2])
     return obey_at(player, COMMAND_OBSTACLE, number, part < 1 ? to : at);
 }
 
-static Status go_on_dragging(Player *player)
+static Status continue_drag(Player *player)
 {
     Mouse *mouse = &player->hands.mouse;
     const Simulation *simulation = player_simulation(player);
@@ -281,7 +281,7 @@ static Status go_on_dragging(Player *player)
            dy = mouse->y - mouse->drag_start[1];
     Status status = STATUS_OK;
     mouse->has_moved = mouse->has_moved || math_hypot(dx, dy) > CLICK_ROOM;
-    switch (mouse->has_moved ? mouse->drag : COMMAND_NONE) {
+    switch (mouse->has_moved ? mouse->drag_command : COMMAND_NONE) {
     case COMMAND_GRAB: /* a drag frees a pinned node */
         if (!player->hands.holding) {
             mouse->repins_node = simulation->system.pinned[mouse->item];
@@ -298,7 +298,7 @@ static Status go_on_dragging(Player *player)
     case COMMAND_PLACE:
     case COMMAND_START:
     case COMMAND_HANDLE:
-        return obey_at(player, mouse->drag, mouse->item, target.place);
+        return obey_at(player, mouse->drag_command, mouse->item, target.place);
     case COMMAND_SET:
         return drag_number(player, &target);
     case COMMAND_GOTO:
@@ -355,7 +355,7 @@ static Status press_number(Player *player, int index, int clicks)
     if (clicks == 2)
         return obey(player, COMMAND_DEFAULT,
                     player->hands.selected - option_rows);
-    mouse->drag = COMMAND_SET;
+    mouse->drag_command = COMMAND_SET;
     mouse->item = index;
     mouse->start_options = player_shown_options(player);
     return STATUS_OK;
@@ -381,10 +381,10 @@ static Status press_left_button(Player *player, const MouseTarget *target,
     case ZONE_CARD:
         return obey(player, COMMAND_ENLARGE, index);
     case ZONE_TIME:
-        player->hands.mouse.drag = COMMAND_GOTO;
+        player->hands.mouse.drag_command = COMMAND_GOTO;
         /* A click without a movement goes to its step, too. */
         player->hands.mouse.has_moved = true;
-        return go_on_dragging(player);
+        return continue_drag(player);
     case ZONE_SETTING:
         return press_number(player, index, clicks);
     case ZONE_LIST_CLOSE:
@@ -434,7 +434,7 @@ static Status press_button(Player *player, const Input *input)
                                      "pins it, or sets it free");
     if (input->button == BUTTON_RIGHT)
         return obey(player, COMMAND_PIN, near < 0 ? 0 : near);
-    mouse->drag = COMMAND_PAN;
+    mouse->drag_command = COMMAND_PAN;
     mouse->has_moved = true;
     return STATUS_OK;
 }
@@ -445,9 +445,9 @@ static Status release_button(Player *player)
 {
     Mouse *mouse = &player->hands.mouse;
     const Simulation *simulation = player_simulation(player);
-    CommandKind drag = mouse->drag;
+    CommandKind drag = mouse->drag_command;
     int node = mouse->item;
-    mouse->drag = COMMAND_NONE;
+    mouse->drag_command = COMMAND_NONE;
     player->screen.view.held_bounds.is_held = false;
     if (!mouse->has_moved && (drag == COMMAND_GRAB || drag == COMMAND_PLACE) &&
         node < simulation->mesh.nodes)
@@ -503,8 +503,8 @@ static Status obey_mouse(Player *player, const Input *input)
         return release_button(player);
     if (input->kind == INPUT_WHEEL)
         return turn_wheel(player, input->wheel_notches);
-    if (mouse->drag != COMMAND_NONE)
-        return go_on_dragging(player);
+    if (mouse->drag_command != COMMAND_NONE)
+        return continue_drag(player);
     return rests ? STATUS_OK : note_hovered_thing(player);
 }
 
@@ -517,7 +517,7 @@ Status player_obey_input(Player *player, const Input *input)
     bool press = input->kind == INPUT_PRESS;
     Status status = STATUS_OK;
     player->commands.gesture = mouse->gesture;
-    if (press && mouse->drag != COMMAND_NONE)
+    if (press && mouse->drag_command != COMMAND_NONE)
         status = release_button(player); /* a second button ends the drag */
     if (!status)
         status = player_show_refusal(
@@ -525,7 +525,7 @@ Status player_obey_input(Player *player, const Input *input)
     if (status)
         return status;
     bool key = input->kind == INPUT_KEY && !input->is_repeat &&
-               mouse->drag == COMMAND_NONE;
+               mouse->drag_command == COMMAND_NONE;
     if (press || key || (wheel && !mouse->was_wheel))
         mouse->gesture = ++player->commands.gestures;
     mouse->was_wheel = wheel;

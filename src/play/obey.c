@@ -150,7 +150,8 @@ static void begin_command(Player *player, const Command *command)
         commands->leave_command = COMMAND_NONE;
     player->screen.must_redraw = true;
     player->message[0] = '\0';
-    if (!(flags & KEEPS_NOTE || (flags & REPLACES && player->hands.mouse.drag)))
+    if (!(flags & KEEPS_NOTE ||
+          (flags & REPLACES && player->hands.mouse.drag_command)))
         player->note[0] = '\0';
 }
 
@@ -158,7 +159,8 @@ static void begin_command(Player *player, const Command *command)
  * this step anyway, and a drag goes into the queue. */
 static bool waits_for_step(Player *player, const Command *command)
 {
-    bool drags = player->hands.mouse.drag || command->kind == COMMAND_DRAG;
+    bool drags =
+        player->hands.mouse.drag_command || command->kind == COMMAND_DRAG;
     if (past_is_working(&player->past) && command->kind == COMMAND_NEXT)
         return true;
     if (!past_makes_step(&player->past) || !drags ||

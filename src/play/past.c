@@ -159,8 +159,8 @@ static void drop_branches(Past *past, int from)
 
 /* ---- states -------------------------------------------------------------- */
 
-/* Whether an entry keeps its state when its pane leaves the step.
- * In a thinned branch entry 0 keeps only a state of a start or a drag. */
+/* Whether an entry keeps its state when its pane leaves the step.  In a thinned
+ * branch entry 0 keeps only a state of a start or a drag. */
 static bool branch_keeps_state(const Branch *branch, const Entry *entry)
 {
     long i = (entry - branch->entry) / branch->panes;
@@ -320,7 +320,7 @@ static bool observe_newton(void *user, const NewtonRecord *record)
     if (!pane->is_iterating)
         return false;
     pane->outcome.updates += record->alpha != 0;
-    if (pane->simulation.scene->step) /* a step is one update */
+    if (pane->simulation.scene->step) /* a step of this scene is one update */
         pane->outcome.energy_change = record->change;
     const Newton *newton = find_traced_newton(&pane->simulation);
     if (newton && pane->trace.x_length > 0 && record->iteration >= 0)
@@ -440,8 +440,8 @@ static Status pane_seek(Past *past, int p, long goal)
 
 /* ---- steps --------------------------------------------------------------- */
 
-/* Ends the present work at the last whole step.  A pane that has left
- * this step must load its state again. */
+/* Ends the present work at the last whole step.  A pane that has left this step
+ * must load its state again. */
 static void abandon_work(Past *past)
 {
     if (past->work_stage == WORK_DONE)

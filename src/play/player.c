@@ -126,8 +126,8 @@ Status player_frame(Player *player)
         status = obey_script(player);
     double now = player->screen.window ? clock_now() : 0;
     if (player->screen.drawn_step < 0) /* draw a run before its first step */
-        player->time.due = now + period;
-    bool due = !player->screen.window || now >= player->time.due - EARLY;
+        player->time.due_time = now + period;
+    bool due = !player->screen.window || now >= player->time.due_time - EARLY;
     bool first = player->screen.drawn_step < 0 && player->screen.draws_frames;
     bool works = past_is_working(&player->past);
     /* Work that begins in this frame waits until the frame is drawn. */
@@ -137,11 +137,11 @@ Status player_frame(Player *player)
                 !player_ended(player);
     if (!status && !begins && (works || goes)) {
         if (!works)
-            player->time.due = fmax(player->time.due + period, now);
+            player->time.due_time = fmax(player->time.due_time + period, now);
         status = make_due_steps(player);
     }
     if (lives && due) {
-        player->time.due = now + 1.0 / FRAME_RATE;
+        player->time.due_time = now + 1.0 / FRAME_RATE;
         sheet_advance(player);
     }
     if (!status && !player->is_quitting && player->screen.must_redraw)
@@ -158,7 +158,7 @@ bool player_is_idle(const Player *player)
 
 int player_find_wait_time(const Player *player)
 {
-    double wait = 1e3 * (player->time.due - clock_now());
+    double wait = 1e3 * (player->time.due_time - clock_now());
     if (player_is_idle(player))
         return IDLE_WAIT;
     if (!player->screen.window || past_is_working(&player->past) ||

@@ -38,7 +38,7 @@ static int check_standard_output(void)
 
 /* Prints the answer to --help, --version, --lecture --list or --list.  Returns
  * the exit code, or PROGRAM_PLAYS without such an option. */
-static int print_if_asked(const Options *options)
+static int print_help_or_list(const Options *options)
 {
     errno = 0;
     if (options->help)
@@ -203,7 +203,7 @@ static void print_old_frames(const Recording *recording)
             first = count++ == 0 ? step : first;
             last = step;
         }
-    if (count == 0) /* also without --frames */
+    if (count == 0) /* no old frame, or no --frames */
         return;
     if (last > first)
         snprintf(range, sizeof range, " ... frame_%06ld.png", last);
@@ -301,7 +301,7 @@ int program_begin(int argc, char **argv, const Window *window,
             return print_error(EXIT_FAILED, "%s; try fewer --segments",
                                status_text(status));
     }
-    int code = print_if_asked(options);
+    int code = print_help_or_list(options);
     if (code != PROGRAM_PLAYS)
         return code;
     if (check_file_names(options, MESSAGE(message)))

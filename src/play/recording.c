@@ -198,7 +198,7 @@ Status recording_write_frame(Recording *recording, const Canvas *canvas,
     Film *film = &recording->film;
     char name[OUTPUT_NAME];
     Status status =
-        film_is_open(film) ? film_add(film, canvas, times) : STATUS_OK;
+        film_is_open(film) ? film_add_frame(film, canvas, times) : STATUS_OK;
     if (status || !recording->folder)
         return status;
     snprintf(name, sizeof name, "%s/frame_%06ld.png", recording->folder, step);

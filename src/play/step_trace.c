@@ -235,8 +235,8 @@ int step_trace_find_place(const StepTrace *trace, int round, StepLine line)
     return trace->place_count - 1;
 }
 
-/* Rounding changes `sum` by some units in the last place of the highest E, far
- * less than the tenth of E that decides. */
+/* The rounding error of `sum` is some units in the last place of the highest E,
+ * far less than a tenth of E, the limit for a peak. */
 int step_trace_find_peak(const StepTrace *trace)
 {
     enum { FAR = 10 };

@@ -122,7 +122,7 @@ static void enter_scene(Player *player)
     player->screen.enlarged_card = -1;
     player_deselect(player);
     player->screen.view.hovered = (Pick){.kind = PICK_NONE};
-    player->hands.mouse.drag = COMMAND_NONE;
+    player->hands.mouse.drag_command = COMMAND_NONE;
     snprintf(title, sizeof title, "elasto: %s (press ? for the keys)",
              options->scene->name);
     if (player->screen.window)
@@ -156,7 +156,7 @@ Status player_begin_runs(Player *player, const Options *options, int count,
     player_forget_step(player);
     player->time.mode = player_is_stopped(player) ? MODE_PAUSE : MODE_RUN;
     player->screen.drawn_step = -1;
-    player->time.has_warned = player->time.told_gain = false;
+    player->time.has_warned = player->time.has_told_gain = false;
     drop_hand_and_queue(player);
     update_after_edit(player);
     return record_step(player);
@@ -201,11 +201,12 @@ static void report_energy_gain(Player *player)
     const Past *past = &player->past;
     if (player->setup.options[0].steps >= 0 || !player->setup.is_attended)
         return;
-    for (int p = 0; p < past_panes(past) && !player->time.told_gain; p++) {
+    for (int p = 0; p < past_panes(past) && !player->time.has_told_gain; p++) {
         const Simulation *simulation = &past->pane[p].simulation;
-        for (int r = 0; r < simulation->runs && !player->time.told_gain; r++) {
-            player->time.told_gain = simulation->ledger[r].gain_steps > 0;
-            if (player->time.told_gain)
+        for (int r = 0; r < simulation->runs && !player->time.has_told_gain;
+             r++) {
+            player->time.has_told_gain = simulation->ledger[r].gain_steps > 0;
+            if (player->time.has_told_gain)
                 player_note(player,
                             "step %ld: the total energy has risen by %.3g J "
                             "without work; a long step of backward Euler can "

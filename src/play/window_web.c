@@ -5,15 +5,14 @@
 
 #include "play/window.h"
 
-/* Empty functions: the document has its own title, the browser has keys for the
- * full screen, and no input arrives while C runs, so it need not wait. */
+/* Empty functions: the document has its own title, and the browser has keys for
+ * the full screen. */
 /* clang-format off */
 EM_JS(bool, page_open, (const int *size, bool full), { return true; });
 EM_JS(void, page_close, (void), {});
 EM_JS(void, page_set_title, (const char *title), {});
 EM_JS(void, page_set_full_screen, (bool full), {});
 EM_JS(bool, page_is_full_screen, (void), { return false; });
-EM_JS(void, page_wait_for_input, (int milliseconds), {});
 EM_JS(void, page_find_size, (int *size), {
     HEAP32[size >> 2] = Page.width();
     HEAP32[(size >> 2) + 1] = Page.height();
@@ -24,11 +23,6 @@ EM_JS(void, page_draw, (const void *pixels, int width, int height, int card), {
     Page.show(HEAPU8, pixels, width, height, card);
 });
 /* clang-format on */
-
-static const char *page_find_failure(void)
-{
-    return "";
-}
 
 /* The page reads red, green, blue and alpha of each pixel. */
 Status page_show_card(const Canvas *canvas, int card)
@@ -108,10 +102,8 @@ const Window window_web = {
     .find_font_size = page_find_font_size,
     .has_document = page_has_document,
     .set_title = page_set_title,
-    .find_failure = page_find_failure,
     .show = page_show,
     .set_full_screen = page_set_full_screen,
     .is_full_screen = page_is_full_screen,
     .read_input = page_read_input,
-    .wait_for_input = page_wait_for_input,
 };

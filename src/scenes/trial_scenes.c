@@ -128,8 +128,7 @@ static double find_energy(const TimeIntegrator *run)
            system_kinetic_energy(run->system, run->v);
 }
 
-/* Whether the energy of a run stays bounded.  Implicit methods count as stable.
- */
+/* Whether the energy of a run stays bounded.  Implicit methods are stable. */
 static bool run_is_stable(const Simulation *simulation, TimeIntegrator *run)
 {
     for (int i = 0; i < RACE_EXTRA_STEPS && !run->method->is_implicit; i++)

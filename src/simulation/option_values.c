@@ -19,8 +19,7 @@ static const char *read_decimal(const char *text, double *number)
     return end;
 }
 
-/* Whether a text is the row's unit, written "J/m^2" or "J/m\u00b2"; for angles
- * also "deg". */
+/* Whether a text is the row's unit, "J/m^2", "J/m\u00b2"; "deg" for angles. */
 static bool is_unit(const OptionRow *row, const char *text)
 {
     size_t length = strcspn(row->unit, " ");

@@ -167,8 +167,7 @@ static void put_cells(Writer *to, const char *word, int index,
     print(to, "\n");
 }
 
-/* Writes the heads and the last rows of a card's table.  Returns whether the
- * table has rows. */
+/* Writes heads and last rows of a card's table.  Returns false without rows. */
 static bool put_table(Writer *to, const FrameContent *content, int index,
                       const Card *card)
 {

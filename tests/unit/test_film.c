@@ -58,7 +58,7 @@ static void make_film(const char *name, int frames)
     for (int i = 0; i < frames; i += i == 4 ? 2 : 1) {
         for (int k = 0; k < WIDTH * HEIGHT; k++)
             canvas.pixels[k] = pixel(i, k % WIDTH, k / WIDTH);
-        CHECK_OK(film_add(&film, &canvas, i == 4 ? 2 : 1));
+        CHECK_OK(film_add_frame(&film, &canvas, i == 4 ? 2 : 1));
     }
     CHECK(film.frames == frames);
     CHECK(access(name, F_OK) != 0); /* not before it is whole */
@@ -159,7 +159,7 @@ TEST(sizes_may_change)
         CHECK_OK(canvas_create(20 + 9 * i, 30 - 9 * i, &canvas));
         for (int k = 0; k < canvas.width * canvas.height; k++)
             canvas.pixels[k] = 0xff121212u;
-        CHECK_OK(film_add(&film, &canvas, 1));
+        CHECK_OK(film_add_frame(&film, &canvas, 1));
         canvas_free(&canvas);
     }
     CHECK_OK(film_close(&film, KEEP_WHOLE));
@@ -180,7 +180,7 @@ TEST(ffmpeg_dies_by_its_own)
     CHECK(unlink("dead.mp4.part") == 0 && mkdir("dead.mp4.part", 0700) == 0);
     Status status = STATUS_OK;
     for (int i = 0; i < 1000 && !status; i++)
-        status = film_add(&film, &canvas, 1);
+        status = film_add_frame(&film, &canvas, 1);
     CHECK_STATUS(status, STATUS_FILE_FAILED);
     CHECK(strstr(message, "dead.mp4: ffmpeg ended"));
     CHECK_STATUS(film_close(&film, KEEP_WHOLE), STATUS_FILE_FAILED);
