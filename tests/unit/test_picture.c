@@ -119,63 +119,6 @@ TEST(history_goes_by_names)
     CHECK(history.count == HISTORY_POINTS);
 }
 
-/* Beside each value that an axis names there is as much ink as its number has
- * elsewhere, all other ink is a line across, and 0 has the darkest of them. */
-TEST(axes_name_their_values)
-{
-    enum { SIZE = 700 };
-    static const struct {
-        bool upright;
-        Axis axis;
-        double value[6]; /* NAN ends them */
-    } rows[] = {
-        {true, {0, 10, .label = NULL}, {0, 5, 10, NAN}},
-        {true, {-1, 3, .label = NULL}, {-1, 0, 1, 2, 3, NAN}},
-        {true, {0, 2, .is_whole = true}, {0, 1, 2, NAN}},
-        {true, {2e-9, 5, .is_log = true}, {1e-8, 1e-6, 1e-4, 0.01, 1, NAN}},
-        {false, {0, 0.85, .label = NULL}, {0, 0.2, 0.4, 0.6, 0.8, NAN}},
-        {false, {0.5, 2e4, .is_log = true}, {1, 10, 100, 1000, 1e4, NAN}},
-    };
-    const Axis plain = {0.05, 0.95, .label = NULL};
-    for (size_t r = 0; r < sizeof rows / sizeof *rows; r++) {
-        Paper paper, one;
-        double sum = 0;
-        int count = 0;
-        bool up = rows[r].upright;
-        assert_int_equal(paper_create(SIZE, SIZE, &paper), 0);
-        assert_int_equal(paper_create(SIZE, SIZE, &one), 0);
-        const Plot card = {.paper = &paper, .box = {50, 50, 600, 600}};
-        const Plot plot = plot_create(&card, up ? plain : rows[r].axis,
-                                      up ? rows[r].axis : plain);
-        const Box box = plot.box;
-        int wide = paper_pixels(&paper, 1), lines = 0;
-        int left = box.x - 5, low = box.y + box.height + 1;
-        for (; !isnan(rows[r].value[count]); count++) {
-            double place[2], value = rows[r].value[count];
-            canvas_clear(&one.canvas, COLOUR_WHITE);
-            paper_write(&one, FACE_REGULAR, 0.82, COLOUR_FAINT, 99, 99,
-                        ALIGN_LEFT, "%s", format_number(value).text);
-            plot_to_pixel(
-                &plot, (double[2]){up ? 0.5 : value, up ? value : 0.5}, place);
-            int x = (int)place[0], y = (int)place[1];
-            Box there = up ? (Box){0, y - wide, left, 2 * wide}
-                           : (Box){x - 2 * wide, low, 4 * wide, SIZE - low};
-            CHECK_NEAR(ink_in(&paper.canvas, there), ink(&one.canvas), 1e-9);
-            sum += ink(&one.canvas);
-            Colour line = paper.canvas.pixels[SIZE * y + 350];
-            CHECK(!up || line == (value == 0 ? COLOUR_BORDER : COLOUR_GRID));
-        }
-        for (int y = 0; y < SIZE; y++)
-            lines += paper.canvas.pixels[SIZE * y + 350] != COLOUR_WHITE;
-        CHECK(!up || lines == count);
-        Box margin = up ? (Box){0, 0, left, low + wide}
-                        : (Box){0, low, SIZE, SIZE - low};
-        CHECK_NEAR(ink_in(&paper.canvas, margin), sum, 1e-9);
-        paper_free(&paper);
-        paper_free(&one);
-    }
-}
-
 /* What crosses the edge of the axes is cut there, whatever draws it; what has
  * its middle beyond is left out. */
 TEST(plots_keep_to_their_axes)
