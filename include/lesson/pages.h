@@ -26,8 +26,7 @@ typedef struct LecturePage {
     const char *question;  /* text: the question before the answer, or NULL */
     const char *answer;   /* live value that is the right number; "click": the
                              end of the next step; NULL: the answer is words */
-    const char
-        *covered_cards; /* names of cards hidden before the answer, or NULL */
+    const char *covered_cards; /* cards hidden before the answer, or NULL */
     const char *main_card; /* name of the enlarged card, or NULL */
     const char *law_name;  /* name of the curve in the card `law`, or NULL */
     const char *notes;    /* text for the lecturer */

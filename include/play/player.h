@@ -64,11 +64,11 @@ typedef struct Playback {
     PlayMode mode;
     TimeUnit walk_unit; /* unit of "next" and "back" */
     AfterWork after_work;
-    TracePlace wanted_place; /* place to show after an edit; round -1: none */
+    TracePlace wanted_place; /* place to show after an edit; iterate -1: none */
     int log_speed;           /* 2^log_speed steps a frame */
     double due_time;         /* s on the wall clock, time of the next step */
     double work_start; /* s on the wall clock; 0: there is no work */
-    bool has_warned;   /* the run has stopped at a step that did not converge */
+    bool has_warned;   /* the run was stopped where a step did not converge */
     bool has_told_gain; /* a rise of the total energy was reported */
 } Playback;
 

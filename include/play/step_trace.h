@@ -1,17 +1,17 @@
 /* step_trace.h - the iterates of a step, for cards and for a walk through it.
  *
- * A round is a Newton iteration, a place a line of Algorithm 3 in a round. */
+ * A place is a line of Algorithm 3 at an iterate x^i, where a walk can stop. */
 #pragma once
 
 #include "picture/frame_content.h"
 
-/* Bytes of the iterates of one step; further rounds have records only. */
+/* Bytes of the iterates of one step; further iterates have records only. */
 #define STEP_TRACE_BYTES ((size_t)64 << 20)
 
 /* E along p is drawn up to 3/2 of the first trial of the line search.  If E is
- * no polynomial it is sampled ROUND_PARTS times up to the first trial: the
+ * no polynomial it is sampled SAMPLE_PARTS times up to the first trial: the
  * samples are also at the trials first/2, first/4, ... */
-enum { ROUND_PARTS = 32, ROUND_VALUES = ROUND_PARTS * 3 / 2 + 1 };
+enum { SAMPLE_PARTS = 32, SAMPLE_COUNT = SAMPLE_PARTS * 3 / 2 + 1 };
 
 /* Records of Newton's iterations. */
 typedef struct Records {
@@ -23,8 +23,8 @@ typedef struct Records {
 /* Reserves memory for `count` records.  Returns false if memory is missing. */
 bool records_reserve(Records *records, int count);
 
-/* A Newton iteration and its line search. */
-typedef struct Round {
+/* An iterate of Newton's method, with its direction and its line search. */
+typedef struct TraceIterate {
     double *x, *p, *u; /* [x_length] m, x^i, p^i, x^i - x_n; NULL: not stored */
     double first_trial; /* alpha, first trial of the line search */
     Quartic polynomial; /* polynomial part of E(x + alpha p) - E(x), J s^2 */
@@ -32,31 +32,30 @@ typedef struct Round {
     bool has_samples;   /* `energy_samples` is filled */
     double alpha;      /* step length that was taken */
     double energy_change;   /* change of E at alpha, J s^2 */
-    double *energy_samples; /* [ROUND_VALUES] J s^2, samples of E along p */
-} Round;
+    double *energy_samples; /* [SAMPLE_COUNT] J s^2, samples of E along p */
+} TraceIterate;
 
 /* Units in which a user goes through time. */
 typedef enum TimeUnit { UNIT_STEP, UNIT_UPDATE, UNIT_LINE, UNITS } TimeUnit;
 
-/* A place is where the walk through a step can stop. */
 typedef struct TracePlace {
-    int round;  /* index of the Newton iteration in StepTrace */
+    int iterate;      /* index of the iterate in StepTrace */
     StepLine at_line; /* line of Algorithm 3 */
     int trials; /* trials of the line search so far */
 } TracePlace;
 
 typedef struct StepTrace {
     Trace start_trace; /* h and tolerance, which all places show */
-    int x_length;      /* 2n; 0: no rounds are stored */
-    Records records;   /* Newton's record of each round */
-    Round *round;      /* [records.count] */
-    int capacity;      /* rounds that memory was reserved for */
-    bool samples_all_rounds; /* E along p is sampled in each round */
-    bool samples_last_round; /* E along p is sampled in the last round */
+    int x_length;      /* 2n; 0: no iterates are stored */
+    Records records;   /* Newton's record at each iterate */
+    TraceIterate *iterate;     /* [records.count] */
+    int capacity;              /* iterates that memory was reserved for */
+    bool samples_each_iterate; /* E along p is sampled at each iterate */
+    bool samples_last_iterate; /* E along p is sampled at the last iterate */
     double *x_tilde;         /* [x_length] m, or NULL */
     double *end_x;     /* [x_length] m, x after the last iteration, or NULL */
-    size_t used_bytes; /* memory of the rounds */
-    TracePlace *place; /* [places] in the order of the walk */
+    size_t used_bytes; /* memory of the iterates */
+    TracePlace *place; /* [place_count] in the order of the walk */
     int place_count;   /* number of places; 0 if memory is missing */
 } StepTrace;
 
@@ -65,13 +64,13 @@ typedef struct StepTrace {
 void step_trace_begin(StepTrace *trace, const Simulation *simulation, bool all,
                       bool last);
 
-/* Whether samples of E along p are missing in the round of a place.
- *   place  index of the place; -1: the last round */
+/* Whether samples of E along p are missing at the iterate of a place.
+ *   place  index of the place; -1: the last iterate */
 bool step_trace_lacks_samples(const StepTrace *trace, int place);
 
 /* Adds a Newton iteration, or only its record if memory is missing. */
-void step_trace_add_round(StepTrace *trace, const Newton *newton,
-                          const NewtonRecord *record);
+void step_trace_add_iterate(StepTrace *trace, const Newton *newton,
+                            const NewtonRecord *record);
 
 /* Ends the trace of a step: lists its places. */
 void step_trace_end(StepTrace *trace, const Options *options);
@@ -85,9 +84,9 @@ void step_trace_free(StepTrace *trace);
  * Returns the index of this place, or `place` if the walk ends there. */
 int step_trace_walk(const StepTrace *trace, TimeUnit unit, int place, int way);
 
-/* Returns the index of the last place in a round whose line is at most `line`;
- * if the round has no such place, the index of the last place of the step. */
-int step_trace_find_place(const StepTrace *trace, int round, StepLine line);
+/* Returns the index of the last place at an iterate whose line is at most
+ * `line`; if there is no such place, that of the last place of the step. */
+int step_trace_find_place(const StepTrace *trace, int iterate, StepLine line);
 
 /* Returns the index of the place where E was highest, if E exploded: E rose by
  * more than ten times its change in the whole step.  -1: E did not explode. */

@@ -214,8 +214,7 @@ static Status begin_press(Player *player, const MouseTarget *target)
         mouse->drag_command = COMMAND_START;
         return obey_at(player, COMMAND_START, mouse->item, target->pick.point);
     default:
-        if (target->pick.kind !=
-            PICK_NODE) /* a click ends the highlight of a spring */
+        if (target->pick.kind != PICK_NODE) /* no spring is highlighted now */
             player->screen.view.hovered.kind = PICK_NONE;
         mouse->item = target->pick.nearest_node;
         mouse->drag_command = mouse->item < 0             ? COMMAND_PAN

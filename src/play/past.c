@@ -324,7 +324,7 @@ static bool observe_newton(void *user, const NewtonRecord *record)
         pane->outcome.energy_change = record->change;
     const Newton *newton = find_traced_newton(&pane->simulation);
     if (newton && pane->trace.x_length > 0 && record->iteration >= 0)
-        step_trace_add_round(&pane->trace, newton, record);
+        step_trace_add_iterate(&pane->trace, newton, record);
     Records *records = &pane->records;
     if (records_reserve(records, records->count + 1))
         records->record[records->count++] = *record;

@@ -21,16 +21,16 @@ bool records_reserve(Records *records, int count)
     return true;
 }
 
-static void free_round(Round *round)
+static void free_iterate(TraceIterate *iterate)
 {
-    free(round->x);
-    *round = (Round){0};
+    free(iterate->x);
+    *iterate = (TraceIterate){0};
 }
 
 void step_trace_clear(StepTrace *trace)
 {
     for (int i = 0; i < trace->capacity; i++)
-        free_round(&trace->round[i]);
+        free_iterate(&trace->iterate[i]);
     free(trace->x_tilde);
     free(trace->end_x);
     trace->x_tilde = trace->end_x = NULL;
@@ -41,7 +41,7 @@ void step_trace_clear(StepTrace *trace)
 void step_trace_free(StepTrace *trace)
 {
     step_trace_clear(trace);
-    free(trace->round);
+    free(trace->iterate);
     free(trace->records.record);
     free(trace->place);
     *trace = (StepTrace){0};
@@ -51,55 +51,56 @@ void step_trace_begin(StepTrace *trace, const Simulation *simulation, bool all,
                       bool last)
 {
     step_trace_clear(trace);
-    trace->samples_all_rounds = all;
-    trace->samples_last_round = last;
+    trace->samples_each_iterate = all;
+    trace->samples_last_iterate = last;
     trace->start_trace = (Trace){.h = simulation->options.timestep,
                                  .tolerance = simulation->options.tolerance,
                                  .projected = -1};
     trace->x_length = 2 * simulation->system.nodes;
 }
 
-/* Stores E along p of the newest round; samples E unless it is polynomial. */
+/* Stores E along p of the newest iterate; samples E unless it is polynomial. */
 static void store_line_energy(StepTrace *trace, const Iterate *at)
 {
-    Round *round = &trace->round[trace->records.count];
+    TraceIterate *iterate = &trace->iterate[trace->records.count];
     const NewtonRecord *record = &trace->records.record[trace->records.count];
     const LineEnergy along = incremental_potential_prepare_line(at);
     bool ended = record->status != STATUS_RUNNING;
-    bool samples = trace->samples_all_rounds ||
-                   (ended && (trace->samples_last_round || record->alpha == 0));
-    round->first_trial = incremental_potential_max_step(at);
-    round->polynomial = along.polynomial;
-    round->has_remainder = along.has_remainder;
-    round->has_samples = along.has_remainder && samples;
-    for (int i = 0; i < ROUND_VALUES && round->has_samples; i++)
-        round->energy_samples[i] = line_energy_difference(
-            &along, i * round->first_trial / ROUND_PARTS);
+    bool samples =
+        trace->samples_each_iterate ||
+        (ended && (trace->samples_last_iterate || record->alpha == 0));
+    iterate->first_trial = incremental_potential_max_step(at);
+    iterate->polynomial = along.polynomial;
+    iterate->has_remainder = along.has_remainder;
+    iterate->has_samples = along.has_remainder && samples;
+    for (int i = 0; i < SAMPLE_COUNT && iterate->has_samples; i++)
+        iterate->energy_samples[i] = line_energy_difference(
+            &along, i * iterate->first_trial / SAMPLE_PARTS);
 }
 
 bool step_trace_lacks_samples(const StepTrace *trace, int place)
 {
     int last = trace->records.count - 1;
-    int i = place < 0 ? last : trace->place[place].round;
+    int i = place < 0 ? last : trace->place[place].iterate;
     if (last < 0)
         return false;
-    const Round *round = &trace->round[i < last ? i : last];
-    return round->has_remainder && round->x && !round->has_samples;
+    const TraceIterate *iterate = &trace->iterate[i < last ? i : last];
+    return iterate->has_remainder && iterate->x && !iterate->has_samples;
 }
 
 /* Returns E(x + alpha p) - E(x): the polynomial, or samples joined by lines;
  * without samples, NaN except at the step length that was taken. */
 static double evaluate_round_energy(const void *function, double alpha)
 {
-    const Round *round = function;
-    if (!round->has_remainder)
-        return quartic_value(&round->polynomial, alpha);
-    if (!round->has_samples && alpha == round->alpha)
-        return round->energy_change;
-    double place = alpha / round->first_trial * ROUND_PARTS;
-    if (!round->has_samples || !(place >= 0 && place <= ROUND_VALUES - 1))
+    const TraceIterate *iterate = function;
+    if (!iterate->has_remainder)
+        return quartic_value(&iterate->polynomial, alpha);
+    if (!iterate->has_samples && alpha == iterate->alpha)
+        return iterate->energy_change;
+    double place = alpha / iterate->first_trial * SAMPLE_PARTS;
+    if (!iterate->has_samples || !(place >= 0 && place <= SAMPLE_COUNT - 1))
         return NAN;
-    const double *value = round->energy_samples + (int)place;
+    const double *value = iterate->energy_samples + (int)place;
     double part = place - (int)place;
     return part == 0 ? value[0] : value[0] + part * (value[1] - value[0]);
 }
@@ -112,57 +113,58 @@ static double *copy_array(const StepTrace *trace, const double *from)
     return copy ? memcpy(copy, from, bytes) : NULL;
 }
 
-/* Stores x, u and p of the newest round, if there is memory.  After an update
+/* Stores x, u and p of the newest iterate, if there is memory.  After an update
  * x_trial and u_trial are the iterate before it.  Multigrid's update is not a
  * step along p: p becomes the whole update, and alpha is 1. */
 static void store_iteration(StepTrace *trace, const Newton *newton)
 {
-    Round *round = &trace->round[trace->records.count];
+    TraceIterate *iterate = &trace->iterate[trace->records.count];
     NewtonRecord *record = &trace->records.record[trace->records.count];
     Iterate at = newton->at;
     size_t size = (size_t)trace->x_length;
-    size_t bytes = (4 * size + ROUND_VALUES) * sizeof *round->x;
-    free_round(round);
+    size_t bytes = (4 * size + SAMPLE_COUNT) * sizeof *iterate->x;
+    free_iterate(iterate);
     if (trace->used_bytes + bytes <= STEP_TRACE_BYTES)
-        round->x = malloc(bytes);
-    if (!round->x)
+        iterate->x = malloc(bytes);
+    if (!iterate->x)
         return;
     trace->used_bytes += bytes;
-    round->p = round->x + size;
-    round->u = round->p + size;
-    double *g = round->u + size;
-    round->energy_samples = g + size;
+    iterate->p = iterate->x + size;
+    iterate->u = iterate->p + size;
+    double *g = iterate->u + size;
+    iterate->energy_samples = g + size;
     bool moved = record->alpha != 0;
-    memcpy(round->x, moved ? newton->x_trial : at.x, size * sizeof *round->x);
-    memcpy(round->u, moved ? newton->u_trial : at.u, size * sizeof *round->u);
-    memcpy(round->p, at.p, size * sizeof *round->p);
-    at.x = round->x;
-    at.u = round->u;
-    at.p = round->p;
+    memcpy(iterate->x, moved ? newton->x_trial : at.x, size * sizeof *at.x);
+    memcpy(iterate->u, moved ? newton->u_trial : at.u, size * sizeof *at.u);
+    memcpy(iterate->p, at.p, size * sizeof *iterate->p);
+    at.x = iterate->x;
+    at.u = iterate->u;
+    at.p = iterate->p;
     if (record->solver == SOLVER_MULTIGRID) {
         for (size_t i = 0; i < size; i++)
-            round->p[i] = newton->at.u[i] - round->u[i];
+            iterate->p[i] = newton->at.u[i] - iterate->u[i];
         record->alpha = record->trials = moved;
     }
     at.g = g;
     incremental_potential_gradient(&at.E, at.u, at.x, g);
     store_line_energy(trace, &at);
-    record->slope = round->polynomial.q[0];
-    round->alpha = record->alpha;
-    round->energy_change = record->change;
+    record->slope = iterate->polynomial.q[0];
+    iterate->alpha = record->alpha;
+    iterate->energy_change = record->change;
 }
 
-void step_trace_add_round(StepTrace *trace, const Newton *newton,
-                          const NewtonRecord *record)
+void step_trace_add_iterate(StepTrace *trace, const Newton *newton,
+                            const NewtonRecord *record)
 {
     int count = trace->records.count + 1;
     if (count > trace->capacity) {
-        Round *round = realloc(trace->round, 2 * (size_t)count * sizeof *round);
-        if (!round)
+        TraceIterate *iterate =
+            realloc(trace->iterate, 2 * (size_t)count * sizeof *iterate);
+        if (!iterate)
             return;
-        memset(round + trace->capacity, 0,
-               (size_t)(2 * count - trace->capacity) * sizeof *round);
-        trace->round = round;
+        memset(iterate + trace->capacity, 0,
+               (size_t)(2 * count - trace->capacity) * sizeof *iterate);
+        trace->iterate = iterate;
         trace->capacity = 2 * count;
     }
     if (!records_reserve(&trace->records, count))
@@ -179,9 +181,10 @@ void step_trace_add_round(StepTrace *trace, const Newton *newton,
         trace->x_tilde[i] += newton->at.E.x_n[i];
 }
 
-static void append_place(StepTrace *trace, int round, StepLine line, int trials)
+static void append_place(StepTrace *trace, int iterate, StepLine line,
+                         int trials)
 {
-    trace->place[trace->place_count++] = (TracePlace){round, line, trials};
+    trace->place[trace->place_count++] = (TracePlace){iterate, line, trials};
 }
 
 void step_trace_end(StepTrace *trace, const Options *options)
@@ -227,10 +230,11 @@ int step_trace_walk(const StepTrace *trace, TimeUnit unit, int place, int way)
     return place;
 }
 
-int step_trace_find_place(const StepTrace *trace, int round, StepLine line)
+int step_trace_find_place(const StepTrace *trace, int iterate, StepLine line)
 {
     for (int i = trace->place_count - 1; i >= 0; i--)
-        if (trace->place[i].round == round && trace->place[i].at_line <= line)
+        if (trace->place[i].iterate == iterate &&
+            trace->place[i].at_line <= line)
             return i;
     return trace->place_count - 1;
 }
@@ -241,27 +245,27 @@ int step_trace_find_peak(const StepTrace *trace)
 {
     enum { FAR = 10 };
     double sum = 0, rise = 0;
-    int round = -1;
+    int iterate = -1;
     for (int i = 0; i < trace->records.count; i++) {
         sum += trace->records.record[i].change;
         if (sum > rise) {
             rise = sum;
-            round = i;
+            iterate = i;
         }
     }
-    bool far = round >= 0 && rise > FAR * fabs(sum);
-    return far ? step_trace_find_place(trace, round, LINE_UPDATE) : -1;
+    bool far = iterate >= 0 && rise > FAR * fabs(sum);
+    return far ? step_trace_find_place(trace, iterate, LINE_UPDATE) : -1;
 }
 
-/* Fills the values of a round that the lines up to a place have computed. */
-static void fill_round_values(const StepTrace *trace, const TracePlace *at,
-                              Trace *shown)
+/* Fills the values that the lines up to a place have computed at x^i. */
+static void fill_iterate_values(const StepTrace *trace, const TracePlace *at,
+                                Trace *shown)
 {
-    const Round *round = &trace->round[at->round];
-    const NewtonRecord *record = &trace->records.record[at->round];
+    const TraceIterate *iterate = &trace->iterate[at->iterate];
+    const NewtonRecord *record = &trace->records.record[at->iterate];
     bool solved = at->at_line >= LINE_SOLVE;
-    shown->x = round->x;
-    shown->records = at->round + solved;
+    shown->x = iterate->x;
+    shown->records = at->iterate + solved;
     shown->trials = at->trials;
     shown->is_accepted = at->trials == record->trials && record->alpha > 0;
     if (at->at_line >= LINE_PROJECT)
@@ -269,13 +273,13 @@ static void fill_round_values(const StepTrace *trace, const TracePlace *at,
     if (!solved)
         return;
     shown->residual = record->residual;
-    shown->p = round->p;
+    shown->p = iterate->p;
     shown->slope = record->slope;
-    shown->first_alpha = round->first_trial;
-    if (!round->p)
+    shown->first_alpha = iterate->first_trial;
+    if (!iterate->p)
         return;
     shown->energy_difference = evaluate_round_energy;
-    shown->difference_data = round;
+    shown->difference_data = iterate;
 }
 
 const double *step_trace_fill(const StepTrace *trace, int place, Trace *shown)
@@ -289,24 +293,25 @@ const double *step_trace_fill(const StepTrace *trace, int place, Trace *shown)
         over ? (TracePlace){count, LINE_END, 0} : trace->place[place];
     bool end = at.at_line == LINE_END;
     TracePlace source = at;
-    if (end && count > 0) /* the end shows the values of the last round */
+    if (end && count > 0) /* the end shows the values of the last iterate */
         source = (TracePlace){count - 1, LINE_END, last->trials};
     *shown = trace->start_trace;
     shown->at_line = over ? LINE_NONE : at.at_line;
-    shown->iteration = source.round;
-    shown->records = at.round;
+    shown->iteration = source.iterate;
+    shown->records = at.iterate;
     shown->record = row;
-    shown->x_n = count > 0 ? trace->round[0].x : NULL;
+    shown->x_n = count > 0 ? trace->iterate[0].x : NULL;
     shown->x_tilde = trace->x_tilde;
-    if (at.at_line != LINE_START && source.round < count)
-        fill_round_values(trace, &source, shown);
+    if (at.at_line != LINE_START && source.iterate < count)
+        fill_iterate_values(trace, &source, shown);
     shown->given_up =
         given_up &&
-        (end || (at.at_line == LINE_SEARCH && at.round == count - 1 &&
+        (end || (at.at_line == LINE_SEARCH && at.iterate == count - 1 &&
                  at.trials == last->trials && last->alpha == 0));
     if (end || count == 0)
         return NULL;
     if (at.at_line != LINE_UPDATE && at.at_line != LINE_TEST)
-        return trace->round[at.round].x;
-    return at.round + 1 < count ? trace->round[at.round + 1].x : trace->end_x;
+        return trace->iterate[at.iterate].x;
+    return at.iterate + 1 < count ? trace->iterate[at.iterate + 1].x
+                                  : trace->end_x;
 }

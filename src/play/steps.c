@@ -279,7 +279,7 @@ static void enter_line_walk(Player *player, AfterWork after)
         for (int i = 0; x && i < trace->x_length; i++)
             far = fmax(far, fabs(x[i]));
         player_note(player, "update %d of %d: nodes are %.4g m away; N goes on",
-                    trace->place[place].round + 1, trace->records.count, far);
+                    trace->place[place].iterate + 1, trace->records.count, far);
         player->is_warning = true;
     }
 }
@@ -331,10 +331,10 @@ static void compare_outcomes(Player *player)
     const StepTrace *trace = &player_active_pane(player)->trace;
     const TracePlace *at = &player->time.wanted_place;
     char has[256];
-    if (at->round >= 0 && trace->place_count > 2) {
+    if (at->iterate >= 0 && trace->place_count > 2) {
         player->time.mode = MODE_PAUSE;
         player->view_of_pane[player->active].place =
-            step_trace_find_place(trace, at->round, at->at_line);
+            step_trace_find_place(trace, at->iterate, at->at_line);
     }
     describe_outcome(player,
                      &option_rows[past->branch[past->current].edit.number], has,
@@ -353,7 +353,7 @@ Status player_repeat_step(Player *player, const Command *change, int pane)
     size_t bytes = 2 * (size_t)simulation->system.nodes * sizeof(double);
     bool failed = active->has_failed;
     long step = past->step + failed;
-    player->time.wanted_place = (TracePlace){.round = -1};
+    player->time.wanted_place = (TracePlace){.iterate = -1};
     if (view->place >= 0 && player->time.walk_unit != UNIT_STEP)
         player->time.wanted_place = active->trace.place[view->place];
     player_forget_step(player);
@@ -366,7 +366,7 @@ Status player_repeat_step(Player *player, const Command *change, int pane)
     if (status)
         return status;
     player->screen.drawn_step = -1;
-    past_choose_step(past, step, player->time.wanted_place.round >= 0);
+    past_choose_step(past, step, player->time.wanted_place.iterate >= 0);
     player->time.after_work = AFTER_COMPARE;
     return STATUS_OK;
 }

@@ -17,7 +17,7 @@ enum {
 
 static SDL_Window *window;
 
-/* Tab key and mouse when the event was sent; SDL knows only their present. */
+/* Tab and mouse when the event was sent; SDL tells only where they are now. */
 static bool tab_alone; /* Tab is down, and no other key was pressed since */
 static bool tab_held;
 static SDL_Point mouse;

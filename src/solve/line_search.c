@@ -33,7 +33,6 @@ static double step_energy_difference(const void *function, double alpha)
     bool searches = newton->settings.line_search == LINE_SEARCH_BACKTRACK;
     double change = line_energy_difference(&search->line, alpha);
     newton->record.change = change;
-    newton->record.trials += searches;
     if (searches && !(change <= 0))
         return change;
     for (int i = 0; i < 2 * newton->system->nodes; i++) {
@@ -51,12 +50,12 @@ Status find_step_length(Newton *newton)
     NewtonRecord *record = &newton->record;
     SearchContext search = {newton,
                             incremental_potential_prepare_line(&newton->at)};
-    int tries;
     record->alpha = incremental_potential_max_step(&newton->at);
     record->slope = search.line.polynomial.q[0];
-    record->trials = 0;
     Status status = line_search_backtrack(step_energy_difference, &search,
-                                          &record->alpha, &tries);
+                                          &record->alpha, &record->trials);
+    if (newton->settings.line_search == LINE_SEARCH_NONE)
+        record->trials = 0;
     if (!status)
         return STATUS_OK;
     record->change = 0;

@@ -20,7 +20,7 @@ typedef struct NewtonPhases {
     /* Makes the end of the step the iterate (u and x).  Returns OK, NOT_FINITE,
      * ROUNDING_LIMIT. */
     Status (*update)(Newton *newton);
-    /* Decides whether the loop ends.
+    /* Turns a free body (turn_free_body), and decides whether the loop ends.
      *   status  in, result of the phases before
      * Returns RUNNING, OK, or how the minimisation failed. */
     Status (*test)(Newton *newton, Status status);

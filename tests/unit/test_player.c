@@ -26,20 +26,20 @@ TEST(the_curve_goes_through_the_step)
             for (int place = 0; place < kept->place_count; place++) {
                 Trace trace;
                 step_trace_fill(kept, place, &trace);
-                int round = kept->place[place].round;
+                int iterate = kept->place[place].iterate;
                 if (trace.at_line != LINE_UPDATE)
                     continue;
                 seen++;
                 if (!trace.p) { /* of the first one where pins move */
-                    CHECK(i == 3 && round == 0 && !trace.energy_difference);
+                    CHECK(i == 3 && iterate == 0 && !trace.energy_difference);
                     continue;
                 }
-                const NewtonRecord *record = &kept->records.record[round];
+                const NewtonRecord *record = &kept->records.record[iterate];
                 double change = trace.energy_difference(trace.difference_data,
                                                         record->alpha);
-                rough += kept->round[round].has_remainder;
-                if (kept->round[round].has_remainder &&
-                    record->alpha < trace.first_alpha / ROUND_PARTS)
+                rough += kept->iterate[iterate].has_remainder;
+                if (kept->iterate[iterate].has_remainder &&
+                    record->alpha < trace.first_alpha / SAMPLE_PARTS)
                     continue; /* between two kept values */
                 CHECK_NEAR(change, record->change,
                            1e-7 * fabs(record->slope) * record->alpha);
