@@ -664,13 +664,15 @@ static int write_shapes(const Layout *layout, char *out)
     for (int c = 0; c < layout->cards && !content->lecture.page; c++)
         at += write_ink(&paper->canvas, layout->card[c],
                         active_picture(content)->cards[c]->name, at);
+    if (layout->has_list)
+        at += write_ink(&paper->canvas, layout->column, "list", at);
     player.screen.must_redraw = true;
     return (int)(at - out);
 }
 
 /* Records the shapes and the texts of the window that are new: places, colours
  * and words.  On a page, texts of cards have no place, and its own text is left
- * out. */
+ * out; its code is there. */
 static void record_words(const char *unused)
 {
     static char before[sizeof window_texts];
@@ -686,7 +688,9 @@ static void record_words(const char *unused)
         const char *card = find_card(&layout, x, y);
         const Colour colour = texts[i].colour & 0xffffff;
         const int length = (int)strcspn(text, "\n");
-        if (content->lecture.page && !box_contains(layout.stage, x, y)) {
+        const Box *places = layout.has_list ? &layout.column : &layout.stage;
+        if (content->lecture.page && !box_contains(layout.stage, x, y) &&
+            !box_contains(*places, x, y)) {
             if (!card[0] || strcmp(card, "page") == 0)
                 continue;
             now += sprintf(now, "%s", card);
