@@ -32,9 +32,8 @@ typedef struct Sparse {
 Status triplets_allocate(Triplets *triplets);
 void triplets_free(Triplets *triplets);
 
-/* Counts the entry (row, column) and, after triplets_allocate, stores it.  An
- * entry of the upper triangle is stored as (column, row): CHOLMOD reads the
- * lower triangle only. */
+/* Counts the entry (row, column) and, after triplets_allocate, stores it.  The
+ * lower triangle is stored: an entry above the diagonal as (column, row). */
 void triplets_add(Triplets *triplets, int row, int column);
 
 /* Builds A, in which triplets with the same row and column share one entry.

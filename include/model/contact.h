@@ -37,8 +37,7 @@ typedef struct Obstacle {
     double v[2];         /* m/s, velocity in the present step */
     double friction;     /* coefficient of friction mu >= 0 */
     int node;            /* node at the centre of the free ball; -1: fixed */
-    double options_o[2]; /* m, o as the options last set it; a hand may have
-                            moved the obstacle since */
+    double options_o[2]; /* m, o in the options; a hand may change o alone */
 } Obstacle;
 
 /* Width and strength of the barrier. */

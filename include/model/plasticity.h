@@ -50,6 +50,5 @@ typedef struct Plasticity {
  * books the dissipated energy k l2 Y gamma. */
 extern const TermKind plastic_energy;
 
-/* Returns the law V of spring s, without damping; an elastic law if the system
- * has no plastic term. */
+/* Returns the law V of spring s without damping; elastic without the term. */
 FlowLaw plasticity_get_law(const System *system, int s);

@@ -87,7 +87,7 @@ struct TermKind {
      * weight -1 and u NULL to collect forces. */
     void (*gradient)(const EvalPoint *at, double *g);
 
-    /* Appends the triplets of the Hessian, by term_add_block.  Those
+    /* Appends the triplets of the Hessian, by term_add_block.  The
      * triplets stay the same in a step.  NULL: the Hessian is 0. */
     void (*pattern)(const EvalPoint *at, Triplets *triplets);
 
@@ -146,8 +146,7 @@ struct Term {
                    kind's `free` frees further pieces */
 };
 
-/* Appends the triplets of the 2x2 block of nodes i and j: xx xy yx yy, or
- * xx xy yy if i = j. */
+/* Appends the triplets of block (i, j): xx xy yx yy, or xx xy yy if i = j. */
 void term_add_block(const System *system, int i, int j, Triplets *triplets);
 
 /* Appends the triplets xx and yy of node i. */

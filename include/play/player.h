@@ -79,7 +79,7 @@ enum { QUEUE_MOST = 16 };
 typedef struct CommandQueue {
     Command command[QUEUE_MOST];
     int count;
-    bool is_of_page;     /* the commands belong to a page */
+    bool is_from_page;   /* the commands belong to a page */
     const Control *pins; /* pins to be set at the end of the queue, or NULL */
     char note[SENTENCE_SIZE]; /* message at the end of the queue, or "" */
 } CommandQueue;
@@ -99,7 +99,7 @@ typedef struct Commands {
 typedef struct Tour {
     const LecturePage *last_page; /* page that was last open, or NULL */
     const LecturePage *revealed; /* page whose answer is shown, or NULL */
-    char asked[LOOK_SIZE];       /* question of `revealed` when it was asked */
+    char asked_question[LOOK_SIZE]; /* question of `revealed` as it was asked */
     char verdict[VALUE_SIZE];    /* verdict on the guess at the page, or "" */
     int guesses, right_guesses;  /* numbers of guesses so far */
     bool obeys_page;             /* a page's commands are running */

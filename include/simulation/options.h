@@ -135,8 +135,7 @@ const char *names_get(NameTable names, int i);
 /* Returns the index of a name; -1: the table has no such name. */
 int names_find(NameTable names, const char *name);
 
-/* Returns the index of a text that is a name or the number of a name from 1;
- * -1: the text is neither. */
+/* Returns the index of a name, or of its number from 1; -1: neither of them. */
 int names_find_or_parse(NameTable names, const char *text);
 
 int names_count(NameTable names);
@@ -177,7 +176,7 @@ typedef struct OptionRow {
     double low, high;      /* range, both ends included */
     const char *unit;      /* unit of the numbers, or "" if they have none */
     NameTable names;       /* OPTION_NAME: the values */
-    unsigned needs; /* enum SceneNeeds: the scene must have one of these */
+    unsigned needs; /* bits of ScenePart: the scene must have one of them */
     /* Returns why the option has no effect beside the others; NULL: it has one.
      * The function is NULL for options that always have one. */
     const char *(*idle_reason)(const Options *options);

@@ -24,18 +24,17 @@ typedef enum PictureKind {
     PICTURE_COUNT
 } PictureKind;
 
-/* Parts of a scene, as bits.  Options about missing parts are refused. */
-enum SceneNeeds {
-    NEEDS_MESH = 1,        /* a square: segments, side, density, stiffness */
-    NEEDS_TIME = 2,        /* motion in time, by an integrator */
-    NEEDS_START = 4,       /* a point to start from */
-    NEEDS_SPRINGS = 8,     /* springs: solver, projection of their Hessian */
-    NEEDS_MINIMUM = 16,    /* tolerance and line search */
-    NEEDS_ONE_NUMBER = 32, /* a start with one coordinate, x */
-    NEEDS_STEP = 64,       /* a time step h without an integrator */
-    NEEDS_BODY = 128,      /* a body: turn, at, velocity, gravity, pin */
-    NEEDS_SQUARE =
-        NEEDS_MESH | NEEDS_TIME | NEEDS_SPRINGS | NEEDS_MINIMUM | NEEDS_BODY
+/* Parts that a scene has, as bits.  Options about missing parts are refused. */
+enum ScenePart {
+    HAS_MESH = 1,        /* a square: segments, side, density, stiffness */
+    HAS_TIME = 2,        /* motion in time, by an integrator */
+    HAS_START = 4,       /* a point to start from */
+    HAS_SPRINGS = 8,     /* springs: solver, projection of their Hessian */
+    HAS_MINIMUM = 16,    /* tolerance and line search */
+    HAS_ONE_NUMBER = 32, /* a start with one coordinate, x */
+    HAS_STEP = 64,       /* a time step h without an integrator */
+    HAS_BODY = 128,      /* a body: turn, at, velocity, gravity, pin */
+    HAS_SQUARE = HAS_MESH | HAS_TIME | HAS_SPRINGS | HAS_MINIMUM | HAS_BODY
 };
 
 /* Most points that the mouse can drag, and most switches of a picture. */
@@ -67,7 +66,7 @@ typedef struct Scene {
     const char *title;    /* heading above the picture */
     const char *sentence; /* description, at most 60 letters */
     PictureKind picture;
-    unsigned needs;   /* parts that the scene has, bits of SceneNeeds */
+    unsigned parts;   /* bits of ScenePart: what the scene has */
     const char *args; /* options with other values than on the slides */
     /* Fills simulation->system, the mesh and the start. */
     Status (*create)(struct Simulation *simulation);

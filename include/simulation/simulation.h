@@ -1,5 +1,5 @@
-/* simulation.h - a scene while it moves, in one to three runs side by side, each
- * with an integrator and a state of its own. */
+/* simulation.h - a scene while it moves, in one to three runs side by side.
+ * Each run has an integrator and a state of its own. */
 #pragma once
 
 #include "simulation/exhibit.h"
@@ -64,8 +64,7 @@ typedef struct Energy {
  * every step where the potential is convex.  Where the potential is not convex
  * (springs buckle, contacts turn, as in squeeze and rub) `dissipated` may fall:
  * the method has made energy.  The mean of the forces at both ends would have a
- * smaller error where a body is pressed, but would let `dissipated` fall in
- * convex potentials, too. */
+ * smaller error where a body is pressed, but `dissipated` would fall more. */
 enum { ENERGY_ROWS = 2 * SYSTEM_MAX_TERMS + 5 };
 
 typedef struct Energies {

@@ -92,8 +92,7 @@ void time_integrator_free(TimeIntegrator *run);
  * functions return RUNNING before the end of the step.  At its end they return
  * OK; or a status for which status_is_unconverged holds, where the step has the
  * last iterate; or a failure, after which x and v are still those of t_n.  A
- * caller that abandons a step has to restore the data of the terms and the
- * place of the walls. */
+ * caller that abandons a step has to restore the terms' data and the walls. */
 Status time_integrator_begin(TimeIntegrator *run);
 Status time_integrator_advance(TimeIntegrator *run);
 

@@ -106,8 +106,7 @@ void sparse_multiply(const Sparse *A, const double *x, double *y)
         }
 }
 
-/* 0 * value is 0, or NaN if the value is NaN or infinite.  Four separate sums
- * are faster than one. */
+/* 0 * value is NaN if value is not finite.  Four sums are faster than one. */
 bool all_finite(const double *value, size_t count)
 {
     double sum[4] = {0, 0, 0, 0};

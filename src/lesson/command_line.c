@@ -85,8 +85,8 @@ static Status apply_numbers(const ArgLine *line, const ArgWord *word)
     double number[BODY_NUMBERS] = {0};
     double *times = &options->number[row->count_slot];
     int most = row->count ? row->count : 1, used = 0;
-    bool x_alone = row->needs == NEEDS_START && !strchr(word->text, ',') &&
-                   (options->scene->needs & NEEDS_ONE_NUMBER);
+    bool x_alone = row->needs == HAS_START && !strchr(word->text, ',') &&
+                   (options->scene->parts & HAS_ONE_NUMBER);
     int count = x_alone ? 1 : most;
     if (!option_read(row, count, word->text, number))
         return refuse_value(line, word, count);
@@ -144,14 +144,14 @@ static Status check_scene(const Options *options, const OptionRow *row,
                           Message message)
 {
     const Scene *scene = options->scene;
-    const char *missing = row->needs & NEEDS_MESH      ? "square"
-                          : row->needs == NEEDS_TIME   ? "time steps"
-                          : row->needs & NEEDS_TIME    ? "time step to choose"
-                          : row->needs & NEEDS_SPRINGS ? "springs"
-                          : row->needs & NEEDS_START   ? "start to choose"
-                          : row->needs & NEEDS_BODY    ? "body"
-                                                       : "minimum to find";
-    return !row->needs || (row->needs & scene->needs)
+    const char *missing = row->needs & HAS_MESH      ? "square"
+                          : row->needs == HAS_TIME   ? "time steps"
+                          : row->needs & HAS_TIME    ? "time step to choose"
+                          : row->needs & HAS_SPRINGS ? "springs"
+                          : row->needs & HAS_START   ? "start to choose"
+                          : row->needs & HAS_BODY    ? "body"
+                                                     : "minimum to find";
+    return !row->needs || (row->needs & scene->parts)
                ? STATUS_OK
                : refuse(message, "--%s: the scene '%s' has no %s", row->name,
                         scene->name, missing);
@@ -172,9 +172,8 @@ Status options_set(Options *options, const OptionRow *row, const char *text,
     else if (apply_option_word(&line, &word))
         return STATUS_INVALID_INPUT;
     /* The integrator, and a body that the option starts anew, must fit. */
-    bool is_start = row->effect == EFFECT_START &&
-                    (row->needs & NEEDS_SQUARE) &&
-                    (options->scene->needs & NEEDS_BODY);
+    bool is_start = row->effect == EFFECT_START && (row->needs & HAS_SQUARE) &&
+                    (options->scene->parts & HAS_BODY);
     Status status = body_check_method(options, message);
     return status || !is_start ? status : body_check(options, message);
 }
@@ -409,7 +408,7 @@ static Status check_body(ArgLine *line)
 {
     Options *options = line->options;
     bool is_solid = options->material != 0;
-    if (!(options->scene->needs & NEEDS_BODY))
+    if (!(options->scene->parts & HAS_BODY))
         return STATUS_OK;
     if (check_pins(options, line->message) ||
         body_check_method(options, line->message))

@@ -93,8 +93,7 @@ static int compare_left_sides(const void *one, const void *other)
     return a->edge_spring - b->edge_spring;
 }
 
-/* Makes and sorts the boxes.  The mean motion of all points is left out, since
- * it changes no distance. */
+/* Makes and sorts the boxes of the motion relative to the mean motion. */
 static void bound_motions(Boundary *boundary, const System *system)
 {
     const double *x = boundary->x, *p = boundary->is_swept ? boundary->p : NULL;

@@ -131,7 +131,7 @@ double code_needed_width(const LecturePage *page)
 static void draw_code(Paper *paper, Box inside, const FrameContent *content)
 {
     const char *const *code = content->lecture.page->code;
-    const char *mark = lecture_marked_code(content);
+    const char *mark = lecture_find_lit_text(content);
     const double letter = 0.603, high = 1.3, low = 1.17, most = 1.9; /* ems */
     int lines;
     double letters = measure_code(content->lecture.page, &lines);

@@ -101,7 +101,7 @@ bool frame_has_card(const FrameContent *content, const char *name);
 
 /* Returns the text that a line of the page's code contains if the line is lit.
  * In a walk through Algorithm 3 the text depends on the present line. */
-const char *lecture_marked_code(const FrameContent *content);
+const char *lecture_find_lit_text(const FrameContent *content);
 
 /* Returns the spring that the present step adds to the Hessian. */
 int find_newest_spring(const Simulation *simulation);

@@ -7,7 +7,7 @@
 _Static_assert((int)LINE_COUNT == LINES_WALKED,
                "walk has a text for each line");
 
-const char *lecture_marked_code(const FrameContent *content)
+const char *lecture_find_lit_text(const FrameContent *content)
 {
     const LecturePage *page = content->lecture.page;
     const Trace *trace = active_pane(content)->trace;

@@ -73,7 +73,7 @@ static void add_setting_values(const Simulation *simulation, LiveValues *values)
     const TimeIntegrator *run = simulation->run;
     const IntegratorMethod *method = run[0].method;
     const Descent *descent = &simulation->descent;
-    bool time = scene->needs & NEEDS_TIME;
+    bool time = scene->parts & HAS_TIME;
     bool explicit = time && method && !method->is_implicit;
     bool backward = method && strcmp(method->name, "backward-euler") == 0;
     bool forward = method && strcmp(method->name, "forward-euler") == 0;
@@ -142,7 +142,7 @@ static void add_trace_values(const Simulation *simulation, const Trace *trace,
         values_add_flag(values, trace->is_accepted ? "taken" : "refused", true);
     values_add_flag(values, "given up", trace->given_up);
     const NewtonRecord *last = trace->record + trace->records - 1;
-    if (simulation->scene->needs & NEEDS_TIME && trace->records > 0 &&
+    if (simulation->scene->parts & HAS_TIME && trace->records > 0 &&
         last->status == STATUS_OK) {
         /* A bound shows that the next p is small enough, or rounding hides the
          * change of E by the last p. */

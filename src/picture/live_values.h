@@ -45,7 +45,7 @@ typedef struct TextLine {
 
 /* Walks over the lines of a text that have known values (NULL: no lines):
  *     for (TextLine line = text_begin(values, text); text_next_line(&line);)
- * After the last line `words` is empty. */
+ * After the last line line.text is empty. */
 TextLine text_begin(const LiveValues *values, const char *text);
 bool text_next_line(TextLine *line);
 

@@ -112,8 +112,7 @@ void circle_pick(const Plot *stage, double x, double y, Pick *pick)
 /* The matrix {xx, xv; -xv, vv} by which a step multiplies (x, v/omega). */
 typedef struct StepMatrix {
     double xx, xv, vv;
-    double lambda[2][2]; /* real and imaginary parts of both eigenvalues, real
-                            ones in ascending order */
+    double lambda[2][2]; /* real, imaginary part of both; real ones ascend */
 } StepMatrix;
 
 /* Computes the matrix of a step with t = h omega.  Returns false unless the

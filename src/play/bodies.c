@@ -7,7 +7,7 @@ Status obey_pin(Player *player, const Command *command)
 {
     long node = command->number;
     const Simulation *simulation = player_simulation(player);
-    if (!(simulation->scene->needs & NEEDS_MESH) || simulation->scene->step)
+    if (!(simulation->scene->parts & HAS_MESH) || simulation->scene->step)
         return player_refuse(player, "only nodes of a square can be pinned");
     bool pinned = simulation->system.pinned[node];
     Command change = {.kind = COMMAND_PIN, .number = node, .x = !pinned};
@@ -85,11 +85,11 @@ Status obey_handle(Player *player, const Command *command)
 {
     Past *past = &player->past;
     Status status = STATUS_OK;
-    unsigned needs = player_simulation(player)->scene->needs;
+    unsigned needs = player_simulation(player)->scene->parts;
     long step = past->step;
     int now = past->current;
-    if (command->kind == COMMAND_HANDLE && (needs & NEEDS_START) &&
-        !(needs & NEEDS_TIME)) {
+    if (command->kind == COMMAND_HANDLE && (needs & HAS_START) &&
+        !(needs & HAS_TIME)) {
         player_pause(player);
         status = player_seek(player, 0, AFTER_NOTHING);
         status = status ? status : player_work(player);

@@ -144,7 +144,7 @@ static void fill_chips(const Player *player, Frame *frame)
 {
     const Simulation *simulation = player_simulation(player);
     const Options *options = player_active_options(player);
-    bool time = simulation->scene->needs & NEEDS_TIME;
+    bool time = simulation->scene->parts & HAS_TIME;
     bool nears = options->next == NEXT_NEARER;
     bool newton = simulation_has_updates(simulation) && !nears;
     bool ended = simulation->is_over || player->time.mode > MODE_END;
@@ -271,7 +271,7 @@ static StepBar find_step_bar(const void *shown, long step)
 
 /* Writes the text of the time line, "step 12 of 40   t = 0.24 s", the state of
  * the run, and how to stop a long step. */
-static void fill_time(const Player *player, FrameContent *content)
+static void fill_time_line(const Player *player, FrameContent *content)
 {
     const Past *past = &player->past;
     const char *turn = player_simulation(player)->scene->step_name;
@@ -370,7 +370,7 @@ static void fill_frame(const Player *player, Frame *frame)
     content->active_pane = active < content->panes ? active : 0;
     for (int i = 0; i < content->panes; i++)
         fill_pane(player, i, frame);
-    fill_time(player, content);
+    fill_time_line(player, content);
     fill_settings(player, frame);
     fill_chips(player, frame);
     const Control *control = past_control(past, active);
@@ -401,7 +401,7 @@ static void fill_frame(const Player *player, Frame *frame)
     bool answered =
         content->pane[0].simulation->options.page == player->tour.revealed &&
         !content->lecture.own_title[0];
-    content->lecture.asked = answered ? player->tour.asked : NULL;
+    content->lecture.asked = answered ? player->tour.asked_question : NULL;
     content->lecture.verdict =
         answered && player->tour.verdict[0] ? player->tour.verdict : NULL;
     content->lecture.guesses = player->tour.guesses;

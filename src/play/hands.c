@@ -369,7 +369,7 @@ static Status press_left_button(Player *player, const MouseTarget *target,
         target->pick.kind == PICK_NONE || target->pick.kind == PICK_SPRING;
     const char *key;
     const Scene *scene = player_simulation(player)->scene;
-    bool body = (scene->needs & NEEDS_BODY) && !scene->step;
+    bool body = (scene->parts & HAS_BODY) && !scene->step;
     Status status = STATUS_OK;
     player_deselect(player);
     switch (target->hit.zone) {
@@ -418,7 +418,7 @@ static Status press_button(Player *player, const Input *input)
     Mouse *mouse = &player->hands.mouse;
     MouseTarget target = find_mouse_target(player);
     const Scene *scene = player_simulation(player)->scene;
-    bool nodes = (scene->needs & NEEDS_MESH) && !scene->step;
+    bool nodes = (scene->parts & HAS_MESH) && !scene->step;
     int near = target.pick.nearest_node;
     mouse->drag_start[0] = mouse->x;
     mouse->drag_start[1] = mouse->y;

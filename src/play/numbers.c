@@ -13,7 +13,7 @@ static const OptionRow *find_command_option(const Command *command)
 /* Whether the scene uses an option whose value is a number or a choice. */
 static bool is_scene_number(const Player *player, const OptionRow *row)
 {
-    return (row->needs & player_active_options(player)->scene->needs) &&
+    return (row->needs & player_active_options(player)->scene->parts) &&
            row->kind != OPTION_SWITCH && row->kind != OPTION_TEXT;
 }
 

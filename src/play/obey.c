@@ -99,7 +99,7 @@ Status player_obey_queue(Player *player, bool now)
                      past->step <= player->hands.pulled_step;
         if (!now && (past_is_working(past) || pulls))
             break;
-        player->tour.obeys_page = obeys_page || queue.is_of_page;
+        player->tour.obeys_page = obeys_page || queue.is_from_page;
         status = player_obey(player, command);
         if (player->tour.obeys_page && !status)
             store_own_option(player, command);

@@ -298,8 +298,8 @@ static Branch *push_branch(Past *past, Branch wanted, const Command *edit)
 static double find_pane_timestep(const PastPane *pane)
 {
     const Simulation *simulation = &pane->simulation;
-    return simulation->scene->needs & NEEDS_TIME ? simulation->options.timestep
-                                                 : 1;
+    return simulation->scene->parts & HAS_TIME ? simulation->options.timestep
+                                               : 1;
 }
 
 /* Returns the Newton object of the first run that has one, whose iterations are
@@ -570,7 +570,7 @@ static Status pane_end_iteration(Past *past, int p, Status status)
     const Entry *to = past_entry(past, p, pane->step + 1);
     bool more = to ? pane->substeps < to->substeps
                    : moved && middle < past->end_time &&
-                         (simulation->scene->needs & NEEDS_TIME);
+                         (simulation->scene->parts & HAS_TIME);
     return more ? STATUS_RUNNING : pane_finish_step(past, p);
 }
 

@@ -84,8 +84,7 @@ static Status obey_script(Player *player)
     return status;
 }
 
-/* Makes the steps of one frame, for at most the time SLICE.  Without a window
- * each step is a frame. */
+/* Makes the steps of one frame, within SLICE.  Without a window, one step. */
 static Status make_due_steps(Player *player)
 {
     const Past *past = &player->past;

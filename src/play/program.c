@@ -59,7 +59,7 @@ static int print_help_or_list(const Options *options)
 
 static const char *find_advice(const Player *player, Status status)
 {
-    bool time = player->setup.options[0].scene->needs & NEEDS_TIME;
+    bool time = player->setup.options[0].scene->parts & HAS_TIME;
     return status == STATUS_OUT_OF_MEMORY || status == STATUS_TOO_LARGE
                ? "; try fewer --segments"
            : status == STATUS_NOT_POSITIVE_DEFINITE ? "; try --projection clamp"
@@ -110,20 +110,20 @@ static void print_newton_counters(FILE *file, const Simulation *simulation)
 {
     const Newton *newton = simulation->run[0].newton;
     NewtonCounters sum = simulation_sum_counters(simulation);
-    unsigned needs = simulation->scene->needs;
+    unsigned needs = simulation->scene->parts;
     const struct {
         const char *name;
         long long value; /* 0: the row is not printed */
     } rows[] = {
         {"Newton iterations",
-         needs & NEEDS_TIME ? sum.iterations : simulation->descent.count},
+         needs & HAS_TIME ? sum.iterations : simulation->descent.count},
         {"factorisations", sum.factorisations},
         {"solves", sum.solves},
         {"blocks projected", sum.projected},
         {"V-cycles", sum.cycles},
         {"not at a minimum", sum.indefinite_ends},
     };
-    if (newton && needs & NEEDS_SPRINGS)
+    if (newton && needs & HAS_SPRINGS)
         print_quantity(file, "solver", "%s%s%s",
                        solver_name(newton->active_solver),
                        newton->refusal_reason ? "; no multigrid: " : "",
@@ -157,7 +157,7 @@ static void print_summary(FILE *file, const Player *player)
     int panes = past_panes(&player->past);
     for (int p = 0; p < panes; p++) {
         const Simulation *simulation = &player->past.pane[p].simulation;
-        bool in_time = simulation->scene->needs & NEEDS_TIME;
+        bool in_time = simulation->scene->parts & HAS_TIME;
         char label[LABEL_SIZE];
         player_write_label(player, p, label);
         if (panes > 1)

@@ -119,7 +119,7 @@ int player_initial_speed(const Player *player, const Options *options)
         speed = options->scene->speed;
     if (speed > 0)
         return (int)lrint(fmin(fmax(log2(speed), SPEED_LEAST), SPEED_MOST));
-    return options->scene->needs & NEEDS_TIME ? 0 : UPDATE_SPEED;
+    return options->scene->parts & HAS_TIME ? 0 : UPDATE_SPEED;
 }
 
 bool player_shows_list(const Player *player)

@@ -85,7 +85,7 @@ void sheet_advance(Player *player)
             begin_cell_scene(sheet, cell);
         else if (simulation->scene && !simulation->is_over &&
                  !status_is_failure(simulation->status) &&
-                 ((simulation->scene->needs & NEEDS_TIME) ||
+                 ((simulation->scene->parts & HAS_TIME) ||
                   age % CELL_PAUSE == 0))
             simulation_step(simulation);
         sheet->next_cell = (cell + 1) % sheet->cells;

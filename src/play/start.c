@@ -41,7 +41,7 @@ static Status clear_obstacles_at_start(Player *player, int pane,
     Options kept = *options;
     int count = (int)(options->grounds + options->balls);
     Message message = MESSAGE(player->message);
-    if (!(options->scene->needs & NEEDS_BODY) || !body_check(options, message))
+    if (!(options->scene->parts & HAS_BODY) || !body_check(options, message))
         return STATUS_OK;
     if (began.grounds != options->grounds || began.balls != options->balls)
         return STATUS_INVALID_INPUT;
@@ -112,7 +112,7 @@ Status obey_restart(Player *player, const Command *command)
         if (clear_obstacles_at_start(player, p, &options[p]))
             return STATUS_INVALID_INPUT;
     bool moves = command->kind == COMMAND_START;
-    if (moves && !(options->scene->needs & NEEDS_START))
+    if (moves && !(options->scene->parts & HAS_START))
         return player_refuse(player, "this scene has no start to choose");
     for (int p = 0; p < panes && moves; p++) {
         options[p].start[0] = command->x;
@@ -131,7 +131,7 @@ Status obey_restart(Player *player, const Command *command)
 Status player_enqueue_page(Player *player)
 {
     const LecturePage *page = player_active_options(player)->page;
-    player->commands.queue.is_of_page = true;
+    player->commands.queue.is_from_page = true;
     return player_enqueue_lines(player, page ? page->on_open : NULL);
 }
 
@@ -171,7 +171,7 @@ Status player_reveal_answer(Player *player, const char *typed)
     TextLine asked =
         text_first_line(&active_pane(content)->values,
                         content->lecture.page == page ? page->question : NULL);
-    snprintf(player->tour.asked, LOOK_SIZE, "%s", asked.text);
+    snprintf(player->tour.asked_question, LOOK_SIZE, "%s", asked.text);
     if (judged)
         append(player->tour.verdict, VALUE_SIZE, "%s%s%s.", typed,
                right ? " is right" : "? It is ", right ? "" : number.text);
@@ -182,7 +182,7 @@ Status player_reveal_answer(Player *player, const char *typed)
                  : right ? ": right, "
                          : ": no, ",
                  number.text);
-    player->commands.queue.is_of_page = true;
+    player->commands.queue.is_from_page = true;
     return player_enqueue_lines(player, page->on_answer);
 }
 

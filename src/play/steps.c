@@ -235,7 +235,7 @@ static void stop_run_if_over(Player *player)
             continue;
         going++;
         ended = ended && (simulation->is_over || pane->has_failed);
-        rests = rests && (simulation->scene->needs & NEEDS_TIME) &&
+        rests = rests && (simulation->scene->parts & HAS_TIME) &&
                 simulation->runs == 1 && !control_hand_holds(pane->control) &&
                 simulation_is_at_rest(simulation);
         bad = bad || pane->outcome.status;

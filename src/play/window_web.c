@@ -5,8 +5,7 @@
 
 #include "play/window.h"
 
-/* Empty functions: the document has its own title, and the browser has keys for
- * the full screen. */
+/* Empty functions: the browser has a title and keys for the full screen. */
 /* clang-format off */
 EM_JS(bool, page_open, (const int *size, bool full), { return true; });
 EM_JS(void, page_close, (void), {});

@@ -1,5 +1,4 @@
-/* scene.c - the table of scenes; compares the end of the next step with the end
- * that a user has guessed. */
+/* scene.c - the table of scenes; a user's guess where the next step ends. */
 #include "scenes/scenes.h"
 
 #include <math.h>
@@ -66,7 +65,7 @@ static Status create_bend(Simulation *simulation)
 /* ---- the table ----------------------------------------------------------- */
 
 /* Picture and needs of every scene with a body. */
-#define SQUARE PICTURE_SQUARE, NEEDS_SQUARE
+#define SQUARE PICTURE_SQUARE, HAS_SQUARE
 
 /* Options of scenes in which a body of springs falls. */
 #define FALL "--stretch 1 --tolerance 1e-4 --gravity 9.81 --cells on "
@@ -81,10 +80,10 @@ const Scene scenes[] = {
      .group_heading = "Time steps and Newton's method"},
     {"circle", "Stability on a circle",
      "one circle, three Euler methods: out, in, or on it", PICTURE_CIRCLE,
-     NEEDS_TIME, "--timestep 0.02", .create = create_circle},
+     HAS_TIME, "--timestep 0.02", .create = create_circle},
     {"overshoot", "Overshooting",
      "Newton's full steps overshoot; a line search tames them", PICTURE_CURVE,
-     NEEDS_START | NEEDS_ONE_NUMBER | NEEDS_MINIMUM,
+     HAS_START | HAS_ONE_NUMBER | HAS_MINIMUM,
      "--start 2 --tolerance 1e-10 --line-search none", create_overshoot,
      .step_name = "iteration", .starts_paused = true, .step = step_descent,
      .restart = descent_restart, .handle_kinds = "x"},
@@ -175,20 +174,19 @@ const Scene scenes[] = {
      .body.aspect = 0.1875, .body.cell_stiffness = 0.3,
      .body.notch = {-1, -0.4}, .body.obstacle = make_bend_ball},
     {"race", "Run time and error", "run time against error, measured now",
-     PICTURE_RACE, NEEDS_MESH | NEEDS_SPRINGS | NEEDS_MINIMUM | NEEDS_BODY,
+     PICTURE_RACE, HAS_MESH | HAS_SPRINGS | HAS_MINIMUM | HAS_BODY,
      /* motion without chaos; a tolerance below the error of every time step */
      "--stretch 1.1 --tolerance 1e-8", create_race, .step_name = "run",
      .step = step_race, .switch_labels = {"error over h"},
      .group_heading = "Measured now"},
     {"envelope", "How far it can be trusted",
      "where the square converges: h across, k upwards", PICTURE_ENVELOPE,
-     NEEDS_MESH | NEEDS_SPRINGS | NEEDS_MINIMUM | NEEDS_STEP, NULL,
-     create_envelope, .step_name = "row", .step = step_envelope},
+     HAS_MESH | HAS_SPRINGS | HAS_MINIMUM | HAS_STEP, NULL, create_envelope,
+     .step_name = "row", .step = step_envelope},
     /* Scenes of the tour, small enough to compute on paper. */
     {"landscape", "Search directions",
      "without projection Newton may go uphill; clamped, never",
-     PICTURE_LANDSCAPE,
-     NEEDS_START | NEEDS_SPRINGS | NEEDS_MINIMUM | NEEDS_STEP,
+     PICTURE_LANDSCAPE, HAS_START | HAS_SPRINGS | HAS_MINIMUM | HAS_STEP,
      "--start 0.1,-0.35 --tolerance 1e-6 --timestep 0.2", create_landscape,
      .step_name = "iteration", .starts_paused = true, .step = step_descent,
      .restart = descent_restart, .find_direction = descent_find_direction,
@@ -196,22 +194,22 @@ const Scene scenes[] = {
      .only_by_name = true},
     {"arrows", "One mass",
      "one mass on a spring: the arrows of three Euler steps", PICTURE_MASS,
-     NEEDS_TIME | NEEDS_START, "--timestep 0.5 --start 1,0", create_arrows,
+     HAS_TIME | HAS_START, "--timestep 0.5 --start 1,0", create_arrows,
      .starts_paused = true, .handle_kinds = "xv", .only_by_name = true},
     {"tangent", "Newton in one dimension",
      "Newton in one dimension: tangents of g, parabolas of E", PICTURE_TANGENT,
-     NEEDS_START | NEEDS_MINIMUM | NEEDS_ONE_NUMBER | NEEDS_STEP,
+     HAS_START | HAS_MINIMUM | HAS_ONE_NUMBER | HAS_STEP,
      "--start 2.5 --tolerance 1e-10 --line-search none --timestep 0.3",
      create_tangent, .step_name = "iteration", .step = step_descent,
      .restart = descent_restart, .handle_kinds = "xt", .only_by_name = true},
     {"dial", "The time step as a dial",
      "a longer time step: from free flight to the rest shape", PICTURE_DIAL,
-     NEEDS_STEP, "--timestep 0.005", create_dial, .step_name = "point",
+     HAS_STEP, "--timestep 0.005", create_dial, .step_name = "point",
      .step = step_dial, .restart = dial_restart, .handle_kinds = "t",
      .switch_labels = {"inertia", "elasticity"}, .only_by_name = true},
     {"spring", "One spring",
      "one spring: energy, force, eigenvalues; drag its end", PICTURE_SPRING,
-     NEEDS_TIME | NEEDS_START | NEEDS_SPRINGS | NEEDS_MINIMUM,
+     HAS_TIME | HAS_START | HAS_SPRINGS | HAS_MINIMUM,
      "--timestep 0.02 --start 0.6,0.3 --tolerance 1e-6", create_spring,
      .handle_kinds = "x", .switch_labels = {"with the square root"},
      .only_by_name = true},
@@ -236,7 +234,7 @@ void scene_predict(Simulation *simulation, double x, double y)
         return;
     if (scene->step == step_dial)
         end = simulation->exhibit.dial.point[DIAL_POINTS - 1];
-    if (scene->needs & NEEDS_TIME) {
+    if (scene->parts & HAS_TIME) {
         mass_find_next_step(simulation, 0, &step);
         end = step.new_x;
     }

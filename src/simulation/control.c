@@ -117,7 +117,7 @@ static Status update_run_options(Simulation *simulation, int r,
     const Options *options = &simulation->options;
     TimeIntegrator *run = &simulation->run[r], old = *run;
     Status status = STATUS_OK;
-    if (simulation->scene->needs & NEEDS_BODY)
+    if (simulation->scene->parts & HAS_BODY)
         status = body_update(simulation, r);
     if (!status && options->integrator != before->integrator) {
         status = simulation_start_run(simulation, r, options_method(options),

@@ -107,7 +107,7 @@ REASON(why_nothing_drawn,
 /* Macros for the rest of a row: parts that the scene must have, repetitions,
  * the label of an option with lists of values.  SHOWN puts the option into the
  * window's row of numbers: place, length of the values, increment. */
-#define NEEDS(what)             .needs = NEEDS_##what
+#define NEEDS(what)             .needs = HAS_##what
 #define TIMES(n, field)         .max_times = n, .count_slot = OPTION_SLOT(field)
 #define FEWER(bits, others)     .short_counts = bits, .omitted = others
 #define LIST(text)              .label = text
@@ -234,7 +234,7 @@ const OptionRow option_rows[] = {
 
     {SECTION("time step and solver:")},
     {NUMBER(timestep, "H", "time step h", "s", 0.004, 1e-30, 1e30),
-     .needs = NEEDS_TIME | NEEDS_STEP, LIST("h"), LIVE, SHOWN(1, 8, 0)},
+     .needs = HAS_TIME | HAS_STEP, LIST("h"), LIVE, SHOWN(1, 8, 0)},
     {NAME("integrator", integrator, "I", "time integrator", -1,
           integrator_methods),
      NEEDS(TIME), LIST("method"), LIVE, SHOWN(8, 16, 0)},
@@ -392,7 +392,7 @@ int options_list_visible(const Options *options,
     for (int place = 1; place < OPTIONS_MAX_ROWS; place++)
         for (const OptionRow *row = option_rows; row->name; row++)
             if (row->display.place == place &&
-                (row->needs & options->scene->needs) &&
+                (row->needs & options->scene->parts) &&
                 !(row->idle_reason && row->idle_reason(options)) &&
                 (row->kind == OPTION_NAME || row->display.increment > 0 ||
                  options->number[row->slot] > 0))

@@ -154,7 +154,7 @@ Status simulation_step(Simulation *simulation)
 
 double simulation_time(const Simulation *simulation)
 {
-    if (!(simulation->scene->needs & NEEDS_TIME))
+    if (!(simulation->scene->parts & HAS_TIME))
         return 0;
     return simulation->run[0].clock.time;
 }
@@ -162,17 +162,17 @@ double simulation_time(const Simulation *simulation)
 bool simulation_is_draggable(const Simulation *simulation)
 {
     const Scene *scene = simulation->scene;
-    return (scene->needs & NEEDS_TIME) && !scene->step && !scene->handle_kinds;
+    return (scene->parts & HAS_TIME) && !scene->step && !scene->handle_kinds;
 }
 
 ChangeEffect simulation_find_option_effect(const Simulation *simulation,
                                            const OptionRow *row)
 {
-    unsigned needs = simulation->scene->needs;
-    bool update = (needs & NEEDS_START) && row->effect == EFFECT_AGAIN;
+    unsigned needs = simulation->scene->parts;
+    bool update = (needs & HAS_START) && row->effect == EFFECT_AGAIN;
     bool other_methods =
         simulation->runs > 1 && row->slot == OPTION_SLOT(integrator);
-    if (!(needs & NEEDS_TIME) ? !update : other_methods)
+    if (!(needs & HAS_TIME) ? !update : other_methods)
         return EFFECT_START;
     return row->effect;
 }
@@ -240,14 +240,14 @@ NewtonCounters simulation_sum_counters(const Simulation *simulation)
 
 bool simulation_has_updates(const Simulation *simulation)
 {
-    return simulation->run[0].newton && (simulation->scene->needs & NEEDS_TIME);
+    return simulation->run[0].newton && (simulation->scene->parts & HAS_TIME);
 }
 
 /* The springs' Hessian must be used, and the scene must show its projection. */
 bool simulation_has_projection(const Simulation *simulation)
 {
     return simulation->system.springs > 0 && simulation->run[0].newton &&
-           (simulation->scene->needs & NEEDS_SPRINGS);
+           (simulation->scene->parts & HAS_SPRINGS);
 }
 
 /* Scenes of springs and minimisations in one variable have a line search. */

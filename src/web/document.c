@@ -113,7 +113,7 @@ static void put_page_texts(Writer *to, const FrameContent *content)
     put_text(to, values, "notes", page->notes);
     for (int i = 0; page->code[i]; i++)
         print(to, "code\t%d\t%s\n",
-              strstr(page->code[i], lecture_marked_code(content)) != NULL,
+              strstr(page->code[i], lecture_find_lit_text(content)) != NULL,
               page->code[i]);
 }
 
@@ -314,12 +314,12 @@ static void put_picture(Writer *to, const Player *player)
         const IntegratorMethod *method = pane->simulation->run[0].method;
         if (content->panes > 1)
             print(to, " Picture %d of %d:", p + 1, content->panes);
-        if (method && pane->simulation->scene->needs & NEEDS_TIME)
+        if (method && pane->simulation->scene->parts & HAS_TIME)
             print(to, " %s.", method->label);
         put_shape(to, pane);
     }
     print(to, " %s, %s.", content->time_line.label, content->title_bar.state);
-    if (simulation->scene->needs & NEEDS_BODY) {
+    if (simulation->scene->parts & HAS_BODY) {
         print(to, " Energies: ");
         put_energies(to, simulation);
         print(to, ".");

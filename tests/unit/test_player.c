@@ -116,7 +116,7 @@ TEST(the_sheet_is_alive)
     for (int frames = 1; frames < 20; frames++, pass_time(4))
         for (int i = 0; i < content->sheet.cells; i++) {
             const Simulation *cell = content->sheet.cell[i].simulation;
-            const bool moves = cell->scene->needs & NEEDS_TIME;
+            const bool moves = cell->scene->parts & HAS_TIME;
             if (i > 0) /* that shows a page, which may end */
                 assert_int_equal(cell->steps, moves ? frames + 2 : 0);
         }

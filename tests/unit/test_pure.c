@@ -97,8 +97,8 @@ TEST(steps_are_pure)
     for (const Scene *scene = scenes; scene->name; scene++) {
         char line[80];
         snprintf(line, sizeof line, "%s%s", scene->name,
-                 scene->needs & NEEDS_MESH ? " --segments 4" : "");
-        if (!(scene->needs & NEEDS_TIME) || scene->step)
+                 scene->parts & HAS_MESH ? " --segments 4" : "");
+        if (!(scene->parts & HAS_TIME) || scene->step)
             continue;
         Options options = line_options(line);
         runs += check_run(&options);

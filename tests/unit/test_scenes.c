@@ -35,14 +35,14 @@ TEST(scenes_are_complete)
         for (char *word = strtok_r(words, " ", &rest); word;
              word = strtok_r(NULL, " ", &rest))
             if (strncmp(word, "--", 2) == 0)
-                CHECK(option_find(word + 2)->needs & scene->needs);
+                CHECK(option_find(word + 2)->needs & scene->parts);
         Simulation *simulation = simulate("%s", scene->name);
         CHECK(simulation->scene == scene && simulation->runs >= 1);
         CHECK(!simulation->is_over && simulation->steps == 0);
         simulation_step(simulation);
         CHECK(simulation->steps == 1);
         double time = simulation_time(simulation);
-        CHECK((time > 0) == ((scene->needs & NEEDS_TIME) != 0));
+        CHECK((time > 0) == ((scene->parts & HAS_TIME) != 0));
     }
     CHECK(!scene_find("") && !scene_find("squar") && !scene_find("0"));
     CHECK(scene_find("1") == scenes && scene_find("2") == scenes + 1);

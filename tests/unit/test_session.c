@@ -1277,7 +1277,7 @@ static void grips_go_where_they_are_dragged(void **unused)
              i++, grips++) {
             char line[80];
             double at[SCENE_MAX_HANDLES][2];
-            bool flat = scene->needs & NEEDS_ONE_NUMBER; /* x alone counts */
+            bool flat = scene->parts & HAS_ONE_NUMBER; /* x alone counts */
             snprintf(line, sizeof line, "begin %s --paused", scene->name);
             session_line(line);
             snprintf(line, sizeof line, "press grip %d", i);
