@@ -122,7 +122,7 @@ Status script_write(const char *name, const char *line, const Script *script);
 
 /* Returns the command of the next line if it is due, or NULL.
  *   waits  the run goes on: lines of later steps are not due */
-const Command *script_due(Script *script, long step, bool waits);
+const Command *script_take_due_command(Script *script, long step, bool waits);
 
 bool script_is_over(const Script *script);
 

@@ -1,7 +1,7 @@
 /* player.h - the application: plays simulations by commands of keys, mouse and
  * scripts, draws and records them, and goes back to earlier steps.
  *
- *   keys, mouse, chips, scripts, pages -> Command    (hands.c, command.h)
+ *   keys, mouse, chips, scripts, pages -> Command    (input.c, command.h)
  *   player_obey: calls the command's function        (obey.c)
  *   that function: edits the past, or chooses the step to be shown
  *   player_work: past_iterate until that step is shown (steps.c)
@@ -215,7 +215,7 @@ Status player_draw(Player *player);
 Status player_run(Player *player);
 
 /* Makes a frame: reads inputs, obeys the script, makes due steps and draws. */
-Status player_frame(Player *player);
+Status player_make_frame(Player *player);
 
 /* Whether nothing happens before the next input. */
 bool player_is_idle(const Player *player);
@@ -224,7 +224,7 @@ bool player_is_idle(const Player *player);
 int player_find_wait_time(const Player *player);
 
 /* Whether the run is over. */
-bool player_ended(const Player *player);
+bool player_has_ended(const Player *player);
 
 /* Describes how a pane differs: "h 0.01 s, ended at step 3".  A value that all
  * panes but one share is left out where others tell the pane apart. */

@@ -24,7 +24,7 @@ typedef struct ListingRow {
 typedef struct ShownRow {
     bool highlighted, is_struck;
     TextLine text;
-    TextLine value; /* empty until the run has reached the row */
+    TextLine value; /* empty until the step has reached the line */
 } ShownRow;
 
 /* Tables and texts that cards.awk generates from cards.txt. */

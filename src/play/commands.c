@@ -281,7 +281,7 @@ Status script_write(const char *name, const char *line, const Script *script)
     return output_close(&output, KEEP_WHOLE);
 }
 
-const Command *script_due(Script *script, long step, bool waits)
+const Command *script_take_due_command(Script *script, long step, bool waits)
 {
     if (script_is_over(script))
         return NULL;

@@ -86,7 +86,7 @@ static void fill_settings(const Player *player, Frame *frame)
             row, &past_start_control(&player->past, player->active)->options,
             start, sizeof start);
         setting->is_changed = strcmp(now, start) != 0;
-        const char *idle = player_idle_reason(player, row);
+        const char *idle = player_find_idle_reason(player, row);
         setting->is_off = strcmp(setting->value, "none") == 0 || idle;
         setting->is_selected = row == player->hands.selected;
         bool is_explained = over ? i == mouse->index : setting->is_selected;
@@ -110,7 +110,7 @@ static void fill_options(const Player *player, FrameContent *content)
     for (int i = 0; i < content->list.rows; i++) {
         ListRow *row = &content->list.row[i];
         char value[VALUE_SIZE];
-        const char *idle = player_idle_reason(player, all[i]);
+        const char *idle = player_find_idle_reason(player, all[i]);
         player_format_value(all[i], &options, player_simulation(player), value,
                             sizeof value);
         snprintf(row->key, VALUE_SIZE, "%d", i + 1);

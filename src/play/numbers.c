@@ -33,7 +33,7 @@ int player_list_options(const Player *player, bool all,
     return all || count < LAYOUT_SETTINGS ? count : LAYOUT_SETTINGS - 1;
 }
 
-const char *player_idle_reason(const Player *player, const OptionRow *row)
+const char *player_find_idle_reason(const Player *player, const OptionRow *row)
 {
     const Simulation *simulation = player_simulation(player);
     bool minimises = simulation->scene->step;
@@ -58,7 +58,7 @@ Status obey_add(Player *player, const Command *command)
     const OptionRow *row = find_command_option(command);
     if (!row || !is_scene_number(player, row))
         return player_refuse(player, "this scene has no such number");
-    const char *idle = player_idle_reason(player, row);
+    const char *idle = player_find_idle_reason(player, row);
     if (idle)
         return player_refuse(player, "%s: %s", row->name, idle);
     player->hands.added_rows |= (uint64_t)1 << (row - option_rows);
@@ -128,7 +128,7 @@ Status obey_set(Player *player, const Command *command)
         return player_refuse(player, "there is no option '%.*s' with a value",
                              (int)strcspn(row ? row->name : command->text, " "),
                              row ? row->name : command->text);
-    const char *idle = player_idle_reason(player, row);
+    const char *idle = player_find_idle_reason(player, row);
     if (idle)
         return player_refuse(player, "%s", idle);
     bool one = player->tour.obeys_page || player_panes_differ(player, row);

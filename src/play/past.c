@@ -457,7 +457,7 @@ static void abandon_work(Past *past)
             continue;
         drop_state(past, find_entry(past, p, new));
         if (present_branch(past)->entries >= present_branch(past)->copies)
-            drop_entry(past, find_entry(past, p, new)); /* was not copied */
+            drop_entry(past, find_entry(past, p, new)); /* not a copy */
     }
     past->work_stage = WORK_DONE;
 }

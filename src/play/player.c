@@ -45,7 +45,7 @@ Status player_draw(Player *player)
 
 /* ---- the loop ------------------------------------------------------------ */
 
-bool player_ended(const Player *player)
+bool player_has_ended(const Player *player)
 {
     const Options *options = &player->setup.options[0];
     const Simulation *simulation = &player->past.pane[0].simulation;
@@ -66,8 +66,8 @@ static Status obey_script(Player *player)
     while (!status && !player->is_quitting) {
         bool done = player->past.pane[0].simulation.is_over;
         const Command *command =
-            script_due(&player->setup.script, player->past.step,
-                       !player_is_stopped(player) && !done);
+            script_take_due_command(&player->setup.script, player->past.step,
+                                    !player_is_stopped(player) && !done);
         if (!command)
             break;
         status = player_obey(player, command);
@@ -94,7 +94,7 @@ static Status make_due_steps(Player *player)
                     : 1;
     double begin = count > 1 ? clock_now() : 0;
     for (int i = 0; i < count && !status; i++) {
-        if (i > 0 && (player_ended(player) || clock_now() - begin > SLICE))
+        if (i > 0 && (player_has_ended(player) || clock_now() - begin > SLICE))
             break;
         if (player_is_stopped(player) && !past_is_working(past))
             break;
@@ -108,7 +108,7 @@ static Status make_due_steps(Player *player)
     return status;
 }
 
-Status player_frame(Player *player)
+Status player_make_frame(Player *player)
 {
     double period =
         ldexp(1.0 / FRAME_RATE,
@@ -133,7 +133,7 @@ Status player_frame(Player *player)
     bool begins = works && player->time.work_start > start;
     bool lives = player->screen.sheet && player->screen.window;
     bool goes = !lives && !player_is_stopped(player) && due && !first &&
-                !player_ended(player);
+                !player_has_ended(player);
     if (!status && !begins && (works || goes)) {
         if (!works)
             player->time.due_time = fmax(player->time.due_time + period, now);
@@ -168,12 +168,12 @@ int player_find_wait_time(const Player *player)
 
 Status player_run(Player *player)
 {
-    Status status = player_frame(player);
-    while (!status && !player_ended(player)) {
+    Status status = player_make_frame(player);
+    while (!status && !player_has_ended(player)) {
         if (player->screen.window)
             player->screen.window->wait_for_input(
                 player_find_wait_time(player));
-        status = player_frame(player);
+        status = player_make_frame(player);
     }
     return status;
 }

@@ -145,7 +145,7 @@ int player_list_options(const Player *player, bool all,
                         const OptionRow *found[OPTIONS_MAX_ROWS]);
 
 /* Returns why a number has no effect now, or NULL. */
-const char *player_idle_reason(const Player *player, const OptionRow *row);
+const char *player_find_idle_reason(const Player *player, const OptionRow *row);
 
 /* Puts the value of a number after some notches of the wheel into the queue. */
 Status player_enqueue_notches(Player *player, const OptionRow *row,
@@ -163,7 +163,7 @@ Paper *player_prepare_paper(Player *player);
 /* Fills the frame, and draws it on a paper. */
 void player_paint_frame(Player *player, Paper *paper);
 
-/* ---- sheet.c, steps.c to keepsakes.c: functions of commands -------------- */
+/* ---- sheet.c, steps.c to saves.c: functions of commands ------------------ */
 
 /* A function that obeys a command.  Returns as player_obey. */
 typedef Status CommandFunction(Player *player, const Command *command);

@@ -252,7 +252,7 @@ static void put_numbers(Writer *to, const Player *player)
     int count = player_list_options(player, true, row);
     for (int i = 0; i < count; i++) {
         char value[COMMAND_TEXT_SIZE], unit[16];
-        const char *idle = player_idle_reason(player, row[i]);
+        const char *idle = player_find_idle_reason(player, row[i]);
         bool shown = false;
         for (int k = 0; k < player->screen.frame.options; k++)
             shown = shown || player->screen.frame.option[k] == row[i];

@@ -239,10 +239,10 @@ EMSCRIPTEN_KEEPALIVE int web_frame(void)
     if (!plays)
         return -1;
     do
-        status = player_frame(player);
-    while (!status && !player->screen.window && !player_ended(player) &&
+        status = player_make_frame(player);
+    while (!status && !player->screen.window && !player_has_ended(player) &&
            clock_now() < begin + SLICE);
-    if (!status && !player_ended(player))
+    if (!status && !player_has_ended(player))
         return player_is_idle(player) ? INT_MAX : player_find_wait_time(player);
     program_end(player, status);
     player_free(player);

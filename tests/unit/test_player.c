@@ -81,7 +81,7 @@ static void pass_time(int ticks)
 {
     while (ticks-- > 0) {
         wound += 1 / 240.0;
-        CHECK_OK(player_frame(&player));
+        CHECK_OK(player_make_frame(&player));
     }
 }
 
@@ -93,7 +93,7 @@ TEST(steps_are_due_at_the_speed_that_was_asked_for)
         begin_window("square --segments 1 --stretch 1 --velocity 3,4");
         while (player.time.log_speed != speed)
             CHECK_OK(obey(player.time.log_speed < speed ? "faster" : "slower"));
-        CHECK_OK(player_frame(&player)); /* the start is a frame, too */
+        CHECK_OK(player_make_frame(&player)); /* the start is a frame, too */
         const double every = ldexp(1, speed < 0 ? -speed : 0) / 60;
         CHECK_NEAR(player_find_wait_time(&player), fmin(1e3 * every, 200), 1);
         const long before = player.past.step;

@@ -1,4 +1,4 @@
-/* hands.c - turns inputs of keyboard and mouse into commands. */
+/* input.c - turns inputs of keyboard and mouse into commands. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-/* keepsakes.c - saves pictures, films and scripts under new names. */
+/* saves.c - saves pictures, films and scripts under new names. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
