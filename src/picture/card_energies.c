@@ -13,7 +13,7 @@ static const double MAX_AXIS_RATIO = 1000;
 static const double LOG_GROWTH = 1e6, LOG_HIGH = 1e9, LOG_LOW = 1e-12;
 static const double MIN_STEPS = 8; /* least length of the time axis, steps */
 /* Energies that never reach this part of the largest one have no curve. */
-static const double MIN_VISIBLE = 2e-3;
+static const double MIN_VISIBLE = 3e-3;
 /* Energies below this part of k side^2 are rounding errors. */
 static const double ROUNDING = 1e-20;
 static const double LEGEND_SIZE = 0.85; /* ems, size of the legend's letters */

@@ -29,11 +29,11 @@ typedef struct ShownRow {
 
 /* Tables and texts that cards.awk generates from cards.txt. */
 extern const Picture pictures[PICTURE_COUNT];
-extern const Card card_hessian_pattern, card_law, card_line, card_matrix,
+extern const Card card_hessian_pattern, card_law, card_line, card_eigenvalues,
     card_prints, card_race_table, card_tangent_numbers, card_updates;
 extern const ListingRow rows_listing[];
 extern const char text_sentences[], text_methods[], text_states[],
-    text_eigenvalues[], text_undrawn[], text_node[], text_spring[];
+    text_undrawn[], text_node[], text_spring[];
 
 /* Functions of one kind have the same parameters; some use only one. */
 #pragma GCC diagnostic ignored "-Wunused-parameter"
@@ -60,7 +60,7 @@ extern StagePick square_pick, circle_pick, tangent_pick, envelope_pick;
 extern StageSample square_sample_energies, mass_sample_energies;
 extern CardDraw page_draw, residual_log_draw, line_energy_draw, residual_draw,
     step_energy_draw, updates_draw, energies_draw, energy_budget_draw,
-    radius_draw, relief_draw, step_matrix_draw, tangent_numbers_draw, law_draw,
+    radius_draw, relief_draw, eigenvalues_draw, tangent_numbers_draw, law_draw,
     hessian_pattern_draw, spring_profile_draw, race_table_draw;
 extern CardTable residuals_fill_row, updates_fill_row, iterates_fill_row,
     race_fill_row, energies_legend_row;

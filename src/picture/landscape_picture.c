@@ -437,7 +437,7 @@ void dial_draw(Plot *stage)
         plot_disc(&plot, dial->point[i], 4.5, COLOUR_X);
     plot_disc(&plot, simulation->run[0].x, 9, COLOUR_TEXT);
     plot_label(&plot, 1, simulation->exhibit.x_tilde, COLOUR_X_TILDE, "{xt}");
-    for (int i = points - 11; i > 0; i -= 10)
+    for (int i = points - 11; i > 10; i -= 10)
         plot_label(&plot, 1, dial->point[i], COLOUR_X, "h %s %s s",
                    i == points - 11 ? "\u2265" : "=",
                    format_number(dial->h[i]).text);

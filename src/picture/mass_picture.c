@@ -15,8 +15,8 @@ static const double CIRCLE_MAX = 4;      /* m, largest radius that is shown */
 static const double TWO_PI = 6.283185307179586;
 static const double EIGEN_REACH = 1.35; /* least half side of the plane */
 static const double EIGEN_MAX = 5;      /* largest eigenvalue that is shown */
-/* Room for the matrix and its eigenvalues, ems. */
-static const double MATRIX_WIDE = 16.4, MATRIX_HIGH = 12;
+/* Room for the eigenvalues as numbers, ems. */
+static const double NUMBERS_WIDE = 16.4, NUMBERS_HIGH = 9;
 static const double origin[2] = {0, 0};
 
 /* Returns the colour of a run's method, or of x for the one mass of arrows. */
@@ -109,16 +109,12 @@ void circle_pick(const Plot *stage, double x, double y, Pick *pick)
             pick->index = r;
 }
 
-/* The matrix {xx, xv; -xv, vv} by which a step multiplies (x, v/omega). */
-typedef struct StepMatrix {
-    double xx, xv, vv;
-    double lambda[2][2]; /* real, imaginary part of both; real ones ascend */
-} StepMatrix;
-
-/* Computes the matrix of a step with t = h omega.  Returns false unless the
- * method is one of the three Euler methods. */
-static bool find_step_matrix(const IntegratorMethod *method, double t,
-                             StepMatrix *step)
+/* Finds the eigenvalues of the matrix {xx, xv; -xv, vv} by which a step with
+ * t = h omega multiplies (x, v/omega).  Returns false unless the method is one
+ * of the three Euler methods.
+ *   lambda  [2][2] real and imaginary parts, out; real ones ascend */
+static bool find_eigenvalues(const IntegratorMethod *method, double t,
+                             double lambda[2][2])
 {
     bool forward = strcmp(method->name, "forward-euler") == 0;
     double k = 1 / (1 + t * t), xx = forward ? 1 : 1 - t * t, xv = t, vv = 1;
@@ -130,21 +126,21 @@ static bool find_step_matrix(const IntegratorMethod *method, double t,
     double re = 0.5 * (xx + vv), square = re * re - xx * vv - xv * xv;
     double root = sqrt(fabs(square)), im = square < 0 ? root : 0;
     double half = square < 0 ? 0 : root;
-    *step = (StepMatrix){xx, xv, vv, {{re - half, -im}, {re + half, im}}};
+    lambda[0][0] = re - half;
+    lambda[0][1] = -im;
+    lambda[1][0] = re + half;
+    lambda[1][1] = im;
     return true;
 }
 
-static void add_step_matrix(const IntegratorMethod *method, double t,
+static void add_eigenvalues(const IntegratorMethod *method, double t,
                             LiveValues *values)
 {
-    StepMatrix step;
-    if (!find_step_matrix(method, t, &step))
+    double lambda[2][2];
+    if (!find_eigenvalues(method, t, lambda))
         return;
-    const double *least = step.lambda[0], *most = step.lambda[1];
+    const double *least = lambda[0], *most = lambda[1];
     bool pair = most[1] > 0;
-    values_add(values, "Sxx", step.xx);
-    values_add(values, "Sxv", step.xv);
-    values_add(values, "Svv", step.vv);
     values_add(values, "re", pair ? most[0] : NAN);
     values_add(values, "im", most[1]);
     values_add(values, "least", pair ? NAN : least[0]);
@@ -157,16 +153,16 @@ static void draw_eigenvalues(const Plot *plot, const IntegratorMethod *method,
                              double turn)
 {
     Colour colour = colour_of_name(method->name);
-    StepMatrix before, step;
+    double before[2][2], now[2][2];
     for (int i = 0; i <= EIGEN_PIECES; i++) {
-        if (!find_step_matrix(method, turn * i / EIGEN_PIECES, &step))
+        if (!find_eigenvalues(method, turn * i / EIGEN_PIECES, now))
             return;
         for (int k = 0; k < 2 && i > 0; k++)
-            plot_line(plot, before.lambda[k], step.lambda[k], 1.4, colour);
-        before = step;
+            plot_line(plot, before[k], now[k], 1.4, colour);
+        memcpy(before, now, sizeof now);
     }
     for (int k = 0; k < 2; k++)
-        plot_disc(plot, step.lambda[k], 5, colour);
+        plot_disc(plot, now[k], 5, colour);
 }
 
 /* Draws the complex plane, the unit circle and the eigenvalues of all runs. */
@@ -175,12 +171,11 @@ static void draw_complex_plane(const Plot *card)
     static const double one[2] = {1, 0}, i[2] = {0, 1};
     const Simulation *simulation = card->simulation;
     double turn = simulation->run[0].h * TWO_PI, most = 0;
-    double bounds[4];
-    StepMatrix step;
+    double bounds[4], lambda[2][2];
     for (int r = 0; r < simulation->runs; r++)
         for (int k = 0; k < 2; k++)
-            if (find_step_matrix(simulation->run[r].method, turn, &step))
-                most = fmax(most, vector_length(step.lambda[k]));
+            if (find_eigenvalues(simulation->run[r].method, turn, lambda))
+                most = fmax(most, vector_length(lambda[k]));
     bounds_make_square(EIGEN_REACH, 1.1 * fmin(most, EIGEN_MAX), 1.2, bounds);
     Plot plot = *card;
     plot.camera = camera_create(card->box, bounds, false, &LENS_FITS);
@@ -196,9 +191,9 @@ static void draw_complex_plane(const Plot *card)
     plot_label(&plot, 1, i, COLOUR_FAINT, "i");
 }
 
-/* Draws the matrix and its eigenvalues as numbers, and the complex plane at the
- * right, in a high card below.  In a low card the matrix is left out. */
-void step_matrix_draw(const Plot *card)
+/* Draws the eigenvalues as numbers, and the complex plane at the right, in a
+ * high card below. */
+void eigenvalues_draw(const Plot *card)
 {
     Plot numbers = *card, plane = *card;
     const Box *box = &card->box;
@@ -206,23 +201,22 @@ void step_matrix_draw(const Plot *card)
         draw_complex_plane(card);
         return;
     }
-    int wide = paper_pixels(card->paper, MATRIX_WIDE);
-    int high = paper_pixels(card->paper, MATRIX_HIGH);
+    int wide = paper_pixels(card->paper, NUMBERS_WIDE);
+    int high = paper_pixels(card->paper, NUMBERS_HIGH);
     int rest = box->width - wide;
     if (box->height > box->width)
         plane.box = box_cut_off(&numbers.box, EDGE_BOTTOM, box->height - high);
     else
         plane.box = box_cut_off(&numbers.box, EDGE_RIGHT,
                                 rest < box->height ? rest : box->height);
-    card_write_text(&numbers, &card->pane->values,
-                    box->height < high ? text_eigenvalues : card_matrix.words);
+    card_write_text(&numbers, &card->pane->values, card_eigenvalues.words);
     Box before = canvas_set_clip(&card->paper->canvas, plane.box);
     draw_complex_plane(&plane);
     canvas_set_clip(&card->paper->canvas, before);
 }
 
 /* Adds name and distance from the origin of each run, and h.  In the scene
- * circle, also adds the matrix of a step of each run. */
+ * circle, also adds the eigenvalues of each run's step. */
 void circle_add_values(const Simulation *simulation, LiveValues *values)
 {
     double turn = simulation->run[0].h * TWO_PI; /* h omega */
@@ -236,7 +230,7 @@ void circle_add_values(const Simulation *simulation, LiveValues *values)
         values_add_words(values, "name", run->method->label);
         values_add(values, "radius", vector_length(run->x));
         if (circle)
-            add_step_matrix(run->method, turn, values);
+            add_eigenvalues(run->method, turn, values);
     }
     values->run = 0;
     if (circle && strcmp(first, "forward-euler") == 0) /* steps */
@@ -297,17 +291,19 @@ static void draw_step_error(const Plot *stage, const MassStep *step, double h,
     plot_label(stage, 2, at->xy, COLOUR_WARNING, "%s", words);
 }
 
-/* Draws what a page explains: the exact end of the step; for forward Euler its
- * error; for symplectic Euler with h < 2 the ellipse through the steps. */
+/* Draws what a page explains: the exact end of the step; for forward Euler the
+ * error, whose labels have room in the first step; for symplectic Euler with
+ * h < 2 the ellipse through the steps. */
 static void draw_mass_lesson(Plot *stage, const MassStep *step)
 {
     double h = stage->simulation->run[0].h;
     const Point end = find_exact_position(step, h);
     plot_hollow_disc(stage, end.xy, 6, 3.4, COLOUR_GREY);
-    if (step->moves_by_old_v) {
+    bool first = stage->simulation->steps == 0;
+    if (step->moves_by_old_v && first)
         draw_step_error(stage, step, 0.5 * h, "with h/2: a quarter");
-        draw_step_error(stage, step, h, "\u00bdh\u00b2 a^{n}");
-    }
+    if (step->moves_by_old_v)
+        draw_step_error(stage, step, h, first ? "\u00bdh\u00b2 a^{n}" : "");
     plot_label(stage, 1, end.xy, COLOUR_FAINT, "exact");
     bool symplectic =
         !step->moves_by_old_v && !stage->simulation->run[0].method->is_implicit;
@@ -359,7 +355,7 @@ static void draw_mass_step(Plot *stage)
         Point at[4];
         for (int k = 0; k < 4; k++)
             at[k] = point_along(now->a, part[k], now->d);
-        if (vector_length(now->d) * stage->camera.scale[0] > 2 * stage->em)
+        if (vector_length(now->d) * stage->camera.scale[0] > 4 * stage->em)
             plot_label(stage, 4, at->xy, now->colour, "%s", now->label);
     }
 }
@@ -438,11 +434,8 @@ void mass_add_values(const Simulation *simulation, LiveValues *values)
     if (!step.moves_by_old_v && !backward) {
         values_add(values, "h limit", 2);
         values_add_flag(values, "ellipse", h < 2);
-        if (h < 2) { /* beyond, growth makes the invariant inexact */
+        if (h < 2) /* beyond, growth makes the invariant inexact */
             values_add(values, "kept", symplectic_invariant(step.x, step.v, h));
-            values_add(values, "kept later",
-                       symplectic_invariant(step.new_x, step.new_v, h));
-        }
     }
     values_add(values, "miss",
                point_distance(step.new_x, find_exact_position(&step, h).xy));

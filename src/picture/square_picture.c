@@ -649,13 +649,11 @@ static void add_force_values(const Simulation *simulation, const double *x,
                              LiveValues *values)
 {
     int last = simulation->system.nodes - 1, balanced = 0;
-    double a[2 * MAX_NUMBERED] = {0}, m = simulation->system.m[last];
-    double *at = a + 2 * last;
+    double a[2 * MAX_NUMBERED] = {0}, *at = a + 2 * last;
     system_acceleration(&simulation->system, x, a);
     for (int i = 0; i <= last; i++)
         balanced += vector_length(a + 2 * i) <= 1e-9 * vector_length(at);
     values_add_point(values, "a", at);
-    values_add_point(values, "f", (double[2]){m * at[0], m * at[1]});
     values_add(values, "last", last);
     values_add(values, "balanced", balanced);
     values_add(values, "elastic", system_potential(&simulation->system, x));
@@ -746,9 +744,6 @@ void square_add_values(const Simulation *simulation, LiveValues *values)
         double omega = simulation_find_fastest_mode(simulation, start, mode);
         values_add(values, "fastest", omega);
         values_add(values, "h limit", 2 / omega);
-        double turn = omega * options->timestep, t = 0.5 * turn * turn - 1;
-        values_add(values, t > 1 ? "h omega" : "short h omega", turn);
-        values_add(values, "growth", t > 1 ? t + sqrt(t * t - 1) : NAN);
     }
     if (options->layers & LAYER_FORCES && nodes <= MAX_NUMBERED)
         add_force_values(simulation, x, values);
