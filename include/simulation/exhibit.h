@@ -78,8 +78,6 @@ typedef struct RacePoint {
     double error;   /* m, most that a node is off the reference; NaN: failed */
     double seconds; /* s, processor time */
     bool converged; /* every step converged */
-    /* Energy after 1 s over that at the start; only in RACE_SHOWN_ROW. */
-    double energy_after_second;
     bool is_stable; /* the energy stays bounded when the run goes on */
 } RacePoint;
 

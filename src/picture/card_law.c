@@ -86,9 +86,9 @@ static const Law laws[] = {
      &self_contact_energy, friction_force_ratio, 0, 2, true},
     {"triangle", "J", "\u03a8 in J/m\u00b2", &neo_hookean_energy,
      &neo_hookean_energy, triangle_energy_density, 0, 1.5, false},
-    {"yield", "strain s", "f/(2k|d|)", &plastic_energy, NULL, flow_force_at, -1,
+    {"yield", "strain s", "scaled force", &plastic_energy, NULL, flow_force_at, -1,
      1, false},
-    {"break", "s/s_{c}", "f/(2k|d| s_{c})", &fracture, NULL,
+    {"break", "s/s_{c}", "scaled force", &fracture, NULL,
      breaking_force_ratio, 0, 1.3, false},
 };
 
@@ -301,7 +301,7 @@ void law_draw(const Plot *card)
             plot_line(&plot, from, to, 2.4, COLOUR_PLASTIC);
             plot_line(&plot, to, (double[2]){x, y}, 2.4, COLOUR_PLASTIC);
         }
-        plot_ring(&plot, rest, 4, 2, COLOUR_PLASTIC);
+        plot_ring(&plot, rest, 9, 2, COLOUR_PLASTIC);
         plot_label(&plot, 1, rest, COLOUR_PLASTIC, "s_{p}");
     }
     if (!isnan(x))

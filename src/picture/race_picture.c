@@ -9,14 +9,27 @@ enum { HALVED = 2 }; /* number of the table's columns for halved time steps */
 static const double NAMES_WIDTH = 45;    /* ems; a narrower plot has no names */
 static const double TARGET_ERROR = 0.01; /* m, largest error of a fast run */
 
-/* Returns bounds in powers of ten: h or run time, and error. */
+/* Returns bounds in powers of ten: h or run time, and error.  All points are
+ * within the bounds, except errors below 1e-8 m and above 10 m. */
 void race_bounds(const Plot *stage, double bounds[4])
 {
+    const Race *race = &stage->simulation->exhibit.race;
     bool over_h = stage->simulation->exhibit.switches;
-    bounds[0] = over_h ? -4.8 : -7.6;
-    bounds[1] = -8.6;
-    bounds[2] = over_h ? -1.9 : 0.3;
-    bounds[3] = 2.5; /* room for the switch above */
+    bounds[0] = over_h ? -4.8 : -6;
+    bounds[1] = -6.6;
+    bounds[2] = over_h ? -1.9 : -1.4;
+    bounds[3] = 1.2; /* room for the switch above */
+    for (int i = 0; i < race->count; i++) {
+        const RacePoint *point = &race->point[i];
+        double x = log10(over_h ? point->h : point->seconds);
+        double y = fmin(fmax(log10(point->error), -8), 1);
+        if (!(point->error > 0))
+            continue;
+        bounds[0] = fmin(bounds[0], x - 0.3);
+        bounds[1] = fmin(bounds[1], y - 0.3);
+        bounds[2] = fmax(bounds[2], x + (over_h ? 0.2 : 0.9)); /* a name */
+        bounds[3] = fmax(bounds[3], y + 1);
+    }
 }
 
 /* Draws a curve through the points of each method; points of runs that explode
@@ -101,8 +114,8 @@ static void format_cell(char cell[CARD_CELL], const char *sign, double value)
                  format_digits(value, 2).text);
 }
 
-/* Fills a row: row 0 with heads, else with a method's error at h = 4 ms, m, the
- * factor by which half of h divides the error, that of the energy after 1 s. */
+/* Fills a row: row 0 with heads, else with a method's error at h = 4 ms, m, and
+ * the factors by which half of h divides the error. */
 bool race_fill_row(const FrameContent *content, int row, CardTableRow *cells)
 {
     const Race *race = &active_pane(content)->simulation->exhibit.race;
@@ -116,10 +129,8 @@ bool race_fill_row(const FrameContent *content, int row, CardTableRow *cells)
     cells->colour = colour_of_name(shown->name);
     snprintf(cell[0], CARD_CELL, "%s", shown->label);
     if (race->count > point - race->point) {
+        snprintf(cell[1], CARD_CELL, "explodes");
         format_cell(cell[1], "", point->error);
-        if (isnan(point->energy_after_second))
-            snprintf(cell[2 + HALVED], CARD_CELL, "explodes");
-        format_cell(cell[2 + HALVED], "\u00d7 ", point->energy_after_second);
     }
     for (int k = 1; k <= HALVED; k++) {
         const RacePoint *half = point + RACE_METHODS;
@@ -134,6 +145,6 @@ bool race_fill_row(const FrameContent *content, int row, CardTableRow *cells)
 
 void race_table_draw(const Plot *card)
 {
-    static const int order[CARD_COLUMNS] = {0, 1, 4, 2, 3};
+    static const int order[CARD_COLUMNS] = {0, 1, 2, 3};
     card_draw_table(card, &card_race_table, order);
 }

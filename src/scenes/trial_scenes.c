@@ -139,16 +139,6 @@ static bool run_is_stable(const Simulation *simulation, TimeIntegrator *run)
                RACE_MAX_ENERGY * find_energy(&simulation->run[0]);
 }
 
-/* Returns a run's energy after 1 s over that at the start; NaN: failure. */
-static double find_energy_ratio(const Simulation *simulation,
-                                TimeIntegrator *run)
-{
-    while (run->clock.time + 0.5 * run->h < 1)
-        if (status_is_failure(time_integrator_step(run)))
-            return NAN;
-    return find_energy(run) / find_energy(&simulation->run[0]);
-}
-
 /* Measures the processor time of a run.  The run is repeated until a clock that
  * ticks in tenths of a millisecond, as in a browser, is accurate enough; the
  * least of several measurements counts, because disturbances only add time. */
@@ -187,8 +177,7 @@ Status race_measure_method(Simulation *simulation,
     const double *exact = simulation->run[1].x;
     *point = (RacePoint){.method = method,
                          .h = time / (double)steps,
-                         .error = NAN,
-                         .energy_after_second = NAN};
+                         .error = NAN};
     Status status = measure_run_time(simulation, method, point->h, steps, run,
                                      &point->seconds);
     point->converged = status == STATUS_OK;
@@ -220,11 +209,8 @@ Status step_race(Simulation *simulation)
     }
     Status status =
         race_measure_method(simulation, method, RACE_TIME, steps, &run, point);
-    if (!status) {
-        if (race->count / RACE_METHODS == RACE_SHOWN_ROW)
-            point->energy_after_second = find_energy_ratio(simulation, &run);
+    if (!status)
         point->is_stable = run_is_stable(simulation, &run);
-    }
     time_integrator_free(&run);
     if (status && status != STATUS_NOT_FINITE)
         return status;

@@ -149,10 +149,9 @@ static const Race *run_race(const char *options)
     return &simulation->exhibit.race;
 }
 
-/* Page order: halving h divides the error by 2 or 4, and the energy after a
- * second is that of the same run made alone.  With stiff springs no explicit
- * run succeeds, and every implicit one does. */
-TEST(the_race_measures_errors_and_energies)
+/* Page order: halving h divides the error by 2 or 4.  With stiff springs no
+ * explicit run succeeds, and every implicit one does. */
+TEST(the_race_measures_errors)
 {
     static const double factor[RACE_METHODS] = {2, 4, 2, 4};
     enum { VERLET = 1 }; /* h = 8 ms comes first, then 4 ms */
@@ -165,16 +164,6 @@ TEST(the_race_measures_errors_and_energies)
         /* terms of higher order: a quarter */
         CHECK_NEAR((point - RACE_METHODS)->error / point->error, factor[i],
                    0.25 * factor[i]);
-        point = &race->point[RACE_SHOWN_ROW * RACE_METHODS + i];
-        CHECK_NEAR(point->h, 0.004, 1e-15);
-        Simulation *again =
-            simulate("square --stretch 1.1 --tolerance 1e-8 --timestep 0.004 "
-                     "--gravity 9.81 --pin 4 --integrator %s",
-                     point->method->name);
-        double start = simulation_energies(again, 0).total;
-        Energies end = simulation_energies(make_steps(again, 250), 0);
-        CHECK_NEAR(point->energy_after_second,
-                   (end.total - end.gravity) / start, 1e-6);
     }
     CHECK(!race->point[VERLET].is_stable);
     CHECK(race->point[RACE_METHODS + VERLET].is_stable);
