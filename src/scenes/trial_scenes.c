@@ -175,9 +175,8 @@ Status race_measure_method(Simulation *simulation,
                            long steps, TimeIntegrator *run, RacePoint *point)
 {
     const double *exact = simulation->run[1].x;
-    *point = (RacePoint){.method = method,
-                         .h = time / (double)steps,
-                         .error = NAN};
+    *point =
+        (RacePoint){.method = method, .h = time / (double)steps, .error = NAN};
     Status status = measure_run_time(simulation, method, point->h, steps, run,
                                      &point->seconds);
     point->converged = status == STATUS_OK;
