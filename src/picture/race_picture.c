@@ -9,8 +9,8 @@ enum { HALVED = 2 }; /* number of the table's columns for halved time steps */
 static const double NAMES_WIDTH = 45;    /* ems; a narrower plot has no names */
 static const double TARGET_ERROR = 0.01; /* m, largest error of a fast run */
 
-/* Returns bounds in powers of ten: h or run time, and error.  All points are
- * within the bounds, except errors below 1e-8 m and above 10 m. */
+/* Returns bounds in powers of ten: h or run time, and error.  Errors
+ * below 1e-8 m and above 10 m may be outside. */
 void race_bounds(const Plot *stage, double bounds[4])
 {
     const Race *race = &stage->simulation->exhibit.race;
