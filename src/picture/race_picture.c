@@ -6,7 +6,7 @@
 #include "picture/cards.h"
 
 enum { HALVED = 2 }; /* number of the table's columns for halved time steps */
-static const double NAMES_WIDTH = 45;    /* ems; a narrower plot has no names */
+static const double NAMES_WIDTH = 20;    /* ems; a narrower plot has no names */
 static const double TARGET_ERROR = 0.01; /* m, largest error of a fast run */
 
 /* Returns bounds in powers of ten: h or run time, and error.  Errors
@@ -15,9 +15,9 @@ void race_bounds(const Plot *stage, double bounds[4])
 {
     const Race *race = &stage->simulation->exhibit.race;
     bool over_h = stage->simulation->exhibit.switches;
-    bounds[0] = over_h ? -4.8 : -6;
-    bounds[1] = -6.6;
-    bounds[2] = over_h ? -1.9 : -1.4;
+    bounds[0] = over_h ? -4.8 : -6.4;
+    bounds[1] = -7.4;
+    bounds[2] = over_h ? -1.9 : -0.9; /* names */
     bounds[3] = 1.2; /* room for the switch above */
     for (int i = 0; i < race->count; i++) {
         const RacePoint *point = &race->point[i];
@@ -25,9 +25,9 @@ void race_bounds(const Plot *stage, double bounds[4])
         double y = fmin(fmax(log10(point->error), -8), 1);
         if (!(point->error > 0))
             continue;
-        bounds[0] = fmin(bounds[0], x - 0.3);
+        bounds[0] = fmin(bounds[0], x - 0.6);
         bounds[1] = fmin(bounds[1], y - 0.3);
-        bounds[2] = fmax(bounds[2], x + (over_h ? 0.2 : 0.9)); /* a name */
+        bounds[2] = fmax(bounds[2], x + 0.2);
         bounds[3] = fmax(bounds[3], y + 1);
     }
 }
