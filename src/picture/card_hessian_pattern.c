@@ -67,6 +67,7 @@ static void draw_pattern(const Plot *card, Box square, bool natural,
     int lit = hover->kind == PICK_SPRING    ? hover->index
               : card->content->lecture.page ? springs - 1
                                             : -1;
+    canvas_framed_box(canvas, box_inset(square, -2), COLOUR_WHITE, COLOUR_GREY);
     for (int j = 0; block && j < n; j++)
         for (int i = j; i < n; i++) {
             int at = block[(size_t)j * (size_t)n + i];
@@ -91,19 +92,23 @@ static void draw_pattern(const Plot *card, Box square, bool natural,
 }
 
 /* Draws the patterns in the nodes' order and in the order of elimination; while
- * the Hessian is assembled the first alone. */
+ * the Hessian is assembled the first alone, with the newest spring's triplets
+ * at the right of a high card. */
 void hessian_pattern_draw(const Plot *card)
 {
     Paper *paper = card->paper;
     const System *system = &card->simulation->system;
     bool writes = card->simulation->options.next == NEXT_SPRING;
-    bool has_text = !card->content->in_document;
+    const double list_height = 28; /* ems */
+    Plot triplets = *card;
     Box inside = card->box;
-    int line = paper_pixels(paper, 1.4), below = paper_pixels(paper, 9);
-    int high = inside.height - line, count = writes ? 1 : 2;
-    int side = (inside.width - (count - 1) * line) / count;
-    if (writes && has_text && 2 * below < inside.height)
-        high -= below;
+    bool has_list = writes && !card->content->in_document &&
+                    inside.height > list_height * paper->em;
+    int line = paper_pixels(paper, 1.4), count = writes ? 1 : 2;
+    if (has_list)
+        triplets.box = box_cut_off(&inside, EDGE_RIGHT, inside.width / 3);
+    int high = inside.height - line;
+    int side = (inside.width - count * line) / count;
     side = side < high ? side : high;
     int springs =
         writes ? find_newest_spring(card->simulation) + 1 : system->springs;
@@ -119,8 +124,6 @@ void hessian_pattern_draw(const Plot *card)
                     k ? "order of elimination" : "node i: rows 2i, 2i + 1");
         draw_pattern(card, (Box){x, inside.y + line, side, side}, !k, springs);
     }
-    Plot rest = *card; /* below the patterns: text on the newest spring */
-    box_cut_off(&rest.box, EDGE_TOP, 2 * line + side);
-    if (rest.box.height > 7 * paper->em && has_text)
-        card_write_text(&rest, &card->pane->values, card_hessian_pattern.words);
+    if (has_list)
+        card_write_text(&triplets, &card->pane->values, text_triplets);
 }

@@ -5,10 +5,12 @@
 
 enum { LINE_POINTS = 161 };
 
-/* The axis of alpha ends at AXIS_END times the first trial.  The axis of E
+/* The axis of alpha ends at AXIS_END times the first trial, or at PAGE_END
+ * times beside the curve of the projected p.  The axis of E
  * reaches above 0 at most MAX_ABOVE times as far as the curves below, or
  * MAX_UPHILL times if p points uphill. */
-static const double AXIS_END = 1.42, MAX_ABOVE = 2.2, MAX_UPHILL = 10;
+static const double AXIS_END = 1.42, PAGE_END = 1.1, MAX_ABOVE = 2.2,
+                    MAX_UPHILL = 10;
 static const double WORD_SIZE = 0.88;  /* ems, size of the words above */
 static const double ROW_HEIGHT = 1.25; /* ems, height of a row of words */
 static const double WORDS_WIDTH = 28;  /* ems, room for all words in a row */
@@ -32,7 +34,7 @@ static double line_energy_at(const Trace *trace, double alpha)
 static void fill_curves(const Trace *trace, const Trace *other,
                         LineCurves *curves)
 {
-    double end = AXIS_END * trace_step_length(trace, 1);
+    double end = (other ? PAGE_END : AXIS_END) * trace_step_length(trace, 1);
     double low = 0, high = 0;
     for (int i = 0; i < LINE_POINTS; i++) {
         double alpha = end * i / (LINE_POINTS - 1);

@@ -204,7 +204,8 @@ void card_draw_table(const Plot *card, const Card *table, const int *order)
     double size = fmin(box->width / all, box->height / (rows * CARD_ROW * em));
     size = fmin(fmax(size, 1), largest);
     double rest = box->width / size + gap;
-    for (; columns < cells.columns && wide[order[columns]] + gap <= rest;
+    for (; columns < cells.columns && order[columns] >= 0 &&
+           wide[order[columns]] + gap <= rest;
          columns++) {
         rest -= wide[order[columns]] + gap;
         shown[order[columns]] = true;

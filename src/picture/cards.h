@@ -29,11 +29,11 @@ typedef struct ShownRow {
 
 /* Tables and texts that cards.awk generates from cards.txt. */
 extern const Picture pictures[PICTURE_COUNT];
-extern const Card card_hessian_pattern, card_law, card_line, card_eigenvalues,
-    card_prints, card_race_table, card_tangent_numbers, card_updates;
+extern const Card card_law, card_line, card_eigenvalues, card_prints,
+    card_race_table, card_tangent_numbers, card_updates;
 extern const ListingRow rows_listing[];
 extern const char text_sentences[], text_methods[], text_states[],
-    text_undrawn[], text_node[], text_spring[];
+    text_triplets[], text_undrawn[], text_node[], text_spring[];
 
 /* Functions of one kind have the same parameters; some use only one. */
 #pragma GCC diagnostic ignored "-Wunused-parameter"
@@ -115,7 +115,7 @@ void card_write_hint(const Plot *card, const char *text);
 /* Draws a table with columns as wide as their widest cells, rows without a
  * first cell apart.  Columns without room are left out, the last ones in
  * `order` first; of rows without room, those that follow row 1. order
- * [CARD_COLUMNS] in, numbers of all columns */
+ * [CARD_COLUMNS] in, numbers of the columns; -1 ends them */
 void card_draw_table(const Plot *card, const Card *table, const int *order);
 
 /* Returns what a row of a listing shows. */

@@ -75,7 +75,7 @@ static void draw_contour_map(const Plot *plot)
            e = find_contour_scale(simulation);
     const Box *box = &plot->box;
     bool curves = simulation->options.layers & LAYER_CURVES;
-    Colour contour = curves ? COLOUR_GRID : COLOUR_GREY;
+    Colour contour = curves ? COLOUR_REST : COLOUR_GREY;
     Box before = canvas_set_clip(canvas, *box);
     canvas_fill(canvas, *box, COLOUR_WHITE);
     for (int j = box->y; j < box->y + box->height; j += 2)
@@ -276,10 +276,6 @@ void landscape_add_values(const Simulation *simulation, LiveValues *values)
     LocalModel E = evaluate_energy(simulation, x);
     values_add_point(values, "place", x);
     values_add_point(values, "x tilde", simulation->exhibit.x_tilde);
-    for (int k = 0; k < 2; k++) /* values below rounding become 0 */
-        E.g[k] = fabs(E.g[k]) < 1e-15 ? 0 : E.g[k];
-    values_add_point(values, "g", E.g);
-    values_add_point(values, "solution", descent->direction);
     values_add(values, "slope", descent->slope != 0 ? descent->slope : NAN);
     unsigned layers = simulation->options.layers;
     bool raw_start = simulation->options.projection == PROJECTION_NONE &&
@@ -291,9 +287,6 @@ void landscape_add_values(const Simulation *simulation, LiveValues *values)
         values_add_flag(values, "directions",
                         raw_start && layers & LAYER_DOWNHILL);
     }
-    bool convex = landscape_is_convex(&E);
-    values_add_flag(values, convex ? "convex" : "shaded", true);
-    values_add_flag(values, "moves", descent->slope != 0);
     values_add(values, "E", energy_of_parts(simulation, parts, x));
     values_add(values, "bowl", energy_of_parts(simulation, PART_INERTIA, x));
     values_add(values, "elastic part",

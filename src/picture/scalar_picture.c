@@ -167,7 +167,6 @@ void scalar_add_values(const Simulation *simulation, LiveValues *values)
     values_add_flag(values, "refused lengths", update.refused_lengths > 0);
     values_add(values, "iterate", x);
     values_add(values, "next", next);
-    values_add(values, "double sinh", sinh(2 * x));
     values_add_flag(values, "no length", !(update.alpha > 0));
     values_add_flag(values, "full length", update.alpha >= 1);
     if (update.alpha > 0 && update.alpha < 1)

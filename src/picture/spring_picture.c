@@ -163,7 +163,6 @@ void spring_add_values(const Simulation *simulation, LiveValues *values)
                project_eigenvalue(projection, along));
     values_add(values, "projected across",
                project_eigenvalue(projection, across));
-    values_add(values, "negative", fmin(fmin(along, across), 0));
     for (int i = 0; i < 2; i++) { /* the Hessian before and after projection */
         spring_hessian(d, l2, k, i == 0 ? PROJECTION_NONE : projection, H);
         values_add_matrix(values, names[i], H, 1e-12 * k);
@@ -174,7 +173,6 @@ void spring_add_values(const Simulation *simulation, LiveValues *values)
     values_add_flag(values, page ? "lecture" : "alone", true);
     values_add_flag(values, "pulled",
                     !(simulation->options.layers & LAYER_MODES));
-    values_add(values, "tip", root_energy_at_length(system, 0));
     values_add_flag(values, "shortened", now.eigenvalue_across < 0);
     values_add(values, "root energy", both ? now.root_energy : NAN);
     values_add(values, "root along", both ? now.root_along : NAN);

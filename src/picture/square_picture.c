@@ -634,6 +634,7 @@ static void add_block_values(const Simulation *simulation, LiveValues *values)
     const int *e = system->e + 2 * s;
     double d[2], H[3], l2 = system->l2[s], h = simulation->options.timestep;
     double k = h * h * system->k[s];
+    values_add(values, "newest", s);
     for (int i = 0; i < 4; i++)
         values_add(values, rows[i], 2 * e[i / 2] + i % 2);
     values_add_flag(values, "assembled", true);
@@ -660,7 +661,7 @@ static void add_force_values(const Simulation *simulation, const double *x,
 }
 
 /* Adds the sums of (q . g)^2 / lambda over the negative and the positive
- * eigenvalues of H at the run's start, g . p, and the longest term of p. */
+ * eigenvalues of H at the run's start, and g . p. */
 static void add_slope_values(const Simulation *simulation, LiveValues *values)
 {
     enum { MOST = 2 * MAX_EIGENVALUES, SWEEPS = 10 };
@@ -668,7 +669,7 @@ static void add_slope_values(const Simulation *simulation, LiveValues *values)
     double A[MOST + 1][MOST + 1] = {{0}}; /* H, and g as its last column */
     double x[MOST], a[MOST] = {0}, one[MOST] = {0}, sum[2] = {0};
     double h2 = simulation->options.timestep * simulation->options.timestep;
-    int n = 2 * system->nodes, far = 0;
+    int n = 2 * system->nodes;
     compute_rest_positions(simulation, x);
     for (int i = 0; i < n; i += 2)
         x[i] *= simulation->options.stretch;
@@ -695,16 +696,11 @@ static void add_slope_values(const Simulation *simulation, LiveValues *values)
             *v = s * u_before + c * *v;
         }
     }
-    for (int i = 0; i < n; i++) {
+    for (int i = 0; i < n; i++)
         sum[A[i][i] < 0] += A[i][n] * A[i][n] / A[i][i];
-        if (fabs(A[i][n] / A[i][i]) > fabs(A[far][n] / A[far][far]))
-            far = i;
-    }
     values_add(values, "lower sum", sum[1]);
     values_add(values, "upper sum", sum[0]);
     values_add(values, "first slope", -sum[0] - sum[1]);
-    values_add(values, "longest", fabs(A[far][n] / A[far][far]));
-    values_add(values, "longest lambda", A[far][far]);
 }
 
 /* Adds the values of mesh, law, fastest mode and forces, which pages use. */
@@ -732,10 +728,6 @@ void square_add_values(const Simulation *simulation, LiveValues *values)
     values_add(values, "k", options->stiffness);
     values_add(values, "stretch", options->stretch);
     values_add(values, "h", options->timestep);
-    const int *e = system->e + 2 * find_newest_spring(simulation);
-    values_add(values, "newest", find_newest_spring(simulation));
-    values_add(values, "from", e[0]);
-    values_add(values, "to", e[1]);
     if (options->next == NEXT_SPRING)
         add_block_values(simulation, values);
     law_add_values(simulation, values);
