@@ -26,7 +26,7 @@ typedef struct Command {
     long number; /* index of a node, card, obstacle, row of options, ... */
     double x, y; /* place, m; x also the numeric value of an option */
     char text[COMMAND_TEXT_SIZE]; /* name or value that is no number, or "" */
-    bool joined; /* is undone together with the command before: "& set ..." */
+    bool joins_gesture; /* is a part of the present gesture: "& set" */
 } Command;
 
 /* The part of the window that gets the keys; a row can name several. */

@@ -148,8 +148,8 @@ Status command_parse(const char *line, Command *command, Message message)
     char word[COMMAND_TEXT_SIZE], next[COMMAND_TEXT_SIZE];
     int kind = 1;
     line += strspn(line, blanks);
-    *command = (Command){.joined = *line == '&'};
-    line += command->joined;
+    *command = (Command){.joins_gesture = *line == '&'};
+    line += command->joins_gesture;
     take_next_word(&line, word);
     while (kind < COMMAND_KINDS && (!command_rows[kind].name ||
                                     strcmp(command_rows[kind].name, word) != 0))
@@ -175,7 +175,7 @@ void command_format(const Command *command, char *line, size_t size)
     const OptionRow *option = NULL;
     if (row->args && row->args[0] == 'O' && command->number >= 0)
         option = &option_rows[command->number];
-    snprintf(line, size, "%s%s", command->joined ? "& " : "", row->name);
+    snprintf(line, size, "%s%s", command->joins_gesture ? "& " : "", row->name);
     for (const char *at = row->args; at; at = find_next_argument(at)) {
         char word[COMMAND_TEXT_SIZE];
         if (*at == 'V' && command->number < 0)
@@ -210,11 +210,11 @@ Status script_add(Script *script, long step, const Command *command,
     ScriptLine *last = script->lines ? script->line + script->lines - 1 : NULL;
     bool same = gesture && last && last->gesture == gesture;
     if (gesture) /* drag and release need no &: they join their grab */
-        line.command.joined = same && command->kind != COMMAND_DRAG &&
-                              command->kind != COMMAND_RELEASE;
+        line.command.joins_gesture = same && command->kind != COMMAND_DRAG &&
+                                     command->kind != COMMAND_RELEASE;
     if (same && last->due_step == step &&
         command_replaces(command, &last->command)) {
-        line.command.joined = last->command.joined;
+        line.command.joins_gesture = last->command.joins_gesture;
         *last = line;
         return STATUS_OK;
     }

@@ -51,8 +51,11 @@ static MouseTarget find_mouse_target(Player *player)
 static Status obey_at(Player *player, CommandKind kind, long number,
                       const double at[2])
 {
-    const Command command = {
-        .kind = kind, .number = number, .x = at[0], .y = at[1], .joined = true};
+    const Command command = {.kind = kind,
+                             .number = number,
+                             .x = at[0],
+                             .y = at[1],
+                             .joins_gesture = true};
     return player_obey(player, &command);
 }
 
@@ -88,7 +91,7 @@ static KeyScope find_key_scope(const Player *player)
 static Status choose_list_line(Player *player, const char *line)
 {
     const OptionRow *all[OPTIONS_MAX_ROWS];
-    Command page = {.kind = COMMAND_PAGE, .joined = true};
+    Command page = {.kind = COMMAND_PAGE, .joins_gesture = true};
     char *end;
     long number = strtol(line, &end, 10);
     if (player->screen.column != COLUMN_OPTIONS || player->screen.sheet) {
@@ -454,9 +457,10 @@ static Status release_button(Player *player)
                     simulation->system.pinned[node] ? "frees" : "pins");
     if ((drag == COMMAND_OBSTACLE || drag == COMMAND_GRAB) &&
         player->hands.holding) {
-        Command next = {.kind = COMMAND_RELEASE, .joined = true};
+        Command next = {.kind = COMMAND_RELEASE, .joins_gesture = true};
         player_enqueue(player, &next);
-        next = (Command){.kind = COMMAND_PIN, .number = node, .joined = true};
+        next = (Command){
+            .kind = COMMAND_PIN, .number = node, .joins_gesture = true};
         if (drag == COMMAND_GRAB && mouse->repins_node)
             player_enqueue(player, &next);
         return player_show_refusal(player, player_obey_queue(player, false));
@@ -533,7 +537,7 @@ Status player_obey_input(Player *player, const Input *input)
     case INPUT_KEY:
         command = command_from_key(input->key, input->is_repeat,
                                    find_key_scope(player));
-        command.joined = true;
+        command.joins_gesture = true;
         if (command.kind)
             status = player_obey(player, &command);
         return !status && command.kind == COMMAND_ENTER ? enter_typed(player)

@@ -142,7 +142,7 @@ static void begin_command(Player *player, const Command *command)
     Commands *commands = &player->commands;
     if (command->kind == COMMAND_DRAG || command->kind == COMMAND_RELEASE)
         commands->gesture = commands->held_gesture;
-    else if (!command->joined)
+    else if (!command->joins_gesture)
         commands->gesture = ++commands->gestures;
     if (command->kind == COMMAND_GRAB || command->kind == COMMAND_PUSH)
         commands->held_gesture = commands->gesture;

@@ -208,7 +208,7 @@ Command make_set_command(const OptionRow *row, double value)
     return (Command){.kind = COMMAND_SET,
                      .number = row - option_rows,
                      .x = value,
-                     .joined = true};
+                     .joins_gesture = true};
 }
 
 void player_enqueue_set(Player *player, const OptionRow *row, double value)

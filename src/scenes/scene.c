@@ -64,7 +64,7 @@ static Status create_bend(Simulation *simulation)
 
 /* ---- the table ----------------------------------------------------------- */
 
-/* Picture and needs of every scene with a body. */
+/* Picture and parts of every scene with a body. */
 #define SQUARE PICTURE_SQUARE, HAS_SQUARE
 
 /* Options of scenes in which a body of springs falls. */
@@ -131,7 +131,7 @@ const Scene scenes[] = {
      "pressed to 3 % of its width, a square again", SQUARE,
      "--segments 10 --stretch 0.03 --timestep 0.01 --tolerance 1e-3 "
      "--material neo-hookean",
-     .create = create_square, .speed = 0.125, .needs_dissipation = true,
+     create_square, .speed = 0.125, .needs_dissipation = true,
      .view = {-1.1, -1.1, 1.1, 1.1}},
     {"stack", "Self-contact: three squares",
      "three soft squares fall on one another", SQUARE,
