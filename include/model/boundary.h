@@ -44,7 +44,7 @@ typedef struct Boundary {
     double mean[2];   /* m, mean of p over the points; a motion that all points
                          share brings none closer to an edge */
     double margin;    /* m, each box is wider by it at all sides */
-    double widest;    /* m, largest extent of an edge's box, coordinate 0 */
+    double widest_edge; /* m, largest extent of an edge's box, coordinate 0 */
     bool sorts_by_y;  /* coordinate 0 of the boxes is y, not x */
     bool has_near_edges; /* near_edge had room for all near edges */
     int *near_edge;      /* [8 nodes] near edges, point by point */

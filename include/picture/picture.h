@@ -87,7 +87,7 @@ static inline const Picture *active_picture(const FrameContent *content)
 /* Finds the index of the picture's card with this name; -1: no such card. */
 int picture_find_card(const Picture *picture, const char *name);
 
-/* frame_content.c: draws a frame: stage, cards, title bar and other rows. */
+/* Draws a frame: stage, cards, title bar and the other rows. */
 void frame_draw(Paper *paper, const FrameContent *content);
 
 /* Draws the content of one card, without frame and title, on a whole paper.

@@ -98,7 +98,7 @@ static void bound_motions(Boundary *boundary, const System *system)
 {
     const double *x = boundary->x, *p = boundary->is_swept ? boundary->p : NULL;
     double *mean = boundary->mean;
-    boundary->widest = mean[0] = mean[1] = 0;
+    boundary->widest_edge = mean[0] = mean[1] = 0;
     Box2 all = empty_box;
     for (int i = 0; i < boundary->points; i++) {
         int node = boundary->point_node[i];
@@ -130,7 +130,8 @@ static void bound_motions(Boundary *boundary, const System *system)
         for (int c = 0; c < 2; c++)
             extend_box(box, c, other->low[c], other->high[c]);
         double wide = box->high[0] - box->low[0];
-        boundary->widest = wide > boundary->widest ? wide : boundary->widest;
+        boundary->widest_edge =
+            wide > boundary->widest_edge ? wide : boundary->widest_edge;
     }
     qsort(boundary->edge_box, (size_t)boundary->edges, sizeof(Box2),
           compare_left_sides);
@@ -142,7 +143,7 @@ static int find_first_edge(const Boundary *boundary, double left)
     int low = 0, high = boundary->edges;
     while (low < high) {
         int middle = (low + high) / 2;
-        if (boundary->edge_box[middle].low[0] < left - boundary->widest)
+        if (boundary->edge_box[middle].low[0] < left - boundary->widest_edge)
             low = middle + 1;
         else
             high = middle;

@@ -186,7 +186,7 @@ NumberText format_number(double value);
  * being typed stays as it is. */
 NumberText format_power(const char *value);
 
-/* ---- stages (frame_content.c) ------------------------------------------- */
+/* ---- stages (picture.c) -------------------------------------------------- */
 
 /* Makes the stage of a pane; paper NULL: the stage only computes positions. */
 Plot stage_create(Paper *paper, const FrameContent *content,

@@ -45,7 +45,7 @@ Status simulation_create(const Options *options, NewtonObserver observer,
         if ((unsigned)options->flips >> i & 1)
             exhibit_flip_switch(simulation, i);
     for (int r = 0; r < simulation->runs && !status; r++)
-        simulation->ledger[r].start = simulation->ledger[r].kept =
+        simulation->ledger[r].start = simulation->ledger[r].last_balance =
             -simulation_energies(simulation, r).dissipated; /* begins at 0 */
     return status;
 }
@@ -97,10 +97,10 @@ static void book_energy_gain(Simulation *simulation)
     int run = simulation->step_run;
     Ledger *ledger = &simulation->ledger[run];
     const Energies now = simulation_energies(simulation, run);
-    double kept = now.total - now.work, gained = kept - ledger->kept;
+    double kept = now.total - now.work, gained = kept - ledger->last_balance;
     double abs_sum = fabs(now.work);
     bool backward_euler = simulation->run[run].method->ends_at_minimiser;
-    ledger->kept = kept;
+    ledger->last_balance = kept;
     for (int i = 1; i < now.rows; i++)
         abs_sum += fabs(now.row[i].value);
     if (!backward_euler || !(gained > 1e-8 * abs_sum))

@@ -1,4 +1,4 @@
-/* frame_content.c - cameras of panes, picking on the stage, drawing a frame. */
+/* picture.c - draws a frame; cameras of panes, and picking on the stage. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
