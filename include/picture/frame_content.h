@@ -258,7 +258,8 @@ typedef struct SheetContent {
 typedef struct LectureContent {
     const LecturePage *page;    /* NULL outside of the lecture */
     bool hides_answer;          /* the page waits for the user's guess */
-    const char *asked; /* text: the question as it was asked, or NULL */
+    const char *asked; /* text: the question, after the answer as it was asked;
+                          NULL: this run asks none */
     const char *verdict;        /* verdict on the guess at this page, or NULL */
     int guesses, right_guesses; /* numbers of guesses and of right guesses */
     char own_title[SENTENCE_SIZE]; /* heading of answers that hold for the

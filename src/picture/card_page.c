@@ -1,5 +1,6 @@
 /* card_page.c - the texts of a page, and the claim below a page's code. */
 #include <math.h>
+#include <string.h>
 
 #include "picture/cards.h"
 
@@ -12,8 +13,8 @@ typedef struct PageText {
 } PageText;
 
 /* Sizes of a page's letters, ems: usual, on a page with much room, least, and
- * least if the question stays beside the answer. */
-static const double LETTERS = 1.2, LARGEST = 1.45, SMALLEST = 0.8, ASKED = 1.1;
+ * least if the text stays beside question and answer. */
+static const double LETTERS = 1.2, LARGEST = 1.45, SMALLEST = 0.8, ALL = 1.1;
 static const double LINE_WIDTH = 24; /* least width of a line, in letters */
 /* Sizes over that of the letters: letters of a formula, width of the heading of
  * a text and of the heading "Tested". */
@@ -52,11 +53,11 @@ static int lay_out_text(Paper *paper, Box inside, int y, double size,
 }
 
 /* Draws the texts of a page one below the other, or only measures them.
- *   size    ems, size of the letters
- *   extras  texts besides the answer; 1: the verdict, 2: also the question
+ *   size        ems, size of the letters
+ *   keeps_text  the page's text stays beside question and answer
  * Returns the height of all texts in pixels. */
 static int lay_out_page(Paper *paper, Box inside, double size,
-                        const FrameContent *content, int extras, bool draw)
+                        const FrameContent *content, bool keeps_text, bool draw)
 {
     const LectureContent *lecture = &content->lecture;
     const LecturePage *page = lecture->page;
@@ -66,12 +67,13 @@ static int lay_out_page(Paper *paper, Box inside, double size,
                        : "Say it, then press N or Space.";
     bool asks = lecture->hides_answer;
     const PageText words[] = {
-        {NULL, page->text, COLOUR_TEXT, 1},
+        {NULL, asks || keeps_text || !lecture->asked ? page->text : NULL,
+         COLOUR_TEXT, 1},
         {NULL, page->formula, COLOUR_TEXT, FORMULA_SIZE},
-        {"Ask", extras > 1 ? lecture->asked : NULL, COLOUR_X, 1},
-        {"You", extras > 0 ? lecture->verdict : NULL, COLOUR_HAND, 1},
-        {asks ? "Ask" : "Look", asks ? page->question : lecture->look_text,
+        {"Ask", asks || !lecture->own_title[0] ? lecture->asked : NULL,
          COLOUR_X, 1},
+        {"You", asks ? NULL : lecture->verdict, COLOUR_HAND, 1},
+        {"Look", asks ? NULL : lecture->look_text, COLOUR_X, 1},
         {asks ? "How" : "Try", asks ? how : page->try, COLOUR_HAND, 1}};
     int y = inside.y;
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
@@ -80,40 +82,49 @@ static int lay_out_page(Paper *paper, Box inside, double size,
     return y - (int)(GAP * text_line_height(size * paper->em)) - inside.y;
 }
 
-/* Returns the height of the texts in pixels, with question or answer, whichever
- * is higher: the letters keep their size when the answer comes. */
+/* Returns the height of the texts in pixels, before or after the answer,
+ * whichever is higher: the letters keep their size when the answer comes. */
 static int measure_page(Paper *paper, Box inside, double size,
-                        const FrameContent *content, int extras)
+                        const FrameContent *content, bool keeps_text)
 {
-    int height = lay_out_page(paper, inside, size, content, extras, false);
-    if (!content->lecture.hides_answer)
-        return height;
-    FrameContent answered = *content;
-    answered.lecture.hides_answer = false;
-    answered.lecture.asked = content->lecture.page->question;
-    values_add_flag(&answered.pane[content->active_pane].values, "told", true);
-    int answer = lay_out_page(paper, inside, size, &answered, extras, false);
-    return height > answer ? height : answer;
+    FrameContent other = *content;
+    LectureContent *lecture = &other.lecture;
+    LiveValues *values = &other.pane[other.active_pane].values;
+    if (!lecture->asked)
+        return lay_out_page(paper, inside, size, content, keeps_text, false);
+    lecture->hides_answer = false;
+    lecture->own_title[0] = '\0';
+    if (lecture->page->answer && !lecture->verdict)
+        lecture->verdict = "0"; /* a line for the verdict */
+    values_add_flag(values, "told", true);
+    int after = lay_out_page(paper, inside, size, &other, keeps_text, false);
+    lecture->hides_answer = true;
+    for (int i = 0; i < values->count; i++)
+        if (strcmp(values->entry[i].name, "told") == 0)
+            values->entry[i].name = "";
+    int before = lay_out_page(paper, inside, size, &other, keeps_text, false);
+    return before > after ? before : after;
 }
 
 /* The letters are as large as all texts fit.  The question stays beside the
- * answer if there is room. */
+ * answer; the page's text is left out then if it would make the letters small.
+ */
 void page_draw(const Plot *card)
 {
     const double most =
         fmin(fmax(card->box.width / (LINE_WIDTH * card->em), LETTERS), LARGEST);
     double size = most;
-    int extras = 2;
+    bool keeps_text = true;
     while (size > SMALLEST &&
-           measure_page(card->paper, card->box, size, card->content, extras) >
-               card->box.height) {
+           measure_page(card->paper, card->box, size, card->content,
+                        keeps_text) > card->box.height) {
         size -= 0.05;
-        if (extras == 2 && size < ASKED) {
+        if (keeps_text && size < ALL) {
             size = most;
-            extras = 1;
+            keeps_text = false;
         }
     }
-    lay_out_page(card->paper, card->box, size, card->content, extras, true);
+    lay_out_page(card->paper, card->box, size, card->content, keeps_text, true);
 }
 
 Box page_draw_claim(Paper *paper, Box inside, const FrameContent *content)
@@ -130,20 +141,20 @@ Box page_draw_claim(Paper *paper, Box inside, const FrameContent *content)
 
 /* Returns the height in ems of the whole card, in letters of this size. */
 static double height_of_card(const FrameContent *content, double wide,
-                             double em, double size)
+                             double em, double size, bool keeps_text)
 {
     Paper paper = {.text = content->text, .em = em, .min_letter = 1};
     Box box = {0, 0, (int)(wide * em + 0.5), 0};
     const double around = 2.6; /* ems, title and margin */
-    return measure_page(&paper, box, size, content, 0) / em + around;
+    return measure_page(&paper, box, size, content, keeps_text) / em + around;
 }
 
 double page_needed_height(const FrameContent *content, double wide, double em)
 {
-    return height_of_card(content, wide, em, LETTERS);
+    return height_of_card(content, wide, em, LETTERS, true);
 }
 
 double page_least_height(const FrameContent *content, double wide, double em)
 {
-    return height_of_card(content, wide, em, SMALLEST);
+    return height_of_card(content, wide, em, SMALLEST, false);
 }

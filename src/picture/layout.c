@@ -9,7 +9,7 @@
 static const double STRIP = 3.1, SETTINGS = 2.6, TIME_LINE = 4.9, CHIPS = 3.0;
 /* A graph on a page has at least this part of the window's height, and room for
  * title and axes and for a legend, ems. */
-static const double GRAPH_PART = 0.195, GRAPH_AXES = 4.4, GRAPH_LEGEND = 1.5;
+static const double GRAPH_PART = 0.17, GRAPH_AXES = 4.4, GRAPH_LEGEND = 1.5;
 /* Further sizes, ems. */
 static const double GAP = 0.9;     /* margins of the zones, gap between cards */
 static const double LETTER = 0.56; /* average width of a letter */
@@ -36,7 +36,7 @@ static const double SETTINGS_PART = 0.75;
 
 /* Width of the column over that of the window: usually; at most for the texts
  * of a page, in large type, for code and lists of more than MOST_ROWS rows. */
-static const double COLUMN_PART = 0.38, PAGE_PART = 0.46, BIG_PART = 0.56,
+static const double COLUMN_PART = 0.38, PAGE_PART = 0.50, BIG_PART = 0.57,
                     WIDE_PART = 0.75, COLUMN_GROWTH = 0.01;
 enum { MOST_ROWS = 30 };
 

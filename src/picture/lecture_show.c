@@ -89,6 +89,8 @@ void frame_add_lecture(ColumnContent column, const LecturePage *left,
         return;
     content->lecture.page = page;
     fill_look_text(page, &content->lecture);
+    if (content->lecture.hides_answer)
+        content->lecture.asked = page->question;
     content->title_bar.topic = page->topic;
     content->cards.covered_cards = 0;
     for (int c = 0; c < picture->count; c++)

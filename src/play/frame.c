@@ -399,11 +399,12 @@ static void fill_frame(const Player *player, Frame *frame)
     content->lecture.hides_answer = player_hides_answer(player);
     fill_own_options(player, &content->lecture);
     bool answered =
-        content->pane[0].simulation->options.page == player->tour.revealed &&
-        !content->lecture.own_title[0];
+        content->pane[0].simulation->options.page == player->tour.revealed;
     content->lecture.asked = answered ? player->tour.asked_question : NULL;
     content->lecture.verdict =
-        answered && player->tour.verdict[0] ? player->tour.verdict : NULL;
+        answered && player->tour.verdict[0] && !content->lecture.own_title[0]
+            ? player->tour.verdict
+            : NULL;
     content->lecture.guesses = player->tour.guesses;
     content->lecture.right_guesses = player->tour.right_guesses;
     frame_add_lecture(player->screen.column, player->tour.last_page, content);

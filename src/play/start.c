@@ -156,7 +156,7 @@ Status player_reveal_answer(Player *player, const char *typed)
     const OptionRow any = {
         .kind = OPTION_NUMBER, .unit = "", .low = -HUGE_VAL, .high = HUGE_VAL};
     FrameContent *content = &player->screen.frame.content;
-    double truth = page->answer ? frame_find_number(content, page->answer) : 0;
+    double truth = frame_find_number(content, page->answer ? page->answer : "");
     double guess = truth;
     if (typed && (!option_read(&any, 1, typed, &guess) || !isfinite(guess)))
         return player_refuse(player, "a number is wanted: 0.25 or 1/4");
@@ -167,11 +167,11 @@ Status player_reveal_answer(Player *player, const char *typed)
     player->tour.guesses += judged;
     player->tour.right_guesses += judged && right;
     player->tour.verdict[0] = '\0';
-    frame_fill_values(content);
     TextLine asked =
-        text_first_line(&active_pane(content)->values,
-                        content->lecture.page == page ? page->question : NULL);
-    snprintf(player->tour.asked_question, LOOK_SIZE, "%s", asked.text);
+        text_first_line(&active_pane(content)->values, page->question);
+    bool is_filled = content->lecture.page == page; /* by a frame of the page */
+    snprintf(player->tour.asked_question, LOOK_SIZE, "%s",
+             is_filled ? asked.text : page->question);
     if (judged)
         append(player->tour.verdict, VALUE_SIZE, "%s%s%s.", typed,
                right ? " is right" : "? It is ", right ? "" : number.text);
