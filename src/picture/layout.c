@@ -214,7 +214,7 @@ static double needed_height(const FrameContent *content, const Layout *layout,
 typedef struct CardRow {
     int first_card, card_count;
     bool is_closed;    /* only the title is seen */
-    double min_height; /* ems */
+    double min_height; /* ems; 0 if the row is closed */
     double weight;     /* weight with which the row shares free height */
 } CardRow;
 
@@ -248,8 +248,7 @@ static int find_card_rows(const FrameContent *content, const Layout *layout,
                         (card->below_picture || (card->beside_picture && !bar));
         if (sets->hidden_cards >> i & 1 || on_stage)
             continue;
-        double least =
-            bar ? TITLE_BAR : needed_height(content, layout, i, wide);
+        double least = bar ? 0 : needed_height(content, layout, i, wide);
         if (pairs && half && !bar && before == i - 1) {
             rows[count - 1].card_count = 2;
             rows[count - 1].min_height =
@@ -278,43 +277,39 @@ static bool place_cards(const FrameContent *content, Layout *layout)
     bool pairs = !big && layout->column.width >= MIN_PAIR * layout->em;
     double wide = card_inner_box(rest, layout->em).width / layout->em;
     int count = find_card_rows(content, layout, wide, pairs, rows), open = 0;
-    double room = (rest.height + gap) / layout->em, bars = 0, least = 0;
-    double weights = 1e-9, extra = 0, ems = gap / layout->em;
+    double room = (rest.height + gap) / layout->em; /* ems, for open rows */
+    double least = 0, texts = 0, lacking = 0, weights = 1e-9;
     for (int i = 0; i < count; i++) {
         open += !rows[i].is_closed;
-        bars += ems + (rows[i].is_closed ? TITLE_BAR : 0);
-        least += rows[i].is_closed ? 0 : rows[i].min_height;
+        room -= gap / layout->em + (rows[i].is_closed ? TITLE_BAR : 0);
+        least += rows[i].min_height;
     }
-    if (content->lecture.page && bars + least > room && !rows->is_closed &&
+    if (content->lecture.page && least > room && !rows->is_closed &&
         rows->first_card == 0) { /* the page's texts can be smaller */
-        double smaller = page_least_height(content, wide, layout->em);
-        extra = rows->min_height - smaller;
-        rows->min_height = smaller;
-        least -= extra;
+        texts = page_least_height(content, wide, layout->em);
+        lacking = rows->min_height - texts;
+        least -= lacking;
     }
-    for (int i = count - 1; i > 0 && open > 1 && !pairs; i--)
-        if (!rows[i].is_closed && bars + least > room) {
+    for (int i = count - 1; i > 0 && open > 1 && least > room && !pairs; i--)
+        if (!rows[i].is_closed) {
             least -= rows[i].min_height;
-            bars += TITLE_BAR;
-            rows[i] = (CardRow){rows[i].first_card, 1, true, TITLE_BAR, 0};
+            room -= TITLE_BAR;
+            rows[i] = (CardRow){rows[i].first_card, 1, true, 0, 0};
             open--;
         }
-    for (int i = 0; i < count; i++)
-        weights += rows[i].weight;
-    room -= bars;
-    double growth = fmin(fmax(room - least, 0), extra);
-    bool fits = growth == extra || (big && least <= room);
-    double texts = extra > 0 ? rows->min_height + growth : 0;
-    rows->min_height += growth;
+    double growth = fmin(fmax(room - least, 0), lacking);
+    bool fits = growth == lacking || (big && least <= room);
+    texts += growth;
     least += growth;
     double shrink = least > room ? (room - texts) / (least - texts) : 1;
+    for (int i = 0; i < count; i++)
+        weights += rows[i].weight;
     for (int i = 0; i < count; i++) {
         const CardRow *row = &rows[i];
-        double high = row->min_height * (i > 0 || texts == 0 ? shrink : 1) +
+        double high = (i == 0 && texts > 0 ? texts : row->min_height * shrink) +
                       row->weight * fmax(room - least, 0) / weights;
         int height = ems_to_pixels(layout, high);
-        Box box = box_cut_off(&rest, EDGE_TOP,
-                              row->is_closed || height < bar ? bar : height);
+        Box box = box_cut_off(&rest, EDGE_TOP, height < bar ? bar : height);
         box_cut_off(&rest, EDGE_TOP, gap);
         for (int k = 0; k < row->card_count; k++)
             layout->card[row->first_card + k] =

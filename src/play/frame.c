@@ -315,8 +315,9 @@ static void fill_time_line(const Player *player, FrameContent *content)
              player_active_pane(player)->outcome.updates);
 }
 
-/* If options of the page are changed, writes a heading for Look with the page's
- * own ones: "The page's own answer, with h 1 s:". */
+/* If options of the page are changed, or a handle has moved, writes a heading
+ * for Look with the page's own options: "The page's own answer, with h 1 s:".
+ */
 static void fill_own_options(const Player *player, LectureContent *lecture)
 {
     const OptionRow *row[OPTIONS_MAX_ROWS];
@@ -332,6 +333,8 @@ static void fill_own_options(const Player *player, LectureContent *lecture)
     int panes = (int)fmin(player->tour.own_panes, past_panes(past));
     bool is_changed =
         exhibit_find_flips(&past->pane[0].simulation) != own->flips;
+    for (int b = past->current; !past->branch[b].from_options; b--)
+        is_changed |= past->branch[b].edit.kind == COMMAND_HANDLE;
     for (int i = 0; i < rows; i++) {
         int p = 0; /* the first pane whose option is not the page's own */
         while (p < panes && option_is_equal(row[i], &own[p],

@@ -538,6 +538,11 @@ Status player_obey_input(Player *player, const Input *input)
         command = command_from_key(input->key, input->is_repeat,
                                    find_key_scope(player));
         command.joins_gesture = true;
+        if (command.kind == COMMAND_SCENE &&
+            player_active_options(player)->page) {
+            player_note(player, "no number is asked for; G shows the scenes");
+            return STATUS_OK;
+        }
         if (command.kind)
             status = player_obey(player, &command);
         return !status && command.kind == COMMAND_ENTER ? enter_typed(player)

@@ -124,8 +124,11 @@ Status obey_camera(Player *player, const Command *command)
 Status obey_card(Player *player, const Command *command)
 {
     int card = (int)command->number;
+    const CardSets *sets = &player->screen.frame.content.cards;
     player_fill_frame(player);
-    bool closed = player->screen.frame.content.cards.closed_cards >> card & 1;
+    bool closed = sets->closed_cards >> card & 1;
+    if (sets->hidden_cards >> card & 1)
+        return player_refuse(player, "this card is not shown here");
     if (command->kind == COMMAND_CARD || closed)
         player->screen.toggled_cards ^= 1u << card;
     else

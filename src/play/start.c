@@ -161,7 +161,6 @@ Status player_reveal_answer(Player *player, const char *typed)
     if (typed && (!option_read(&any, 1, typed, &guess) || !isfinite(guess)))
         return player_refuse(player, "a number is wanted: 0.25 or 1/4");
     bool right = fabs(guess - truth) <= 0.025 * fabs(truth);
-    NumberText number = format_digits(truth, 5);
     bool judged = typed && page->answer && !isnan(truth);
     player->tour.revealed = page;
     player->tour.guesses += judged;
@@ -174,14 +173,10 @@ Status player_reveal_answer(Player *player, const char *typed)
              is_filled ? asked.text : page->question);
     if (judged)
         append(player->tour.verdict, VALUE_SIZE, "%s%s%s.", typed,
-               right ? " is right" : "? It is ", right ? "" : number.text);
-    if (page->answer && !isnan(truth))
-        snprintf(player->commands.queue.note, SENTENCE_SIZE, "%s%sit is %s",
-                 typed ? typed : "",
-                 !typed  ? ""
-                 : right ? ": right, "
-                         : ": no, ",
-                 number.text);
+               right ? " is right" : "? It is ",
+               right ? "" : format_digits(truth, 5).text);
+    snprintf(player->commands.queue.note, SENTENCE_SIZE, "%s",
+             player->tour.verdict);
     player->commands.queue.is_from_page = true;
     return player_enqueue_lines(player, page->on_answer);
 }
