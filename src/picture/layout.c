@@ -168,7 +168,7 @@ static Box place_zones(const FrameContent *content, Layout *layout)
     double high = layout->height / layout->em;
     bool roomy = high >= 40, lecture = content->lecture.page;
     bool big = active_pane(content)->simulation->options.big;
-    if (content->is_bare || high < 16)
+    if (content->is_bare || content->in_page || high < 16)
         return rest;
     layout->title_bar = box_cut_off(&rest, EDGE_TOP,
                                     ems_to_pixels(layout, roomy ? STRIP : 2.2));
@@ -213,8 +213,7 @@ static double needed_height(const FrameContent *content, const Layout *layout,
 /* A row of the column, with one card or two. */
 typedef struct CardRow {
     int first_card, card_count;
-    bool is_closed;    /* only the title is seen */
-    double min_height; /* ems; 0 if the row is closed */
+    double min_height; /* ems; 0: only the title is seen */
     double weight;     /* weight with which the row shares free height */
 } CardRow;
 
@@ -256,7 +255,7 @@ static int find_card_rows(const FrameContent *content, const Layout *layout,
             continue;
         }
         before = half && !bar ? i : -2;
-        rows[count++] = (CardRow){i, 1, bar, least, bar ? 0 : card->weight};
+        rows[count++] = (CardRow){i, 1, least, bar ? 0 : card->weight};
     }
     return count;
 }
@@ -280,21 +279,21 @@ static bool place_cards(const FrameContent *content, Layout *layout)
     double room = (rest.height + gap) / layout->em; /* ems, for open rows */
     double least = 0, texts = 0, lacking = 0, weights = 1e-9;
     for (int i = 0; i < count; i++) {
-        open += !rows[i].is_closed;
-        room -= gap / layout->em + (rows[i].is_closed ? TITLE_BAR : 0);
+        open += rows[i].min_height > 0;
+        room -= gap / layout->em + (rows[i].min_height > 0 ? 0 : TITLE_BAR);
         least += rows[i].min_height;
     }
-    if (content->lecture.page && least > room && !rows->is_closed &&
+    if (content->lecture.page && least > room && rows->min_height > 0 &&
         rows->first_card == 0) { /* the page's texts can be smaller */
         texts = page_least_height(content, wide, layout->em);
         lacking = rows->min_height - texts;
         least -= lacking;
     }
     for (int i = count - 1; i > 0 && open > 1 && least > room && !pairs; i--)
-        if (!rows[i].is_closed) {
+        if (rows[i].min_height > 0) {
             least -= rows[i].min_height;
             room -= TITLE_BAR;
-            rows[i] = (CardRow){rows[i].first_card, 1, true, 0, 0};
+            rows[i] = (CardRow){rows[i].first_card, 1, 0, 0};
             open--;
         }
     double growth = fmin(fmax(room - least, 0), lacking);
@@ -385,10 +384,18 @@ static void place_overview(const FrameContent *content, Layout *layout)
     layout->cells = content->sheet.cells;
 }
 
-/* Places a card below the panes, in `high` pixels of the stage. */
-static void place_card_below(Layout *layout, int card, double high)
+/* Places a card below the panes, in at least `least` pixels of the stage if it
+ * is so high. */
+static void place_card_below(const FrameContent *content, Layout *layout,
+                             int card, double least)
 {
-    Box box = box_cut_off(&layout->stage, EDGE_BOTTOM, (int)high);
+    const Box *stage = &layout->stage;
+    double em = layout->em;
+    double needs =
+        needed_height(content, layout, card, stage->width / em) + 2 * GAP;
+    Box box = box_cut_off(
+        &layout->stage, EDGE_BOTTOM,
+        (int)fmin(fmax(needs * em, least), CARD_BELOW * stage->height));
     layout->card[card] = box_inset(box, ems_to_pixels(layout, GAP));
     place_panes(layout->panes, layout);
 }
@@ -408,12 +415,9 @@ static void place_main_card(const FrameContent *content, Layout *layout)
     const Card *card = active_picture(content)->cards[main_card];
     Box *stage = &layout->pane[0], place = layout->card[main_card];
     if (card->below_picture) {
-        double wide = stage->width / layout->em;
-        double needs = fmax(needed_height(content, layout, main_card, wide),
-                            MAIN_CARD_GROWTH * card->min_height);
-        place_card_below(
-            layout, main_card,
-            fmin((needs + 2 * GAP) * layout->em, CARD_BELOW * stage->height));
+        place_card_below(content, layout, main_card,
+                         (MAIN_CARD_GROWTH * card->min_height + 2 * GAP) *
+                             layout->em);
         return;
     }
     bool beside = card->beside_picture;
@@ -449,16 +453,11 @@ static void place_card_without_room(const FrameContent *content, Layout *layout)
         (!options->big && layout->has_list &&
          (layout->panes != 1 || simulation->scene->switch_labels[1])))
         return;
-    const Box *stage = &layout->stage;
-    double em = layout->em;
-    double needs = needed_height(content, layout, folded, stage->width / em);
-    double room = layout->has_list ? stage->height - 0.8 * stage->width : 0;
-    Box title = layout->card[folded];
-    place_card_below(
-        layout, folded,
-        fmin(fmax((needs + 2 * GAP) * em, room), CARD_BELOW * stage->height));
+    const Box stage = layout->stage, title = layout->card[folded];
+    place_card_below(content, layout, folded,
+                     layout->has_list ? stage.height - 0.8 * stage.width : 0);
     Box *page = &layout->card[0]; /* may take the title bar of the moved card */
-    if (!layout->has_list && title.y <= page->y + page->height + em)
+    if (!layout->has_list && title.y <= page->y + page->height + layout->em)
         page->height = title.y + title.height - page->y;
 }
 
@@ -476,25 +475,20 @@ Layout layout_create(const FrameContent *content, int width, int height)
         least = fmax(content->min_em, big ? fmin(height / 35.0, width / 54.0)
                                           : fmin(height / 55.0, width / 64.0));
     layout.em = fmax(size, least);
-    layout.stage = content->in_page ? (Box){0, 0, width, height}
-                                    : place_zones(content, &layout);
+    layout.stage = place_zones(content, &layout);
     if (content->sheet.cells > 0) {
         place_overview(content, &layout);
         return layout;
     }
-    if (content->in_page) {
-        place_panes(content->panes, &layout);
-        return layout;
-    }
     double wide = width / layout.em, high = height / layout.em;
     bool low = page && high < 50; /* a list or code then covers the stage */
-    if (!content->is_bare && wide >= 53 && high >= 34 && !low &&
+    bool bare = content->is_bare || content->in_page;
+    if (!bare && wide >= 53 && high >= 34 && !low &&
         (page || content->cards.hidden_cards != (1u << picture->count) - 1)) {
         double most = WIDE_PART * wide;
-        double part = COLUMN_PART, end = big ? BIG_PART : PAGE_PART;
+        double end = big ? BIG_PART : PAGE_PART;
         const Box whole = layout.stage;
-        bool widens;
-        do {
+        for (double part = COLUMN_PART;; part += COLUMN_GROWTH) {
             double ems = fmax(part * wide, MIN_COLUMN);
             if (content->column == COLUMN_CODE)
                 ems = fmin(fmax(code_needed_width(content->lecture.page), ems),
@@ -504,13 +498,13 @@ Layout layout_create(const FrameContent *content, int width, int height)
             layout.stage = whole;
             layout.column = box_cut_off(&layout.stage, EDGE_RIGHT,
                                         ems_to_pixels(&layout, ems));
-            widens = !page && !place_cards(content, &layout) &&
-                     content->lecture.page && part < end;
-            part += COLUMN_GROWTH;
-        } while (widens);
+            if (page || place_cards(content, &layout) ||
+                !content->lecture.page || part >= end)
+                break;
+        }
         if (!page || content->column == COLUMN_CODE)
             layout.cards = picture->count;
-    } else if (!content->is_bare && page) { /* no room: column hides stage */
+    } else if (!bare && page) { /* no room: column hides stage */
         layout.column = layout.stage;
     }
     layout.has_list = page && layout.column.width > 0;
