@@ -154,7 +154,7 @@ typedef struct View {
     Pick hovered;        /* part of the picture under the mouse */
     WindowHit mouse_hit; /* part of the window under the mouse */
     HeldBounds held_bounds;
-    int cell; /* index of the selected cell of the overview */
+    int selected_cell; /* index of the selected cell of the overview */
 } View;
 
 /* ---- around the stage --------------------------------------------------- */
@@ -282,7 +282,7 @@ typedef struct FrameContent {
     int active_pane; /* index of the pane whose numbers the cards show */
     Pane pane[LAYOUT_PANES];
     const View *view;
-    HeldByHand held;   /* hand of the mouse or of a script */
+    HeldByHand hand;   /* hand of the mouse or of a script */
     bool shows_strain; /* springs are coloured by strain */
     bool is_bare;      /* shows pictures without words */
     bool in_page;      /* shows the stage alone, as on the web page */

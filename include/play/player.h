@@ -146,7 +146,7 @@ typedef struct Mouse {
     double x, y;      /* pixels */
     bool has_position; /* x and y are known */
     CommandKind drag_command; /* COMMAND_NONE: no button is down */
-    int item;         /* index of what is dragged; -1: edge of the square */
+    int dragged; /* index of what is dragged; -1: edge of the square */
     double drag_start[2];  /* pixels, start of the drag, or of its last pan */
     bool has_moved;        /* the mouse has moved farther than a click may */
     double grip_offset[2]; /* m, from the mouse to the dragged obstacle */

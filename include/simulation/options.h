@@ -91,9 +91,9 @@ typedef struct Options {
     const struct Scene *scene;
     const struct LecturePage *page; /* page of the tour, or NULL */
     unsigned layers;                /* bits of PictureLayer */
-    NextAction next;                /* effect of the key N */
-    int pause;                      /* step at which playing pauses; 0: none */
-    const char *law;                /* law that the card "law" draws, or NULL */
+    NextAction next_action;         /* effect of the key N */
+    int pause_step;                 /* step at which playing pauses; 0: none */
+    const char *law_name;           /* law that the card "law" draws, or NULL */
     const char *main_card;          /* name of the enlarged card, or NULL */
     const char *pin;                /* nodes that are pinned, or NULL */
     const char *state;              /* CSV file with the start, or NULL */

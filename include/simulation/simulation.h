@@ -17,8 +17,7 @@ enum { SIMULATION_MAX_RUNS = 3, SIMULATION_MODE_NODES = 64 };
 typedef struct Ledger {
     double start; /* J, total energy at the start */
     double work;  /* J, work that the mouse and changed options have done */
-    double last_balance; /* J, total energy minus work at the end of the last
-                            step */
+    double last_balance; /* J, total energy minus work, after the last step */
     long gain_steps; /* number of steps with growth beyond the work */
     double gained;   /* J, growth beyond the work, summed over gain_steps */
 } Ledger;

@@ -25,9 +25,9 @@ void lecture_apply_page(const LecturePage *page, Options *options)
 {
     options->page = page;
     options->layers = page->layers;
-    options->next = page->next_action;
-    options->pause = page->pause_step;
-    options->law = page->law_name;
+    options->next_action = page->next_action;
+    options->pause_step = page->pause_step;
+    options->law_name = page->law_name;
     options->main_card = page->main_card;
 }
 

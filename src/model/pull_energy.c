@@ -84,7 +84,8 @@ void hand_begin_step(Pull *hand, const double *x, const double *v, double m,
 {
     static const double TIME = 0.06, MOST = 0.5, INERTIA = 10, LIMIT = 1e8;
     static const double CELL = 0.5, SPEED = 0.5, SIDE = 1.0 / 64;
-    double reach = fmax(CELL * hand->cell, fmin(SPEED * h, SIDE) * hand->side);
+    double reach =
+        fmax(CELL * hand->cell_size, fmin(SPEED * h, SIDE) * hand->side);
     double d[2] = {hand->mouse_xy[0] - x[0], hand->mouse_xy[1] - x[1]};
     double away = sqrt(d[0] * d[0] + d[1] * d[1]);
     double slow = fmin(MOST, h / TIME), part = slow;

@@ -122,7 +122,7 @@ static double law_value_at(const Law *law, const LawPoint *now)
  * weighted by normal force.  Returns NULL if the scene has no law. */
 static const Law *find_law(const Simulation *simulation, LawPoint *most)
 {
-    const char *name = simulation->options.law;
+    const char *name = simulation->options.law_name;
     const System *system = &simulation->system;
     const double *x = simulation->run[0].x, *v = simulation->run[0].v;
     const Law *law = name ? laws : NULL;
@@ -227,7 +227,7 @@ bool law_find_slide(const Simulation *simulation, int body, double distance[2])
     double mu =
         options->self_friction < 0 ? options->friction : options->self_friction;
     distance[1] = v * v / (2 * mu * options->gravity);
-    return options->law && strcmp(options->law, "rub") == 0;
+    return options->law_name && strcmp(options->law_name, "rub") == 0;
 }
 
 void law_add_values(const Simulation *simulation, LiveValues *values)

@@ -391,7 +391,7 @@ static void draw_pane(Paper *paper, const Layout *layout,
     if (layout->panes > 1 && stage.pane->label)
         draw_pane_label(&stage, stage.pane->label);
     if (picture->draw_hover && stage.has_text && hover->pane == pane &&
-        hover->kind != PICK_NONE && !content->held.is_held)
+        hover->kind != PICK_NONE && !content->hand.is_held)
         picture->draw_hover(&stage);
     canvas_set_clip(&paper->canvas, before);
 }
@@ -448,7 +448,7 @@ void frame_draw(Paper *paper, const FrameContent *content)
     prepare_paper(paper, layout.em, content);
     for (int i = 0; i < layout.cells; i++)
         draw_sheet_cell(paper, layout.cell[i], &content->sheet.cell[i],
-                        i == content->view->cell);
+                        i == content->view->selected_cell);
     if (several) /* lines between the panes */
         canvas_fill(&paper->canvas, layout.stage, COLOUR_RULE);
     for (int pane = 0; pane < layout.panes; pane++) {

@@ -107,7 +107,7 @@ static void widen_to_obstacles(const Plot *stage, Extent *view)
     const Simulation *simulation = stage->simulation;
     const Options *options = &simulation->options;
     const Contact *contact = contact_of(&simulation->system);
-    const HeldByHand *hand = &stage->content->held;
+    const HeldByHand *hand = &stage->content->hand;
     const Extent seen = find_seen_extent(stage, view);
     double air = 0.04 * fmin(view->half_size[0], view->half_size[1]);
     if (hand->is_held && !stage->content->view->held_bounds.is_held)
@@ -263,11 +263,11 @@ static void mark_under_mouse(const SquarePen *pen)
     const Plot *stage = pen->stage;
     const FrameContent *content = stage->content;
     const System *system = pen->system;
-    const HeldByHand *hand = &content->held;
+    const HeldByHand *hand = &content->hand;
     bool holds = hand->is_held && stage->pane == active_pane(content);
     const Pick *hover = &content->view->hovered;
     bool over = hover->pane == plot_pane_index(stage);
-    bool writes = pen->simulation->options.next == NEXT_SPRING;
+    bool writes = pen->simulation->options.next_action == NEXT_SPRING;
     int lit = hover->kind == PICK_SPRING ? hover->index
               : writes                   ? find_newest_spring(pen->simulation)
                                          : -1;
@@ -602,7 +602,8 @@ void square_draw(Plot *stage)
     draw_page_arrows(pen);
     add_warnings(pen, folded);
     if (stage->revealed && layers & LAYER_NUMBERS &&
-        (simulation->steps == 0 || simulation->options.next == NEXT_SPRING) &&
+        (simulation->steps == 0 ||
+         simulation->options.next_action == NEXT_SPRING) &&
         system->nodes <= MAX_NUMBERED)
         draw_node_numbers(pen);
     if (pen->colour_range > 0)
@@ -728,7 +729,7 @@ void square_add_values(const Simulation *simulation, LiveValues *values)
     values_add(values, "k", options->stiffness);
     values_add(values, "stretch", options->stretch);
     values_add(values, "h", options->timestep);
-    if (options->next == NEXT_SPRING)
+    if (options->next_action == NEXT_SPRING)
         add_block_values(simulation, values);
     law_add_values(simulation, values);
     if (options->layers & LAYER_MODES && nodes <= SIMULATION_MODE_NODES) {

@@ -145,7 +145,7 @@ static void fill_chips(const Player *player, Frame *frame)
     const Simulation *simulation = player_simulation(player);
     const Options *options = player_active_options(player);
     bool time = simulation->scene->parts & HAS_TIME;
-    bool nears = options->next == NEXT_NEARER;
+    bool nears = options->next_action == NEXT_NEARER;
     bool newton = simulation_has_updates(simulation) && !nears;
     bool ended = simulation->is_over || player->time.mode > MODE_END;
     bool stands = player_is_stopped(player);
@@ -287,7 +287,7 @@ static void fill_time_line(const Player *player, FrameContent *content)
         longest = fmax(longest, h);
     }
     content->time_line.paused = player_is_stopped(player);
-    if (player_active_options(player)->next == NEXT_SPRING) {
+    if (player_active_options(player)->next_action == NEXT_SPRING) {
         long last = player_simulation(player)->system.springs - 1;
         snprintf(text, SENTENCE_SIZE, "spring %ld",
                  past->step < last ? past->step : last);
@@ -378,7 +378,7 @@ static void fill_frame(const Player *player, Frame *frame)
     fill_chips(player, frame);
     const Control *control = past_control(past, active);
     if (control_hand_holds(control) && player->view_of_pane[active].place < 0)
-        content->held = (HeldByHand){true,
+        content->hand = (HeldByHand){true,
                                      control->held_node,
                                      control->held_obstacle,
                                      {control->target[0], control->target[1]}};

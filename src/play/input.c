@@ -137,7 +137,7 @@ static Status drag_number(Player *player, const MouseTarget *target)
 {
     const Mouse *mouse = &player->hands.mouse;
     const Options now = player_shown_options(player);
-    bool edge = mouse->item < 0;
+    bool edge = mouse->dragged < 0;
     const OptionRow *row =
         edge ? option_find("stretch") : player->hands.selected;
     double notches = (mouse->x - mouse->drag_start[0]) / NOTCH_PIXELS;
@@ -189,20 +189,20 @@ static Status begin_press(Player *player, const MouseTarget *target)
     Mouse *mouse = &player->hands.mouse;
     const LecturePage *page = player_active_options(player)->page;
     double point[2];
-    mouse->item = target->pick.index;
+    mouse->dragged = target->pick.index;
     player->screen.view.held_bounds = frame_view_bounds(
         &player->screen.frame.content, &target->layout, target->pane);
     switch (target->pick.kind) {
     case PICK_OBSTACLE:
         mouse->drag_command = COMMAND_OBSTACLE;
-        simulation_find_obstacle(player_simulation(player), 0, mouse->item,
+        simulation_find_obstacle(player_simulation(player), 0, mouse->dragged,
                                  point);
         mouse->grip_offset[0] = point[0] - target->place[0];
         mouse->grip_offset[1] = point[1] - target->place[1];
         return STATUS_OK;
     case PICK_EDGE:
         mouse->drag_command = COMMAND_SET;
-        mouse->item = -1;
+        mouse->dragged = -1;
         return STATUS_OK;
     case PICK_HANDLE:
         mouse->drag_command = COMMAND_HANDLE;
@@ -215,12 +215,13 @@ static Status begin_press(Player *player, const MouseTarget *target)
         if (page_wants_click(page) && player_hides_answer(player))
             return obey_at(player, COMMAND_PREDICT, 0, target->pick.point);
         mouse->drag_command = COMMAND_START;
-        return obey_at(player, COMMAND_START, mouse->item, target->pick.point);
+        return obey_at(player, COMMAND_START, mouse->dragged,
+                       target->pick.point);
     default:
         if (target->pick.kind != PICK_NODE) /* no spring is highlighted now */
             player->screen.view.hovered.kind = PICK_NONE;
-        mouse->item = target->pick.nearest_node;
-        mouse->drag_command = mouse->item < 0             ? COMMAND_PAN
+        mouse->dragged = target->pick.nearest_node;
+        mouse->drag_command = mouse->dragged < 0          ? COMMAND_PAN
                               : drag_places_nodes(player) ? COMMAND_PLACE
                                                           : COMMAND_GRAB;
         return STATUS_OK;
@@ -253,7 +254,7 @@ static Status add_ball(Player *player, const double at[2])
 static Status drag_obstacle(Player *player, const double at[2])
 {
     Past *past = &player->past;
-    int number = player->hands.mouse.item;
+    int number = player->hands.mouse.dragged;
     double part = 1, from[2];
     if (player->hands.holding || !drag_places_nodes(player)) {
         Status status = player->hands.holding
@@ -286,11 +287,11 @@ static Status continue_drag(Player *player)
     switch (mouse->has_moved ? mouse->drag_command : COMMAND_NONE) {
     case COMMAND_GRAB: /* a drag frees a pinned node */
         if (!player->hands.holding) {
-            mouse->repins_node = simulation->system.pinned[mouse->item];
+            mouse->repins_node = simulation->system.pinned[mouse->dragged];
             if (mouse->repins_node)
-                status = obey(player, COMMAND_PIN, mouse->item);
+                status = obey(player, COMMAND_PIN, mouse->dragged);
             if (!status)
-                status = obey(player, COMMAND_GRAB, mouse->item);
+                status = obey(player, COMMAND_GRAB, mouse->dragged);
         }
         return status ? status : obey_at(player, COMMAND_DRAG, 0, target.place);
     case COMMAND_OBSTACLE:
@@ -300,7 +301,8 @@ static Status continue_drag(Player *player)
     case COMMAND_PLACE:
     case COMMAND_START:
     case COMMAND_HANDLE:
-        return obey_at(player, mouse->drag_command, mouse->item, target.place);
+        return obey_at(player, mouse->drag_command, mouse->dragged,
+                       target.place);
     case COMMAND_SET:
         return drag_number(player, &target);
     case COMMAND_GOTO:
@@ -335,7 +337,7 @@ static Status note_hovered_thing(Player *player)
     bool idle =
         pick.kind == PICK_NONE && !player->screen.frame.content.lecture.page;
     if (target.hit.zone == ZONE_CELL)
-        view->cell = target.hit.index;
+        view->selected_cell = target.hit.index;
     view->mouse_hit = target.hit;
     view->hovered = pick;
     player->must_explain = player->must_explain || !same;
@@ -358,7 +360,7 @@ static Status press_number(Player *player, int index, int clicks)
         return obey(player, COMMAND_DEFAULT,
                     player->hands.selected - option_rows);
     mouse->drag_command = COMMAND_SET;
-    mouse->item = index;
+    mouse->dragged = index;
     mouse->start_options = player_shown_options(player);
     return STATUS_OK;
 }
@@ -400,7 +402,7 @@ static Status press_left_button(Player *player, const MouseTarget *target,
         snprintf(line, sizeof line, "%.7s", key + (key[0] == '>'));
         return key[0] ? choose_list_line(player, line) : STATUS_OK;
     case ZONE_CELL:
-        player->screen.view.cell = index;
+        player->screen.view.selected_cell = index;
         return obey(player, COMMAND_OPEN, 0);
     case ZONE_STAGE:
         if (target->pane != player->active)
@@ -448,7 +450,7 @@ static Status release_button(Player *player)
     Mouse *mouse = &player->hands.mouse;
     const Simulation *simulation = player_simulation(player);
     CommandKind drag = mouse->drag_command;
-    int node = mouse->item;
+    int node = mouse->dragged;
     mouse->drag_command = COMMAND_NONE;
     player->screen.view.held_bounds.is_held = false;
     if (!mouse->has_moved && (drag == COMMAND_GRAB || drag == COMMAND_PLACE) &&
@@ -467,7 +469,7 @@ static Status release_button(Player *player)
     }
     if (drag == COMMAND_SET && mouse->has_moved)
         player_deselect(player); /* after a click the number stays selected */
-    if (drag == COMMAND_SET && !mouse->has_moved && mouse->item >= 0 &&
+    if (drag == COMMAND_SET && !mouse->has_moved && mouse->dragged >= 0 &&
         player->hands.selected && player->hands.selected->kind == OPTION_NAME)
         return change_number(player, player->hands.selected, 1);
     return STATUS_OK;

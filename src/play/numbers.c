@@ -154,7 +154,7 @@ Status obey_set(Player *player, const Command *command)
     bool is_set = state && state->is_set; /* not made by a step */
     bool again = (!is_set || player_active_pane(player)->has_failed) &&
                  (row->effect == EFFECT_AGAIN ||
-                  (player_active_options(player)->law &&
+                  (player_active_options(player)->law_name &&
                    player->past.step > 0 && player_is_stopped(player)) ||
                   (player->time.walk_unit != UNIT_STEP &&
                    player->view_of_pane[player->active].place >= 0));

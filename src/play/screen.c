@@ -143,7 +143,7 @@ Status obey_card(Player *player, const Command *command)
 Status obey_choose(Player *player, const Command *command)
 {
     const FrameContent *content = &player->screen.frame.content;
-    int *chosen = &player->screen.view.cell;
+    int *chosen = &player->screen.view.selected_cell;
     const Paper *paper = player_prepare_paper(player);
     const char *key = command->text;
     bool up = strcmp(key, "Up") == 0, upright = up || strcmp(key, "Down") == 0;

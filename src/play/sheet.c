@@ -48,9 +48,10 @@ Status obey_sheet(Player *player, const Command *command)
     const Scene *scene = scenes; /* scene of cell 1; cell 0 is the tour */
     while (++sheet->cells < LAYOUT_CELLS && scene->name && !scene->only_by_name)
         scene++;
-    player->screen.view.cell = options->page || options->scene->only_by_name
-                                   ? 0
-                                   : (int)(options->scene - scenes) + 1;
+    player->screen.view.selected_cell =
+        options->page || options->scene->only_by_name
+            ? 0
+            : (int)(options->scene - scenes) + 1;
     return STATUS_OK;
 }
 
@@ -104,7 +105,7 @@ void sheet_fill(const Player *player, FrameContent *content)
             (SheetCell){.name = i > 0 ? scene->name : "the guided tour",
                         .heading = i == 1 ? NULL : scene->group_heading,
                         .simulation = simulation->scene ? simulation : NULL};
-        if (i == player->screen.view.cell)
+        if (i == player->screen.view.selected_cell)
             snprintf(content->title_bar.sentence, SENTENCE_SIZE, "%s: %s",
                      content->sheet.cell[i].name,
                      i > 0 ? scene->sentence : "the lecture, page by page");
@@ -120,7 +121,7 @@ void sheet_fill(const Player *player, FrameContent *content)
 Status obey_open(Player *player, const Command *command)
 {
     char line[32] = "page-on";
-    int cell = player->screen.view.cell;
+    int cell = player->screen.view.selected_cell;
     bool behind = cell == 0 && player_active_options(player)->page;
     if (cell > 0)
         snprintf(line, sizeof line, "scene %s", scenes[cell - 1].name);

@@ -225,7 +225,7 @@ static void stop_run_if_over(Player *player)
     int going = 0;
     const Options *options = player_active_options(player);
     if (player->setup.options[0].steps >= 0 || !player->setup.is_attended ||
-        (options->next == NEXT_SPRING && /* the Hessian is being assembled */
+        (options->next_action == NEXT_SPRING && /* springs are left to add */
          past->step < player_simulation(player)->system.springs))
         return;
     for (int p = 0; p < past_panes(past); p++) {
@@ -248,7 +248,7 @@ static void stop_run_if_over(Player *player)
     if (ended) /* the sentence above the picture says how the run ended */
         player->note[0] = '\0';
     player->time.has_warned = player->time.has_warned || bad;
-    if (past->step == options->pause && options->pause > 0 &&
+    if (past->step == options->pause_step && options->pause_step > 0 &&
         options->page == player->tour.revealed)
         player->time.mode = MODE_PAUSE;
     if (player->time.mode == MODE_REST)
@@ -530,7 +530,7 @@ Status obey_walk_unit(Player *player, const Command *command)
 {
     static const char *const paces[] = {
         "whole steps", "updates of Newton's method", "lines of Algorithm 3"};
-    if (player_active_options(player)->next == NEXT_NEARER ||
+    if (player_active_options(player)->next_action == NEXT_NEARER ||
         (!panes_use_newton(player) && player->time.walk_unit == UNIT_STEP))
         return player_refuse(player, "a step here has no finer ones");
     player->time.walk_unit = (player->time.walk_unit + 1) % UNITS;

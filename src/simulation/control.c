@@ -184,7 +184,7 @@ static Status apply_hand(Simulation *simulation, const Control *control)
     return pull_configure(
         system, &hand_energy,
         &(Pull){.node = node,
-                .cell = mesh->nodes > 0 ? mesh->spacing : INFINITY,
+                .cell_size = mesh->nodes > 0 ? mesh->spacing : INFINITY,
                 .side = mesh->side,
                 .mouse_xy = {control->target[0], control->target[1]},
                 .target = {x[0], x[1]},

@@ -67,7 +67,7 @@ int exhibit_list_switches(const Simulation *simulation,
     const Options *options = &simulation->options;
     /* On pages where the key N shortens a spring (NEXT_NEARER), switches are
      * listed only if the page itself turns one over. */
-    bool none = options->next == NEXT_NEARER && !options->flips;
+    bool none = options->next_action == NEXT_NEARER && !options->flips;
     int count = 0;
     for (; !none && count < SCENE_MAX_SWITCHES && label[count]; count++)
         out[count] =

@@ -71,7 +71,7 @@ static void pull(double times)
     Pull hand = {.node = node,
                  .mouse_xy = {0.1, 0.4},
                  .stiffness = times * body->m[node] / (H * H),
-                 .cell = 1.0 / body->segments,
+                 .cell_size = 1.0 / body->segments,
                  .side = 1};
     CHECK_OK(pull_configure(body, &hand_energy, &hand));
 }
