@@ -173,7 +173,7 @@ typedef struct Player {
     PaneView view_of_pane[OPTIONS_MAX_PANES];
     int active; /* index of the active pane, whose numbers are shown */
     Recording recording;
-    Playback time;
+    Playback play;
     Commands commands;
     Tour tour;
     Screen screen;

@@ -142,7 +142,7 @@ static Plot draw_map(const Plot *stage)
 
 /* ---- Newton's path ------------------------------------------------------- */
 
-/* Finds and marks the minima by Newton's method, and the saddle, which would
+/* Finds and marks the minima by Newton's method, and the saddle unless it would
  * cover the directions of LAYER_DOWNHILL. */
 static void mark_stationary_points(const Plot *plot)
 {

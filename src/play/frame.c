@@ -147,7 +147,7 @@ static void fill_chips(const Player *player, Frame *frame)
     bool time = simulation->scene->parts & HAS_TIME;
     bool nears = options->next_action == NEXT_NEARER;
     bool newton = simulation_has_updates(simulation) && !nears;
-    bool ended = simulation->is_over || player->time.mode > MODE_END;
+    bool ended = simulation->is_over || player->play.mode > MODE_END;
     bool stands = player_is_stopped(player);
     if (player->screen.sheet) {
         add_chip(frame, COMMAND_PAGE_ON, 0, false);
@@ -156,7 +156,7 @@ static void fill_chips(const Player *player, Frame *frame)
         return;
     }
     add_chip(frame, COMMAND_TOGGLE_PAUSE, stands, stands && !ended);
-    int next = nears ? 4 : newton ? (int)player->time.walk_unit : time ? 0 : 3;
+    int next = nears ? 4 : newton ? (int)player->play.walk_unit : time ? 0 : 3;
     add_chip(frame, COMMAND_NEXT, next, false);
     add_chip(frame, COMMAND_BACK, 0, false);
     if (options->page) {
@@ -169,7 +169,7 @@ static void fill_chips(const Player *player, Frame *frame)
     }
     add_chip(frame, COMMAND_RESTART, 0, ended);
     if (newton)
-        add_chip(frame, COMMAND_FINER, (int)player->time.walk_unit, false);
+        add_chip(frame, COMMAND_FINER, (int)player->play.walk_unit, false);
     if (simulation_has_projection(simulation))
         add_chip(frame, COMMAND_PROJECTION,
                  options->projection == PROJECTION_NONE, false);
@@ -298,15 +298,15 @@ static void fill_time_line(const Player *player, FrameContent *content)
         append(text, SENTENCE_SIZE, " of %ld", past_newest(past));
     if (!turn)
         append(text, SENTENCE_SIZE, "   t = %.4g s", time);
-    if (!turn && shared && player->time.log_speed != 0)
+    if (!turn && shared && player->play.log_speed != 0)
         append(text, SENTENCE_SIZE,
-               player->time.log_speed < 0 ? "   slowed %.4g times"
+               player->play.log_speed < 0 ? "   slowed %.4g times"
                                           : "   %.4g steps a frame",
-               ldexp(1, abs(player->time.log_speed)));
+               ldexp(1, abs(player->play.log_speed)));
     snprintf(content->title_bar.state, VALUE_SIZE, "%s",
-             player->time.mode == MODE_REST ? "at rest" : "");
+             player->play.mode == MODE_REST ? "at rest" : "");
     if (!past_makes_step(past) ||
-        (clock_now() - player->time.work_start <= LONG_WORK &&
+        (clock_now() - player->play.work_start <= LONG_WORK &&
          !player_is_slow(player)))
         return;
     snprintf(content->title_bar.sentence, SENTENCE_SIZE,

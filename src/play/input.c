@@ -51,11 +51,7 @@ static MouseTarget find_mouse_target(Player *player)
 static Status obey_at(Player *player, CommandKind kind, long number,
                       const double at[2])
 {
-    const Command command = {.kind = kind,
-                             .number = number,
-                             .x = at[0],
-                             .y = at[1],
-                             .joins_gesture = true};
+    const Command command = {kind, number, at[0], at[1], .joins_gesture = true};
     return player_obey(player, &command);
 }
 
@@ -180,7 +176,7 @@ static Status open_cell(Player *player, long cell)
 /* Whether drags place nodes and obstacles, instead of pulling and pushing. */
 static bool drag_places_nodes(const Player *player)
 {
-    return player->time.mode == MODE_PAUSE || player->time.mode == MODE_END;
+    return player->play.mode == MODE_PAUSE || player->play.mode == MODE_END;
 }
 
 /* Begins a drag of a part of the scene, or obeys a click on the part. */

@@ -156,7 +156,7 @@ Status obey_set(Player *player, const Command *command)
                  (row->effect == EFFECT_AGAIN ||
                   (player_active_options(player)->law_name &&
                    player->past.step > 0 && player_is_stopped(player)) ||
-                  (player->time.walk_unit != UNIT_STEP &&
+                  (player->play.walk_unit != UNIT_STEP &&
                    player->view_of_pane[player->active].place >= 0));
     if (simulation_find_option_effect(simulation, row) == EFFECT_START)
         return player_restart_runs(player, options, panes, command);

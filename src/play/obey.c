@@ -127,7 +127,7 @@ static Status abandon_step(Player *player)
 {
     int gesture = player->commands.gesture;
     past_choose_step(&player->past, player->past.step, false);
-    player->time.after_work = AFTER_NOTHING;
+    player->play.after_work = AFTER_NOTHING;
     Status status =
         player_show_refusal(player, player_obey_queue(player, true));
     player->commands.gesture = gesture;

@@ -36,7 +36,7 @@ Status player_draw(Player *player)
     Status status = player->screen.paper_size[0]
                         ? STATUS_OK
                         : player->screen.window->show(&paper->canvas);
-    int slow = player->time.log_speed < 0 ? -player->time.log_speed : 0;
+    int slow = player->play.log_speed < 0 ? -player->play.log_speed : 0;
     if (!status && (fresh || film_is_open(&player->recording.film)))
         status = recording_write_frame(&player->recording, &paper->canvas,
                                        player->past.step, 1 << slow);
@@ -89,8 +89,8 @@ static Status make_due_steps(Player *player)
 {
     const Past *past = &player->past;
     Status status = STATUS_OK;
-    int count = player->screen.window && player->time.log_speed > 0
-                    ? 1 << player->time.log_speed
+    int count = player->screen.window && player->play.log_speed > 0
+                    ? 1 << player->play.log_speed
                     : 1;
     double begin = count > 1 ? clock_now() : 0;
     for (int i = 0; i < count && !status; i++) {
@@ -112,7 +112,7 @@ Status player_make_frame(Player *player)
 {
     double period =
         ldexp(1.0 / FRAME_RATE,
-              player->time.log_speed < 0 ? -player->time.log_speed : 0);
+              player->play.log_speed < 0 ? -player->play.log_speed : 0);
     double start = clock_now();
     Status status = STATUS_OK;
     while (player->screen.window && !status && !player->is_quitting) {
@@ -125,22 +125,22 @@ Status player_make_frame(Player *player)
         status = obey_script(player);
     double now = player->screen.window ? clock_now() : 0;
     if (player->screen.drawn_step < 0) /* draw a run before its first step */
-        player->time.due_time = now + period;
-    bool due = !player->screen.window || now >= player->time.due_time - EARLY;
+        player->play.due_time = now + period;
+    bool due = !player->screen.window || now >= player->play.due_time - EARLY;
     bool first = player->screen.drawn_step < 0 && player->screen.draws_frames;
     bool works = past_is_working(&player->past);
     /* Work that begins in this frame waits until the frame is drawn. */
-    bool begins = works && player->time.work_start > start;
+    bool begins = works && player->play.work_start > start;
     bool lives = player->screen.sheet && player->screen.window;
     bool goes = !lives && !player_is_stopped(player) && due && !first &&
                 !player_has_ended(player);
     if (!status && !begins && (works || goes)) {
         if (!works)
-            player->time.due_time = fmax(player->time.due_time + period, now);
+            player->play.due_time = fmax(player->play.due_time + period, now);
         status = make_due_steps(player);
     }
     if (lives && due) {
-        player->time.due_time = now + 1.0 / FRAME_RATE;
+        player->play.due_time = now + 1.0 / FRAME_RATE;
         sheet_advance(player);
     }
     if (!status && !player->is_quitting && player->screen.must_redraw)
@@ -157,7 +157,7 @@ bool player_is_idle(const Player *player)
 
 int player_find_wait_time(const Player *player)
 {
-    double wait = 1e3 * (player->time.due_time - clock_now());
+    double wait = 1e3 * (player->play.due_time - clock_now());
     if (player_is_idle(player))
         return IDLE_WAIT;
     if (!player->screen.window || past_is_working(&player->past) ||
@@ -232,7 +232,7 @@ Status player_create(const Options *options, char *const *words,
         player_store_own_options(player, options);
     if (options->paused || (player->setup.asks_guess && options->steps < 0 &&
                             (options->page || options->scene->starts_paused)))
-        player->time.mode = MODE_PAUSE;
+        player->play.mode = MODE_PAUSE;
     status = recording_open(options, &player->recording);
     past_create(player->setup.is_attended || player->screen.draws_frames,
                 player->setup.is_attended && options->steps < 0, &player->past);

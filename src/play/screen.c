@@ -19,9 +19,9 @@ Status obey_screen(Player *player, const Command *command)
     const Window *window = player->screen.window;
     CommandKind kind = command->kind;
     if (kind == COMMAND_FASTER)
-        player->time.log_speed += player->time.log_speed < SPEED_MOST;
+        player->play.log_speed += player->play.log_speed < SPEED_MOST;
     else if (kind == COMMAND_SLOWER)
-        player->time.log_speed -= player->time.log_speed > SPEED_LEAST;
+        player->play.log_speed -= player->play.log_speed > SPEED_LEAST;
     else if (kind == COMMAND_COLOURS)
         player->screen.shows_strain = !player->screen.shows_strain;
     else if (kind == COMMAND_BARE)

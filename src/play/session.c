@@ -74,7 +74,7 @@ bool player_panes_differ(const Player *player, const OptionRow *row)
 
 bool player_is_stopped(const Player *player)
 {
-    return player->time.mode >= MODE_PAUSE;
+    return player->play.mode >= MODE_PAUSE;
 }
 
 uint64_t player_hash(const Player *player)
@@ -178,7 +178,7 @@ Status player_show_refusal(Player *player, Status status)
 void player_pause(Player *player)
 {
     if (!player_is_stopped(player))
-        player->time.mode = MODE_PAUSE;
+        player->play.mode = MODE_PAUSE;
 }
 
 Status player_tolerate_failure(Player *player, Status status)

@@ -16,7 +16,7 @@
 Status obey_scene(Player *player, const Command *command)
 {
     Options options[OPTIONS_MAX_PANES];
-    bool runs = player->time.mode >= MODE_END || !player_is_stopped(player);
+    bool runs = player->play.mode >= MODE_END || !player_is_stopped(player);
     Status status = player_find_defaults(player, command->text, NULL, options);
     if (!status)
         status = player_begin_runs(player, options, options->panes, command);
@@ -25,7 +25,7 @@ Status obey_scene(Player *player, const Command *command)
     sheet_close(player);
     bool explains =
         options->scene->starts_paused && !player->setup.options[0].script;
-    player->time.mode = runs && !explains ? MODE_RUN : MODE_PAUSE;
+    player->play.mode = runs && !explains ? MODE_RUN : MODE_PAUSE;
     if (player->screen.column != COLUMN_KEYS)
         player->screen.column = COLUMN_CARDS;
     return STATUS_OK;
@@ -89,7 +89,7 @@ Status player_restart_runs(Player *player, const Options *options, int panes,
                  own.segments == options->segments;
     Status status = player_begin_runs(player, options, opens ? 1 : panes, edit);
     if (opens)
-        player->time.walk_unit = UNIT_STEP;
+        player->play.walk_unit = UNIT_STEP;
     if (!status && opens &&
         player->setup.asks_guess) { /* a script has the page's commands in it */
         player->commands.queue.pins = before;
@@ -119,10 +119,10 @@ Status obey_restart(Player *player, const Command *command)
         options[p].start[1] = command->y;
     }
     if (moves || (options->page && player->setup.asks_guess))
-        player->time.mode = MODE_PAUSE;
-    else if (player->time.mode >= MODE_END && !options->page &&
+        player->play.mode = MODE_PAUSE;
+    else if (player->play.mode >= MODE_END && !options->page &&
              !options->scene->starts_paused)
-        player->time.mode = MODE_RUN;
+        player->play.mode = MODE_RUN;
     if (!moves)
         player->screen.view.lens = LENS_FITS;
     return player_restart_runs(player, options, panes, command);
@@ -209,17 +209,17 @@ Status obey_page(Player *player, const Command *command)
         return status;
     player_store_own_options(player, &options);
     status = player_begin_runs(player, &options, 1, command);
-    player->time.log_speed = player_initial_speed(player, &options);
+    player->play.log_speed = player_initial_speed(player, &options);
     player->tour.last_page = page;
     player->tour.revealed = NULL;
     player->tour.verdict[0] = '\0';
     player_deselect(player);
     player->screen.column = COLUMN_CARDS;
-    player->time.walk_unit = UNIT_STEP;
+    player->play.walk_unit = UNIT_STEP;
     sheet_close(player);
     if (status || !player->setup.asks_guess)
         return status;
-    player->time.mode = MODE_PAUSE;
+    player->play.mode = MODE_PAUSE;
     return player_enqueue_page(player);
 }
 

@@ -94,8 +94,8 @@ static void leave_algorithm_lines(Player *player)
 void player_forget_step(Player *player)
 {
     player->screen.must_redraw = true;
-    if (player->time.mode > MODE_END)
-        player->time.mode = MODE_END;
+    if (player->play.mode > MODE_END)
+        player->play.mode = MODE_END;
     leave_algorithm_lines(player);
     for (int p = 0; p < OPTIONS_MAX_PANES; p++) {
         free(player->view_of_pane[p].ghost);
@@ -116,7 +116,7 @@ static void enter_scene(Player *player)
     char title[128];
     player->screen.scene = options->scene;
     player->screen.page = options->page;
-    player->time.log_speed = player_initial_speed(player, options);
+    player->play.log_speed = player_initial_speed(player, options);
     player->screen.view.lens = LENS_FITS;
     player->screen.toggled_cards = 0;
     player->screen.enlarged_card = -1;
@@ -154,9 +154,9 @@ Status player_begin_runs(Player *player, const Options *options, int count,
         return again ? player_refuse(player, "%s", status_text(status))
                      : status;
     player_forget_step(player);
-    player->time.mode = player_is_stopped(player) ? MODE_PAUSE : MODE_RUN;
+    player->play.mode = player_is_stopped(player) ? MODE_PAUSE : MODE_RUN;
     player->screen.drawn_step = -1;
-    player->time.has_warned = player->time.has_told_gain = false;
+    player->play.has_warned = player->play.has_told_gain = false;
     drop_hand_and_queue(player);
     update_after_edit(player);
     return record_step(player);
@@ -164,8 +164,8 @@ Status player_begin_runs(Player *player, const Options *options, int count,
 
 Status player_edit(Player *player, const Command *change, int pane, bool again)
 {
-    if (player->time.mode == MODE_REST)
-        player->time.mode = MODE_RUN; /* bodies may move again */
+    if (player->play.mode == MODE_REST)
+        player->play.mode = MODE_RUN; /* bodies may move again */
     Status status =
         past_edit(&player->past, change, pane, again, player->commands.gesture);
     if (!status)
@@ -201,12 +201,12 @@ static void report_energy_gain(Player *player)
     const Past *past = &player->past;
     if (player->setup.options[0].steps >= 0 || !player->setup.is_attended)
         return;
-    for (int p = 0; p < past_panes(past) && !player->time.has_told_gain; p++) {
+    for (int p = 0; p < past_panes(past) && !player->play.has_told_gain; p++) {
         const Simulation *simulation = &past->pane[p].simulation;
-        for (int r = 0; r < simulation->runs && !player->time.has_told_gain;
+        for (int r = 0; r < simulation->runs && !player->play.has_told_gain;
              r++) {
-            player->time.has_told_gain = simulation->ledger[r].gain_steps > 0;
-            if (player->time.has_told_gain)
+            player->play.has_told_gain = simulation->ledger[r].gain_steps > 0;
+            if (player->play.has_told_gain)
                 player_note(player,
                             "step %ld: the total energy has risen by %.3g J "
                             "without work; a long step of backward Euler can "
@@ -242,16 +242,16 @@ static void stop_run_if_over(Player *player)
     }
     bad = bad && past_panes(past) == 1;
     if (rests && going > 0)
-        player->time.mode = MODE_REST;
-    else if (ended || (bad && !player->time.has_warned))
-        player->time.mode = MODE_END;
+        player->play.mode = MODE_REST;
+    else if (ended || (bad && !player->play.has_warned))
+        player->play.mode = MODE_END;
     if (ended) /* the sentence above the picture says how the run ended */
         player->note[0] = '\0';
-    player->time.has_warned = player->time.has_warned || bad;
+    player->play.has_warned = player->play.has_warned || bad;
     if (past->step == options->pause_step && options->pause_step > 0 &&
         options->page == player->tour.revealed)
-        player->time.mode = MODE_PAUSE;
-    if (player->time.mode == MODE_REST)
+        player->play.mode = MODE_PAUSE;
+    if (player->play.mode == MODE_REST)
         report_at_rest(player);
 }
 
@@ -271,7 +271,7 @@ static void enter_line_walk(Player *player, AfterWork after)
                                                 : step_trace_find_peak(trace);
         if (place < 0)
             continue;
-        player->time.mode = MODE_PAUSE;
+        player->play.mode = MODE_PAUSE;
         player->view_of_pane[p].place = place;
         const double *x = step_trace_fill(trace, place, &shown);
         if (after != AFTER_SHOW_PEAK)
@@ -293,7 +293,7 @@ static bool walk_lines(Player *player, int way)
         int *place = &player->view_of_pane[p].place;
         if (*place < 0)
             continue;
-        int next = step_trace_walk(trace, player->time.walk_unit, *place, way);
+        int next = step_trace_walk(trace, player->play.walk_unit, *place, way);
         moved = moved || next != *place;
         *place = next;
     }
@@ -329,10 +329,10 @@ static void compare_outcomes(Player *player)
 {
     const Past *past = &player->past;
     const StepTrace *trace = &player_active_pane(player)->trace;
-    const TracePlace *at = &player->time.wanted_place;
+    const TracePlace *at = &player->play.wanted_place;
     char has[256];
     if (at->iterate >= 0 && trace->place_count > 2) {
-        player->time.mode = MODE_PAUSE;
+        player->play.mode = MODE_PAUSE;
         player->view_of_pane[player->active].place =
             step_trace_find_place(trace, at->iterate, at->at_line);
     }
@@ -353,9 +353,9 @@ Status player_repeat_step(Player *player, const Command *change, int pane)
     size_t bytes = 2 * (size_t)simulation->system.nodes * sizeof(double);
     bool failed = active->has_failed;
     long step = past->step + failed;
-    player->time.wanted_place = (TracePlace){.iterate = -1};
-    if (view->place >= 0 && player->time.walk_unit != UNIT_STEP)
-        player->time.wanted_place = active->trace.place[view->place];
+    player->play.wanted_place = (TracePlace){.iterate = -1};
+    if (view->place >= 0 && player->play.walk_unit != UNIT_STEP)
+        player->play.wanted_place = active->trace.place[view->place];
     player_forget_step(player);
     describe_outcome(player, row, view->ghost_label, sizeof view->ghost_label);
     if (row->effect == EFFECT_AGAIN && !failed && !simulation->scene->step)
@@ -366,8 +366,8 @@ Status player_repeat_step(Player *player, const Command *change, int pane)
     if (status)
         return status;
     player->screen.drawn_step = -1;
-    past_choose_step(past, step, player->time.wanted_place.iterate >= 0);
-    player->time.after_work = AFTER_COMPARE;
+    past_choose_step(past, step, player->play.wanted_place.iterate >= 0);
+    player->play.after_work = AFTER_COMPARE;
     return STATUS_OK;
 }
 
@@ -379,9 +379,9 @@ Status player_repeat_step(Player *player, const Command *change, int pane)
 static Status finish_work(Player *player, Status status, long before, bool made)
 {
     const Past *past = &player->past;
-    AfterWork after = player->time.after_work;
+    AfterWork after = player->play.after_work;
     bool runs = made && after == AFTER_NOTHING && !player_is_stopped(player);
-    player->time.after_work = AFTER_NOTHING;
+    player->play.after_work = AFTER_NOTHING;
     player->screen.must_redraw = true;
     if (status_is_failure(status) && past->step == before) {
         long seen = past_find_drawable_step(past, 0, before);
@@ -413,8 +413,8 @@ Status player_work(Player *player)
 {
     Past *past = &player->past;
     double begin = clock_now();
-    if (player->time.work_start == 0)
-        player->time.work_start = begin;
+    if (player->play.work_start == 0)
+        player->play.work_start = begin;
     player_sample_line_energy(player);
     while (past_is_working(past) && !player->is_quitting) {
         long before = past->step;
@@ -433,7 +433,7 @@ Status player_work(Player *player)
     }
     player->screen.must_redraw = true;
     if (!past_is_working(past))
-        player->time.work_start = 0;
+        player->play.work_start = 0;
     return STATUS_OK;
 }
 
@@ -466,7 +466,7 @@ Status player_seek(Player *player, long step, AfterWork after)
     player_forget_step(player);
     past_choose_step(past, step,
                      after == AFTER_SHOW_FIRST || after == AFTER_SHOW_LAST);
-    player->time.after_work = after;
+    player->play.after_work = after;
     return STATUS_OK;
 }
 
@@ -475,7 +475,7 @@ Status player_seek(Player *player, long step, AfterWork after)
 Status obey_pause(Player *player, const Command *command)
 {
     bool runs = command->kind == COMMAND_PLAY;
-    player->time.mode = runs ? MODE_RUN : MODE_PAUSE;
+    player->play.mode = runs ? MODE_RUN : MODE_PAUSE;
     if (runs)
         leave_algorithm_lines(player);
     return STATUS_OK;
@@ -484,7 +484,7 @@ Status obey_pause(Player *player, const Command *command)
 Status obey_next(Player *player, const Command *command)
 {
     AfterWork after = command->kind == COMMAND_STEP         ? AFTER_NOTHING
-                      : player->time.walk_unit != UNIT_STEP ? AFTER_SHOW_FIRST
+                      : player->play.walk_unit != UNIT_STEP ? AFTER_SHOW_FIRST
                                                             : AFTER_SHOW_PEAK;
     player_pause(player);
     if (after == AFTER_SHOW_FIRST && walk_lines(player, 1))
@@ -513,7 +513,7 @@ Status obey_back(Player *player, const Command *command)
     player_pause(player);
     if (step == 0)
         player_note(player, "this is step 0: nothing was before it");
-    if (player->time.walk_unit == UNIT_STEP || !panes_use_newton(player))
+    if (player->play.walk_unit == UNIT_STEP || !panes_use_newton(player))
         return player_seek(player, step - 1, AFTER_NOTHING);
     if (player->view_of_pane[player->active].place < 0 && step > 0) {
         if (!player_active_pane(player)->has_trace)
@@ -531,13 +531,13 @@ Status obey_walk_unit(Player *player, const Command *command)
     static const char *const paces[] = {
         "whole steps", "updates of Newton's method", "lines of Algorithm 3"};
     if (player_active_options(player)->next_action == NEXT_NEARER ||
-        (!panes_use_newton(player) && player->time.walk_unit == UNIT_STEP))
+        (!panes_use_newton(player) && player->play.walk_unit == UNIT_STEP))
         return player_refuse(player, "a step here has no finer ones");
-    player->time.walk_unit = (player->time.walk_unit + 1) % UNITS;
+    player->play.walk_unit = (player->play.walk_unit + 1) % UNITS;
     player_pause(player);
-    if (player->time.walk_unit == UNIT_STEP)
+    if (player->play.walk_unit == UNIT_STEP)
         leave_algorithm_lines(player);
-    player_note(player, "N and \u2190 go by %s", paces[player->time.walk_unit]);
+    player_note(player, "N and \u2190 go by %s", paces[player->play.walk_unit]);
     return STATUS_OK;
 }
 
@@ -587,7 +587,7 @@ Status obey_undo(Player *player, const Command *command)
         return player_refuse(player, way < 0 ? "nothing is to be undone"
                                              : "nothing was undone");
     const Command edit = *made;
-    player->time.mode = MODE_PAUSE;
+    player->play.mode = MODE_PAUSE;
     drop_hand_and_queue(player);
     player->hands.mouse.gesture = ++player->commands.gestures;
     update_after_edit(player);

@@ -46,7 +46,7 @@ Status simulation_create(const Options *options, NewtonObserver observer,
             exhibit_flip_switch(simulation, i);
     for (int r = 0; r < simulation->runs && !status; r++)
         simulation->ledger[r].start = simulation->ledger[r].last_balance =
-            -simulation_energies(simulation, r).dissipated; /* begins at 0 */
+            -simulation_energies(simulation, r).dissipated; /* dissipated: 0 */
     return status;
 }
 

@@ -221,7 +221,7 @@ static void frame_of(const char *line, int step, Canvas frame[2])
     snprintf(whole, sizeof whole, "%s --steps %d", line, step);
     begin(whole);
     player.screen.draws_frames = true; /* E along p is kept for the picture */
-    player.time.mode = MODE_RUN;
+    player.play.mode = MODE_RUN;
     while (player.past.step < step) {
         Status status = player_make_step(&player);
         CHECK(!status || status_is_unconverged(status));

@@ -91,8 +91,8 @@ TEST(steps_are_due_at_the_speed_that_was_asked_for)
 {
     for (int speed = -5; speed <= 3; speed++) {
         begin_window("square --segments 1 --stretch 1 --velocity 3,4");
-        while (player.time.log_speed != speed)
-            CHECK_OK(obey(player.time.log_speed < speed ? "faster" : "slower"));
+        while (player.play.log_speed != speed)
+            CHECK_OK(obey(player.play.log_speed < speed ? "faster" : "slower"));
         CHECK_OK(player_make_frame(&player)); /* the start is a frame, too */
         const double every = ldexp(1, speed < 0 ? -speed : 0) / 60;
         CHECK_NEAR(player_find_wait_time(&player), fmin(1e3 * every, 200), 1);

@@ -532,7 +532,7 @@ static void collect_facts(void)
     fact("stands %d", content->time_line.paused);
     fact("panes %d", content->panes);
     fact("ghost %d", content->pane[content->active_pane].ghost_x != NULL);
-    fact("speed %d", player.time.log_speed);
+    fact("speed %d", player.play.log_speed);
     fact("scene %s", player_simulation(&player)->scene->name);
     fact("over %s %d", kinds[content->view->hovered.kind],
          content->view->hovered.index);
