@@ -6,7 +6,7 @@
 /* Begins a loop over bands, with a copy of the grid that stays in registers. */
 #define BANDS                                                                  \
     const Grid local = *grid;                                                  \
-    const int plane = local.rows.plane;                                        \
+    const ptrdiff_t plane = local.rows.plane;                                  \
     for (int band = 0; band < local.bands; band++)
 
 FAST double grid_gradient(const Grid *grid, double *g)
@@ -18,7 +18,7 @@ FAST double grid_gradient(const Grid *grid, double *g)
         double *const gx = g, *const gy = gx + plane;
         double sum[LANES] = {0};
         EACH_NODE_OF (local, band) {
-            const int q = at.first + e;
+            const ptrdiff_t q = at.first + e;
             Pair mass = PAIR(local.m, q + at.node);
             Pair fx = mass * PAIR(ax, q), fy = mass * PAIR(ay, q);
 #define ADD(kind, to, numbers)                                                 \
@@ -55,7 +55,7 @@ FAST double grid_linear_residual(const Grid *grid, const double *g,
         const double *const gx = g, *const gy = gx + plane;
         double sum[LANES] = {0};
         EACH_NODE_OF (local, band) {
-            const int q = at.first + e;
+            const ptrdiff_t q = at.first + e;
             Pair hx = PAIR(px, q), hy = PAIR(py, q);
             Pair mass = PAIR(local.m, q + at.node);
             Pair fx = mass * hx, fy = mass * hy;
@@ -100,7 +100,7 @@ FAST void grid_line_polynomial(const Grid *grid, const double *p,
         const double *const px = p, *const py = px + plane;
         double sum[4][LANES] = {{0}};
         EACH_NODE_OF (local, band) {
-            const int q = at.first + e;
+            const ptrdiff_t q = at.first + e;
             Pair hx = PAIR(px, q), hy = PAIR(py, q), q0 = {0}, q1 = {0};
             Pair q2 = {0}, q3 = {0}, p2 = hx * hx + hy * hy;
             Pair mass = PAIR(local.m, q + at.node);
@@ -137,7 +137,7 @@ FAST double grid_conjugate(const Grid *grid, const double *g,
         double sum[LANES] = {0};
         EACH_RUN_OF (local, band)
             EACH_OF (NEXT(at, LANES)) {
-                const int x = at.first + e, y = x + plane;
+                const ptrdiff_t x = at.first + e, y = x + plane;
                 sum[e] += p[x] * (g[x] - last_g[x]) + p[y] * (g[y] - last_g[y]);
             }
         total += sum_lanes(sum);
@@ -156,7 +156,7 @@ FAST double grid_correct_momentum(const Grid *grid)
         double sum[3][LANES] = {{0}};
         EACH_RUN_OF (local, band)
             EACH_OF (NEXT(at, LANES)) {
-                const int q = at.first + e;
+                const ptrdiff_t q = at.first + e;
                 double m = local.m[q + at.node];
                 sum[0][e] += m;
                 sum[1][e] += m * local.from_target[q];
@@ -175,7 +175,7 @@ FAST double grid_correct_momentum(const Grid *grid)
             const double *const x_tilde = local.x_tilde + c * plane;
             EACH_RUN_OF (local, band)
                 EACH_OF (NEXT(at, LANES)) {
-                    const int q = at.first + e;
+                    const ptrdiff_t q = at.first + e;
                     away[q] -= local.m[q + at.node] > 0 ? mean : 0;
                     x[q] = x_tilde[q] + away[q];
                 }

@@ -25,13 +25,15 @@
 #define INLINE static inline __attribute__((always_inline))
 
 /* Nodes of one row, contiguous in memory, with index distances to neighbours,
- * springs and masses. */
+ * springs and masses.  Indices are ptrdiff_t, as addresses then need no
+ * conversions. */
 typedef struct NodeRun {
-    int first, end;    /* index of the first node, and past the last one */
-    int next;          /* distance from a node to the next row */
-    int before, after; /* distances to the columns before and after */
-    int own, below;    /* Grid.spring_shift of the row, and of the row before */
-    int node;          /* index shift of the masses */
+    ptrdiff_t first, end; /* index of the first node, and past the last one */
+    ptrdiff_t next;       /* distance from a node to the next row */
+    ptrdiff_t before, after; /* distances to the columns before and after */
+    ptrdiff_t own, below;    /* Grid.spring_shift of the row, and of the row
+                                before */
+    ptrdiff_t node;          /* index shift of the masses */
 } NodeRun;
 
 INLINE NodeRun nodes_in_row(const RowLayout *rows, int i, int odd)

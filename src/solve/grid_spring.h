@@ -14,8 +14,8 @@ typedef struct Spring {
 } Spring;
 
 /* Evaluates the spring from node q to q + to, with its numbers at q + at. */
-INLINE Spring evaluate_grid_spring(const Grid *grid, int kind, int q, int to,
-                                   int at)
+INLINE Spring evaluate_grid_spring(const Grid *grid, int kind, ptrdiff_t q,
+                                   ptrdiff_t to, ptrdiff_t at)
 {
     const double *x = grid->x, *y = x + grid->rows.plane;
     Pair dx = PAIR(x, q) - PAIR(x, q + to), dy = PAIR(y, q) - PAIR(y, q + to);
@@ -29,8 +29,9 @@ typedef struct SingleSpring {
     Few dx, dy, d2, s, c;
 } SingleSpring;
 
-INLINE SingleSpring evaluate_single_spring(const Grid *grid, int kind, int q,
-                                           int to, int at)
+INLINE SingleSpring evaluate_single_spring(const Grid *grid, int kind,
+                                           ptrdiff_t q, ptrdiff_t to,
+                                           ptrdiff_t at)
 {
     const float *x = grid->float_x, *y = x + grid->rows.plane;
     Few dx = FEW(x, q) - FEW(x, q + to), dy = FEW(y, q) - FEW(y, q + to);

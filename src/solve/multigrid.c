@@ -11,13 +11,13 @@
 
 /* The V-cycle keeps its matrices while no node has moved by more than this part
  * of the shortest spring since they were computed. */
-static const double NEARBY = 0.02;
+static const double NEARBY = 0.05;
 
 /* A direction is poor if the bound of p after it is more than STALLS times the
  * bound before.  Tiles relax after each poor direction, and after the first one
- * of a step conjugate gradients find the directions.  A sweep of a tile is
- * worth its time if it lowers E by more than PACE times the last direction's
- * decrease, divided by the number of tiles. */
+ * of a step the Hessian is clamped.  A sweep of a tile is worth its time if it
+ * lowers E by more than PACE times the last direction's decrease, divided by
+ * the number of tiles. */
 static const double STALLS = 0.3, PACE = 0.06;
 
 /* Number of iterations after which Newton takes over; most steps need ten. */
@@ -46,7 +46,6 @@ struct Multigrid {
     Quartic line_E;          /* E(x + alpha p) - E(x), J s^2 */
     unsigned version;        /* System.version in the grid */
     double weight;           /* s^2, weight of P in the grid */
-    bool is_slow;            /* a direction of this step was poor */
     bool has_relaxed;        /* tiles relaxed in the last update */
     bool change_was_hidden;  /* rounding hid the last iteration's change of E,
                                 and p_bound did not fall */
@@ -143,7 +142,7 @@ static Status multigrid_read_problem(Newton *newton)
     if (status)
         return status;
     Multigrid *mg = newton->multigrid;
-    mg->is_slow = mg->has_relaxed = mg->change_was_hidden = false;
+    mg->has_relaxed = mg->change_was_hidden = mg->cycle.is_clamped = false;
     mg->largest_change = mg->p_size = 0;
     incremental_potential_absorb_pulls(at, m, u_tilde);
     if (mg->weight != at->E.weight || mg->version != system->version) {
@@ -159,16 +158,18 @@ static Status multigrid_read_problem(Newton *newton)
 
 /* ---- search direction ---- */
 
-/* Computes p = -H^-1 g up to a linear residual, and tests p. */
-static Status multigrid_find_direction(Newton *newton)
+/* Clamps the Hessian in the rest of the step. */
+static void multigrid_clamp(Multigrid *mg)
 {
-    NewtonRecord *record = &newton->record;
-    Status status =
-        record->iteration == 0 ? multigrid_read_problem(newton) : STATUS_OK;
+    if (!mg->cycle.is_clamped)
+        mg->moved_since_setup = INFINITY;
+    mg->cycle.is_clamped = true;
+}
+
+/* Computes p = -H^-1 g up to a linear residual, and tests p. */
+static void multigrid_compute_direction(Newton *newton)
+{
     Multigrid *mg = newton->multigrid;
-    newton->passes_test = false;
-    if (status)
-        return status;
     if (mg->moved_since_setup > NEARBY * newton->rounding.shortest) {
         mg->cycle.is_set_up = false;
         mg->moved_since_setup = 0;
@@ -176,16 +177,26 @@ static Status multigrid_find_direction(Newton *newton)
     const double h = newton->settings.h * mg->grid.length_unit;
     const double longest = h * newton->tolerance;
     double largest;
-    if (v_cycle_solve(&mg->cycle, mg->g, mg->gradient_norm2, longest,
-                      !mg->is_slow, mg->p, &largest)) {
+    if (v_cycle_solve(&mg->cycle, mg->g, mg->gradient_norm2, longest, mg->p,
+                      &largest)) {
         double square = grid_linear_residual(&mg->grid, mg->g, mg->p, &largest);
         newton->passes_test =
             p_passes_test(&mg->grid, largest, square, longest);
     }
-    record->residual = largest / h;
-    record->residual_kind = RESIDUAL_ESTIMATE;
+    newton->record.residual = largest / h;
     newton->counters.cycles = mg->cycle.cycles;
-    return STATUS_OK;
+}
+
+static Status multigrid_find_direction(Newton *newton)
+{
+    NewtonRecord *record = &newton->record;
+    Status status =
+        record->iteration == 0 ? multigrid_read_problem(newton) : STATUS_OK;
+    newton->passes_test = false;
+    record->residual_kind = RESIDUAL_ESTIMATE;
+    if (!status)
+        multigrid_compute_direction(newton);
+    return status;
 }
 
 /* Returns an alpha at which the quartic is below 0, at a minimum if rounding
@@ -222,18 +233,29 @@ static Status multigrid_find_step_length(Newton *newton)
 {
     Multigrid *mg = newton->multigrid;
     NewtonRecord *record = &newton->record;
-    double beta = 0;
-    if (record->iteration > 0 && !mg->has_relaxed)
-        beta = grid_conjugate(&mg->grid, mg->g, mg->last_g, mg->last_p,
-                              mg->line_E.q[0] * mg->grid.energy_unit, mg->p);
-    mg->p_size = record->residual * newton->settings.h + beta * mg->p_size;
-    multigrid_compute_line(mg);
-    record->slope = mg->line_E.q[0];
+    const double last_size = mg->p_size;
+    const double last_slope = mg->line_E.q[0] * mg->grid.energy_unit;
+    for (bool again = true; again;) {
+        double beta = 0;
+        if (record->iteration > 0 && !mg->has_relaxed)
+            beta = grid_conjugate(&mg->grid, mg->g, mg->last_g, mg->last_p,
+                                  last_slope, mg->p);
+        mg->p_size = record->residual * newton->settings.h + beta * last_size;
+        multigrid_compute_line(mg);
+        record->slope = mg->line_E.q[0];
+        record->alpha = record->slope <= 0
+                            ? minimise_quartic(&mg->line_E, &record->trials)
+                            : 0;
+        again = !(record->alpha > 0) && !mg->cycle.is_clamped;
+        if (again) { /* H is not positive definite */
+            multigrid_clamp(mg);
+            multigrid_compute_direction(newton);
+        }
+    }
     if (!isfinite(record->slope))
         return STATUS_NOT_FINITE;
     if (!(record->slope <= 0))
         return STATUS_NOT_DESCENT;
-    record->alpha = minimise_quartic(&mg->line_E, &record->trials);
     if (!(record->alpha > 0))
         return STATUS_LINE_SEARCH_LIMIT;
     record->change = quartic_value(&mg->line_E, record->alpha);
@@ -254,8 +276,8 @@ static Status multigrid_update_iterate(Newton *newton)
     if (newton->passes_test)
         return STATUS_OK;
     mg->has_relaxed = mg->p_bound > STALLS * mg->last_p_bound;
-    mg->is_slow = mg->is_slow || mg->has_relaxed;
     if (mg->has_relaxed) {
+        multigrid_clamp(mg);
         tiles_relax(&mg->tiles, PACE * record->change * unit / tiles, p);
         multigrid_compute_line(mg);
         double alpha = minimise_quartic(&mg->line_E, &(int){0});
@@ -285,8 +307,11 @@ static Status multigrid_test_iterate(Newton *newton, Status status)
     bool small = fabs(record->change) <= SMALL_CHANGE * -mg->largest_change;
     bool last = record->iteration + 1 >= newton_most_iterations(newton);
     bool stuck = status != STATUS_OK || record->iteration >= HANDED_ITERATIONS;
-    bool ends = newton->passes_test ||
-                (!stuck && mg->p_bound <= negligible_direction_size(newton));
+    bool next_passes =
+        fmax(record->residual, 2 * mg->p_bound / newton->settings.h) <=
+        newton->tolerance;
+    bool is_tiny = mg->p_bound <= negligible_direction_size(newton);
+    bool ends = newton->passes_test || (!stuck && (next_passes || is_tiny));
     if (ends && system_falls_freely(newton->system))
         record->change +=
             grid_correct_momentum(&mg->grid) / mg->grid.energy_unit;

@@ -71,10 +71,10 @@ INLINE void gather_springs(const Tiles *tiles, NodeRun at, bool is_close,
                            NodeSums of)
 {
     const Grid *grid = tiles->grid;
-    const int plane = grid->rows.plane;
+    const ptrdiff_t plane = grid->rows.plane;
     const float *const ux = tiles->u, *const uy = ux + plane;
     EACH_FEW (NEXT(at, LANES)) {
-        const int q = at.first + e;
+        const ptrdiff_t q = at.first + e;
         Few mass = FEW(grid->float_m, q), iso = mass;
         Few gx = FEW(tiles->start_g, q) + mass * FEW(ux, q);
         Few gy = FEW(tiles->start_g, q + plane) + mass * FEW(uy, q);
@@ -142,13 +142,13 @@ INLINE void relax_nodes(const Tiles *tiles, NodeRun at, bool is_close,
                         double *sum)
 {
     const Grid *grid = tiles->grid;
-    const int plane = grid->rows.plane;
+    const ptrdiff_t plane = grid->rows.plane;
     float *const x = grid->float_x, *const y = x + plane;
     float *const ux = tiles->u, *const uy = ux + plane;
     NodeSums of;
     gather_springs(tiles, at, is_close, of);
     EACH_OF (NEXT(at, LANES)) {
-        const int q = at.first + e;
+        const ptrdiff_t q = at.first + e;
         float gx = of[GX][e], gy = of[GY][e], negative = of[NEGATIVE][e];
         float A = of[XX][e], B = of[XY][e], C = of[YY][e], trace = A + C;
         bool good = (trace > 0) & (A * C - B * B > DEFINITE * trace * trace);
@@ -230,7 +230,7 @@ FAST static double relax_active(Tiles *tiles, double activity, int *visits)
 INLINE void begin_relaxation(const Tiles *tiles, double *g)
 {
     const Grid *grid = tiles->grid;
-    const int plane = grid->rows.plane;
+    const ptrdiff_t plane = grid->rows.plane;
     float *const start_g = tiles->start_g;
     grid_narrow_x(grid);
     memset(tiles->u, 0, 2 * (size_t)plane * sizeof(float));

@@ -56,20 +56,23 @@ INLINE int rows_with_coarse(const Level *level)
 
 /* ---- tensors ---- */
 
-/* Computes the tensors of the springs that start in row i, with negative
- * eigenvalues replaced by 0. */
+/* Computes the tensors of the springs that start in row i.  A clamped Hessian
+ * has 0 in place of negative eigenvalues, as that across a short spring. */
 INLINE void compute_tensor_row(const VCycle *cycle, int i)
 {
     const Grid grid = *cycle->grid;
     const Level level = cycle->level[0];
+    const float kept = cycle->is_clamped ? 0 : 1;
     for (int odd = 0; odd < 2; odd++)
         for (NodeRun at = grid_nodes(&grid, i, odd); at.first < at.end;
              at.first += LANES) {
 #define ADD(kind, to, numbers)                                                 \
     EACH_FEW (NEXT(at, LANES)) {                                               \
-        const int q = at.first + e;                                            \
+        const ptrdiff_t q = at.first + e;                                      \
         SingleSpring s = evaluate_single_spring(&grid, kind, q, to, numbers);  \
         CLAMPED_TENSOR(s.s, s.d2 + 1e-35f, iso, along);                        \
+        along = along * (1 - kept) + 2 * kept;                                 \
+        iso += kept * WHERE(s.s < 0, s.s);                                     \
         FEW(level.K[kind][0], q) = s.c * (iso + along * s.dx * s.dx);          \
         FEW(level.K[kind][1], q) = s.c * along * s.dx * s.dy;                  \
         FEW(level.K[kind][2], q) = s.c * (iso + along * s.dy * s.dy);          \
@@ -86,7 +89,7 @@ INLINE void invert_diagonal_row(const Level *of, int i)
         for (NodeRun at = nodes_in_row(&level.rows, i, odd); at.first < at.end;
              at.first += LANES)
             EACH_OF (NEXT(at, LANES)) {
-                const int q = at.first + e;
+                const ptrdiff_t q = at.first + e;
                 float mass = level.m[q], xx = mass, xy = 0, yy = mass;
 #define ADD(kind, to, numbers)                                                 \
     xx += level.K[kind][0][q + (numbers)];                                     \
@@ -217,7 +220,7 @@ INLINE void visit_row(const Level *of, int i, int colour, PassResult result,
                       float *xb, float *xw)
 {
     const Level level = *of;
-    const int plane = level.rows.plane;
+    const ptrdiff_t plane = level.rows.plane;
     const bool from_0 = result == FIRST || result == RESIDUAL;
     const bool along = !from_0 || (colour % 2 != 0) == (result == FIRST);
     const bool across = !from_0 || (colour / 2 != 0) == (result == FIRST);
@@ -229,7 +232,7 @@ INLINE void visit_row(const Level *of, int i, int colour, PassResult result,
     for (NodeRun at = nodes_in_row(&level.rows, i, colour % 2);
          at.first < at.end; at.first += LANES)
         EACH_FEW (NEXT(at, LANES)) {
-            const int q = at.first + e;
+            const ptrdiff_t q = at.first + e;
             Few hx = {0}, hy = {0}, ax = {0}, ay = {0};
             if (result == FIRST) { /* ax and ay are b - A x here, else A x */
                 ax = FEW(bx, q);
@@ -382,7 +385,7 @@ FAST static double advance_conjugate_gradients(const VCycle *of, float alpha,
     const VCycle cycle = *of;
     const Grid grid = *cycle.grid;
     const Level level = cycle.level[0];
-    const int plane = grid.rows.plane;
+    const ptrdiff_t plane = grid.rows.plane;
     double total = 0;
     float most[LANES] = {0}, square[LANES];
     for (int band = 0; band < grid.bands; band++) {
@@ -390,7 +393,8 @@ FAST static double advance_conjugate_gradients(const VCycle *of, float alpha,
         EACH_RUN_OF (grid, band) {
             EACH_OF (NEXT(at, LANES)) {
                 float size = 0, of_b = 0;
-                for (int c = 0, q = at.first + e; c < 2; c++, q += plane) {
+                for (ptrdiff_t c = 0, q = at.first + e; c < 2;
+                     c++, q += plane) {
                     float d = level.x[q] + beta * cycle.d[q];
                     float Ad = level.w[q] + beta * cycle.Ad[q];
                     float p = cycle.p[q] + alpha * d;
@@ -451,8 +455,7 @@ FAST static double find_largest(const Level *level)
 }
 
 FAST bool v_cycle_solve(VCycle *cycle, const double *g, double square,
-                        double longest, bool is_quick, double *p,
-                        double *largest)
+                        double longest, double *p, double *largest)
 {
     const Grid *grid = cycle->grid;
     const int numbers = 2 * grid->rows.plane;
@@ -470,7 +473,7 @@ FAST bool v_cycle_solve(VCycle *cycle, const double *g, double square,
         cycle->cycles++;
         if (i == 0) {
             *largest = find_largest(cycle->level) / unit;
-            if (is_quick && *largest > HOPEFUL * longest)
+            if (!cycle->is_clamped)
                 break;
             found = cycle->p;
             for (int k = 0; k < 3; k++)

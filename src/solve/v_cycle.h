@@ -1,7 +1,7 @@
-/* v_cycle.h - p = -H^-1 g without a factor: a multigrid V-cycle on the clamped
- * Hessian H in single precision.  If p may pass the test, or the caller does
- * not set is_quick, cycles precondition conjugate gradients, which tell how
- * exact p is.
+/* v_cycle.h - p = -H^-1 g without a factor: a multigrid V-cycle on the Hessian
+ * H in single precision.  One cycle on the exact H finds p until the caller
+ * clamps H.  From then on cycles precondition conjugate gradients, which tell
+ * how exact p is.
  *
  * A level has a tensor, K = w 2k/l2 (iso I + along d d^T), for each spring and
  * a mass for each node; H x at a node is m x + sum K (x - x').  A coarser level
@@ -13,8 +13,9 @@
  *
  * A cycle smooths by Gauss-Seidel, node by node in four colours (row and column
  * even or odd), before the coarser level's correction and, in the opposite
- * order, after it; so the cycle is symmetric and positive definite.  Nodes of
- * one colour share no spring, so the bits do not depend on the number of lanes.
+ * order, after it; so the cycle is symmetric, and positive definite if H is
+ * clamped.  Nodes of one colour share no spring, so the bits do not depend on
+ * the number of lanes.
  */
 #pragma once
 
@@ -39,6 +40,7 @@ typedef struct VCycle {
     Level level[MAX_LEVELS]; /* the finest level first */
     float *p, *d, *Ad; /* [2 planes] solution, direction d and A d of conjugate
                           gradients */
+    bool is_clamped;   /* negative eigenvalues of the springs become 0 */
     bool is_set_up; /* has the tensors at grid->x; set to false when x moves */
     long cycles;    /* number of V-cycles so far */
 } VCycle;
@@ -53,11 +55,11 @@ void v_cycle_read_system(VCycle *cycle);
  *   g         [2 planes] grad E; anything at pins
  *   square    |g|_(M^-1)^2
  *   longest   largest |p_x| + |p_y| of a node with which p passes the test
- *   is_quick  one V-cycle is enough if p is too long to pass the test
  *   largest   out, max over nodes of |p_x| + |p_y|
- * Returns whether p passes the test, as far as single precision tells. */
+ * Returns whether p passes the test, as far as single precision tells; false if
+ * the Hessian is not clamped. */
 bool v_cycle_solve(VCycle *cycle, const double *g, double square,
-                   double longest, bool is_quick, double *p, double *largest);
+                   double longest, double *p, double *largest);
 
 /* Whether the exact direction passes the test.  H - M is positive
  * semi-definite, so the error of p is at most |r|_(M^-1) in the norm of M,

@@ -156,7 +156,7 @@ static void judge_convergence(Watch *watch, const double *u, double limit)
 }
 
 /* The last direction passed the test, and was used; or the one after it passes
- * the test and is shorter than a millionth of the shortest spring. */
+ * the test, by multigrid or shorter than a millionth of the shortest spring. */
 static void judge_end(Watch *watch)
 {
     const Newton *newton = watch->run->newton;
@@ -168,6 +168,8 @@ static void judge_end(Watch *watch)
     double limit = guess ? newton->tolerance : watch->tolerance;
     if (newton->passes_test)
         judge_convergence(watch, watch->u, limit);
+    else if (newton->active_solver == SOLVER_MULTIGRID)
+        judge_convergence(watch, newton->at.u, limit);
     else
         judge_convergence(watch, newton->at.u,
                           fmin(limit, 1e-6 * sqrt(l2) / newton->settings.h));
