@@ -18,7 +18,7 @@ static const double NEARBY = 0.05;
  * of a step the Hessian is clamped.  A sweep of a tile is worth its time if it
  * lowers E by more than PACE times the last direction's decrease, divided by
  * the number of tiles. */
-static const double STALLS = 0.3, PACE = 0.06;
+static const double STALLS = 0.3, PACE = 0.01;
 
 /* Number of iterations after which Newton takes over; most steps need ten. */
 enum { HANDED_ITERATIONS = 200 };

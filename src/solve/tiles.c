@@ -21,7 +21,7 @@ static const float DEFINITE = 0.0025f;
 /* A round sweeps the tiles with at least SHARE of the largest activity.  A
  * sweep adds SPREAD of its change of E to the activity of the tiles around.
  * Rounds end when no activity is STANDS_OUT times the mean. */
-static const double SHARE = 0.4, SPREAD = 0.25, STANDS_OUT = 2;
+static const double SHARE = 0.5, SPREAD = 0.1, STANDS_OUT = 2;
 
 /* Limit of the rounds, which rounding could keep from ending. */
 enum { MAX_ROUNDS = 10000 };
