@@ -86,7 +86,7 @@ static const Law laws[] = {
      &self_contact_energy, friction_force_ratio, 0, 2, true},
     {"triangle", "J", "\u03a8 in J/m\u00b2", &neo_hookean_energy,
      &neo_hookean_energy, triangle_energy_density, 0, 1.5, false},
-    {"yield", "strain s", "scaled force", &plastic_energy, NULL, flow_force_at,
+    {"yield", "strain s", "force/(2k|d|)", &plastic_energy, NULL, flow_force_at,
      -1, 1, false},
     {"break", "s/s_{c}", "scaled force", &fracture, NULL, breaking_force_ratio,
      0, 1.3, false},

@@ -191,7 +191,8 @@ static void draw_directions(const Plot *plot, bool both)
         plot_arrow(plot, from, own, 1, 2.2, own_colour);
     if (other && plot->revealed)
         plot_label(plot, 1, point_along(from, 1, own).xy, own_colour,
-                   "p: %s J s\u00b2", format_digits(descent->slope, 2).text);
+                   "g \u00b7 p = %s J s\u00b2",
+                   format_digits(descent->slope, 2).text);
     const Point tip = point_along(from, 1, p);
     double pixel[2];
     plot_to_pixel(plot, tip.xy, pixel);

@@ -199,15 +199,16 @@ static void axis_set_range(Axis *axis, double low, double high)
 
 Plot plot_create_on_stage(const Plot *stage, Axis x, Axis y)
 {
-    Plot plot = *stage;
+    Plot plot = *stage, outer = *stage;
     double low[2], high[2];
     const Box *box = &plot.box;
     plot.x = x;
     plot.y = y;
+    box_cut_off(&outer.box, EDGE_LEFT, stage->paper->em / 2);
     /* The second pass makes room for the numbers that the first finds. */
     for (int pass = 0; pass < 2; pass++) {
         if (stage->has_text && pass > 0)
-            plot.box = find_box_inside_axes(stage, &plot.y, 2.2, 1.7);
+            plot.box = find_box_inside_axes(&outer, &plot.y, 2.2, 1.7);
         camera_to_world(&stage->camera, box->x, box->y + box->height, low);
         camera_to_world(&stage->camera, box->x + box->width, box->y, high);
         if (y.high == 0)

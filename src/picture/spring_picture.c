@@ -95,7 +95,8 @@ void spring_draw(Plot *stage)
     int vectors = modes && shows_answer && spring.length > 0 ? 4 : 0;
     for (int i = 0; i < vectors; i++) {
         double n[2] = {x[i / 2] / spring.length, x[1 - i / 2] / spring.length};
-        double size = fabs(value[i / 2]) / (4 * simulation->system.k[0]);
+        double size = fabs(value[i / 2]);
+        size /= size + 3 * simulation->system.k[0];
         n[0] = i / 2 ? -n[0] : n[0];
         plot_arrow(stage, i % 2 ? origin : x, n, i % 2 ? -size : size, 3.2,
                    value[i / 2] < 0 ? COLOUR_WARNING : COLOUR_X);
@@ -181,13 +182,12 @@ void spring_add_values(const Simulation *simulation, LiveValues *values)
 
 typedef double SpringFunction(const void *system, double d);
 
-/* Draws a function of P and one of P_root, with dots at the spring's length. */
-static Plot draw_profile(const Plot *card, Axis y, SpringFunction *of_p,
-                         SpringFunction *of_root)
+/* Draws a function of P and one of P_root, with dots at length d. */
+static Plot draw_profile(const Plot *card, double d, Axis y,
+                         SpringFunction *of_p, SpringFunction *of_root)
 {
     const System *system = &card->simulation->system;
-    double d = vector_length(card->simulation->run[0].x);
-    double reach = fmax(1.5, 1.1 * d) * sqrt(system->l2[0]);
+    double reach = fmax(1.5, 1.1 * fabs(d)) * sqrt(system->l2[0]);
     Plot plot = plot_create(card, (Axis){-reach, reach, .label = "d in m"}, y);
     plot_graph(&plot, of_p, system, 2.4, COLOUR_X);
     if (card->simulation->exhibit.switches) {
@@ -203,7 +203,8 @@ static Plot draw_profile(const Plot *card, Axis y, SpringFunction *of_p,
 void spring_profile_draw(const Plot *card)
 {
     const System *system = &card->simulation->system;
-    double d = vector_length(card->simulation->run[0].x);
+    const double *x = card->simulation->run[0].x;
+    double d = copysign(vector_length(x), x[0]); /* signed length, m */
     bool both = card->simulation->exhibit.switches;
     bool low = card->box.height < 14 * card->em;
     bool page = card->content->lecture.page;
@@ -214,14 +215,14 @@ void spring_profile_draw(const Plot *card)
         upper.box =
             box_cut_off(&lower.box, EDGE_TOP, (int)(0.55 * card->box.height));
     if (!low || page)
-        draw_profile(&lower, (Axis){-most, most, .label = "force in N"},
+        draw_profile(&lower, d, (Axis){-most, most, .label = "force in N"},
                      force_at_length, root_force_at_length);
     if (low && page)
         return;
     const Axis y = {0, 1.12 * fmax(tip, energy_at_length(system, d)),
                     .label = NULL};
     Plot plot =
-        draw_profile(&upper, y, energy_at_length, root_energy_at_length);
+        draw_profile(&upper, d, y, energy_at_length, root_energy_at_length);
     if (both) {
         plot_label(&plot, 1, (double[2]){0, root_energy_at_length(system, 0)},
                    COLOUR_GHOST, "P_{r} = 2k (|d| \u2212 l)\u00b2");

@@ -546,7 +546,7 @@ static void draw_slid_distance(const Plot *stage, int body)
                     point_along(i ? to : from, 2, up).xy, 1.4, NULL,
                     COLOUR_TEXT);
     plot_arrow(stage, from, (double[2]){gone[0], 0}, 1, 2, COLOUR_P);
-    plot_label(stage, 1, point_along(to, 2, up).xy, COLOUR_P, "gone %s m",
+    plot_label(stage, 1, point_along(to, 2, up).xy, COLOUR_P, "moved %s m",
                format_number(gone[0]).text);
 }
 
@@ -725,7 +725,6 @@ void square_add_values(const Simulation *simulation, LiveValues *values)
     values_add(values, "short", shorter);
     values_add(values, "segments", n);
     values_add(values, "side", simulation->mesh.side);
-    values_add(values, "rho", options->density);
     values_add(values, "k", options->stiffness);
     values_add(values, "stretch", options->stretch);
     values_add(values, "h", options->timestep);
@@ -735,7 +734,6 @@ void square_add_values(const Simulation *simulation, LiveValues *values)
     if (options->layers & LAYER_MODES && nodes <= SIMULATION_MODE_NODES) {
         compute_rest_positions(simulation, start);
         double omega = simulation_find_fastest_mode(simulation, start, mode);
-        values_add(values, "fastest", omega);
         values_add(values, "h limit", 2 / omega);
     }
     if (options->layers & LAYER_FORCES && nodes <= MAX_NUMBERED)
