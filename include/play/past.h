@@ -56,7 +56,7 @@ typedef struct EnergySample {
 /* The summary of a step, which outlives its iterations. */
 typedef struct StepOutcome {
     int updates;   /* number of Newton's updates in all substeps */
-    Status status; /* worst status of the substeps */
+    Status status; /* OK, or the last other status of the substeps */
     double energy_change; /* change of E in the step, J s^2 */
     double extent; /* m, largest coordinate of run 0 */
 } StepOutcome;
@@ -130,7 +130,7 @@ typedef struct Past {
     long load_step;      /* step to which WORK_LOADS brings the panes */
     bool samples_energy; /* samples E along p in each iteration of the aim */
     double end_time;     /* s, end of the new step */
-    Status worst_status; /* worst status of the panes in the new step */
+    Status bad_status;   /* OK, or the last other status of the new step */
 } Past;
 
 /* Whether there is work left that leads to the aim. */

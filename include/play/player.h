@@ -190,7 +190,7 @@ typedef struct Player {
  *   options  [options->panes] in, options of each pane
  *   words    in, command line, ended by NULL, or NULL; outlives the player
  *   window   in, NULL only with --headless
- *   stop     in, not 0 ends the run after the present step; outlives the player
+ *   stop     in, not 0 ends the run after this iteration; outlives the player
  *   player   out; must not be moved; free it in any case
  * Returns OK or a failure; player->message may explain INVALID_INPUT. */
 Status player_create(const Options *options, char *const *words,
@@ -261,7 +261,7 @@ int player_find_scene_word(const Player *player, int i);
 /* Reads the command line; prints --help, --version or a list, or creates the
  * player.  Prints a failure as one line on standard error.
  *   argv    in, ended by NULL; outlives the player
- *   stop    in, not 0 ends the run after the present step; outlives the player
+ *   stop    in, not 0 ends the run after this iteration; outlives the player
  *   player  out, before its first frame; free it in any case
  * Returns PROGRAM_PLAYS, or an exit code if there is no run. */
 int program_begin(int argc, char **argv, const Window *window,

@@ -21,8 +21,8 @@ NameTable pins_words(void);
 /* Returns what the scene adds to the heights of a run's body and grounds, m. */
 double body_find_lift(const Options *options, int run);
 
-/* Gives the terms and springs of a run the present numbers of the simulation's
- * options.  Returns OK, TOO_LARGE, OUT_OF_MEMORY. */
+/* Gives gravity, terms and springs of a run the numbers of the present options.
+ * Returns OK, TOO_LARGE, OUT_OF_MEMORY. */
 Status body_update(Simulation *simulation, int run);
 
 /* Creates the mesh, and for each run of the scene the system with all its terms
@@ -31,7 +31,7 @@ Status body_update(Simulation *simulation, int run);
 Status create_square(Simulation *simulation);
 
 /* Checks that the integrator works with all terms of the body.  Most terms need
- * backward Euler, whose step ends at the minimiser.
+ * backward Euler.
  * Returns OK, or INVALID_INPUT with a message. */
 Status body_check_method(const Options *options, Message message);
 

@@ -46,10 +46,17 @@ void control_release(const Control *control);
  * simulation_free may follow. */
 Status control_apply(Simulation *simulation, const Control *control);
 
+/* Puts a node at rest at (x, y), m; the change of the energy is booked as work.
+ *   moves  false: only checks whether the node can be there
+ * Returns OK, or INVALID_INPUT if there is no such node, an obstacle is in the
+ * way, or a cell would be turned over. */
+Status simulation_place_node(Simulation *simulation, int node, double x,
+                             double y, bool moves);
+
 /* ---- the state ----------------------------------------------------------- */
 
-/* The state is all that a step changes: positions, velocities, the memory of
- * integrators and terms, counters, and the data of small scenes. */
+/* The state is what a step depends on besides the control: positions,
+ * velocities, memory of integrators and terms, counts, data of small scenes. */
 
 /* Writes the state as bytes, unless `bytes` is NULL.  Returns their number. */
 size_t state_save(const Simulation *simulation, void *bytes);

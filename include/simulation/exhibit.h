@@ -92,7 +92,7 @@ enum { ENVELOPE_STEPS = 3, ENVELOPE_COLUMNS = 25, ENVELOPE_ROWS = 22 };
 
 typedef struct EnvelopeCell {
     bool is_known;       /* the run of the cell was made */
-    Status worst_status; /* OK, or the last other status of all steps */
+    Status bad_status;   /* OK, or the last other status of all steps */
     int updates;         /* Newton updates of all steps */
 } EnvelopeCell;
 

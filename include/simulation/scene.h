@@ -32,7 +32,7 @@ enum ScenePart {
     HAS_SPRINGS = 8,     /* springs: solver, projection of their Hessian */
     HAS_MINIMUM = 16,    /* tolerance and line search */
     HAS_ONE_NUMBER = 32, /* a start with one coordinate, x */
-    HAS_STEP = 64,       /* a time step h without an integrator */
+    HAS_TIMESTEP = 64,   /* a time step h without an integrator */
     HAS_BODY = 128,      /* a body: turn, at, velocity, gravity, pin */
     HAS_SQUARE = HAS_MESH | HAS_TIME | HAS_SPRINGS | HAS_MINIMUM | HAS_BODY
 };
@@ -70,7 +70,7 @@ typedef struct Scene {
     const char *args; /* options with other values than on the slides */
     /* Fills simulation->system, the mesh and the start. */
     Status (*create)(struct Simulation *simulation);
-    double speed;    /* steps a frame when the scene opens; 0 means 1 */
+    double speed;    /* steps a frame at first; 0: 1, or 1/32 without time */
     double view[4];  /* m, left, bottom, right, top of the view; 0: automatic */
     double strain_colour_max; /* strain of the full colour; 0: no colours */
     bool needs_dissipation;   /* the sentence describes a motion that dies away,

@@ -32,7 +32,7 @@ struct Simulation {
     TimeIntegrator run[SIMULATION_MAX_RUNS];
     Ledger ledger[SIMULATION_MAX_RUNS];
     int step_run; /* run whose step is being computed */
-    Status worst_status;  /* OK, or the last other status of this step's runs */
+    Status bad_status;    /* OK, or the last other status of this step's runs */
     Descent descent;      /* minimisation; zero in scenes that move in time */
     Exhibit exhibit;      /* data of small scenes, and of switches */
     Prediction prediction;   /* guess where the next step leads */
@@ -94,7 +94,7 @@ Status simulation_start_run(Simulation *simulation, int run,
 
 /* Makes one step: a time step of every run, or one Newton iteration; a scene
  * that is done makes none.  The result depends only on the state (control.h)
- * and the settings, to the last bit: solvers keep nothing from step to step.
+ * and the settings, to the last bit: data that solvers keep changes no bit.
  * Returns OK; an unconverged status, with which the step was made; or a
  * failure, and the run that failed did not move. */
 Status simulation_step(Simulation *simulation);
@@ -135,13 +135,6 @@ Status simulation_check_clearance(const Simulation *simulation,
 double simulation_find_free_way(const Simulation *simulation,
                                 const Options *options, int number,
                                 const double to[2]);
-
-/* Puts a node at rest at (x, y), m; the change of the energy is booked as work.
- *   moves  false: only checks whether the node can be there
- * Returns OK, or INVALID_INPUT if there is no such node, an obstacle is in the
- * way, or a cell would be turned over. */
-Status simulation_place_node(Simulation *simulation, int node, double x,
-                             double y, bool moves);
 
 /* Whether the mouse can drag the nodes. */
 bool simulation_is_draggable(const Simulation *simulation);

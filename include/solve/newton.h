@@ -25,14 +25,13 @@ enum { AUTO_NEWTON_SEGMENTS = 8 };
 /* How well the residual of a direction p is known. */
 typedef enum ResidualKind {
     RESIDUAL_VALUE,   /* p solves H p = -g up to rounding */
-    RESIDUAL_ESTIMATE /* p solves H p = -g up to a linear residual with a known
-                         bound */
+    RESIDUAL_ESTIMATE /* p solves H p = -g up to a bounded linear residual */
 } ResidualKind;
 
 /* The record of an iteration of the loop. */
 typedef struct NewtonRecord {
     long step_number; /* number of the time step, from 1 */
-    int iteration;    /* number of the iteration in this minimisation, from 0 */
+    int iteration;    /* number from 0; -1: prescribed motion ended the step */
     double residual; /* m/s, max over nodes of |p_x| + |p_y|, over h */
     ResidualKind residual_kind; /* how well the residual is known */
     double alpha;               /* step length along p; 0: x has not moved */
@@ -47,10 +46,8 @@ typedef struct NewtonRecord {
     double seconds;      /* computing time of the iteration */
     Status status;  /* RUNNING, or how the iteration ended the minimisation */
     Solver solver;  /* NEWTON or MULTIGRID */
-    double x_before[2]; /* m, point before the update, in scenes with one moving
-                       point; else 0 */
-    double x_after[2];  /* m, point after the update, in scenes with one moving
-                      point;  else 0 */
+    double x_before[2]; /* m, single moving point before the update, or 0 */
+    double x_after[2];  /* m, single moving point after the update, or 0 */
 } NewtonRecord;
 
 /* Called after each iteration.  Returns false to pause the loop. */
@@ -77,8 +74,7 @@ typedef struct NewtonCounters {
     long tile_sweeps;     /* sweeps of multigrid's tiles (tiles.h) */
     long indefinite_ends; /* minimisations that converged with a last p from a
                              Hessian with negative pivots: perhaps a maximum */
-    long handed_to_newton; /* minimisations that multigrid began and Newton
-                              ended */
+    long handed_to_newton; /* minimisations that multigrid passed to Newton */
 } NewtonCounters;
 
 /* Adds each member of counters to sum. */
@@ -98,8 +94,7 @@ typedef struct SearchDirection {
     Sparse A;                /* Hessian, one triangle, in elimination order */
     Cholesky *cholesky;      /* factor of A; NULL: not created yet */
     double shift;            /* kg, added to the diagonal before factoring */
-    double moved_since_factor; /* m, upper bound of a node's displacement since
-                                A was factored */
+    double moved_since_factor; /* m, bound of displacements since A's factor */
     double *b;               /* right-hand side in elimination order */
     double *r, *z, *q, *d;   /* vectors of conjugate gradients */
 } SearchDirection;
@@ -135,12 +130,12 @@ typedef struct Newton {
     double tolerance;    /* m/s, tolerance of this minimisation */
     const System *system;
     double *memory;  /* block of all arrays */
-    Iterate at;      /* E, u, x, g, p */
+    Iterate iterate; /* E, u, x, g, p */
     double *u_tilde; /* [2n] m, x_tilde - x_n, written by the integrator */
     double *u_trial, *x_trial; /* [2n] m, end of a trial step; after an update
                                   the iterate before the update */
     SearchDirection direction; /* the Hessian and its factor */
-    bool has_gradient;         /* has the gradient at x in at.g */
+    bool has_gradient;         /* has the gradient at x in iterate.g */
     bool passes_test;          /* p of the last iteration passes the test */
     int clamps_left;           /* iterations for which on-demand clamps */
     Rounding rounding;

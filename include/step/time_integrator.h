@@ -16,7 +16,7 @@ typedef struct IntegratorMethod {
     const char *label;      /* name in the window */
     int order;              /* order of accuracy */
     bool is_implicit;       /* needs Newton */
-    bool ends_at_minimiser; /* x_(n+1) is the minimiser: contact needs it */
+    bool takes_all_terms;   /* works with every term: only backward Euler */
     bool damps;        /* takes energy out of motion, which comes to rest */
     bool only_by_name; /* is chosen by name only, and skipped by key M */
     int arrays;        /* arrays [2n] kept between steps */
@@ -26,7 +26,7 @@ typedef struct IntegratorMethod {
      *   |u - u_tilde|_M^2/2 - weight m g.u
      *       = |u - (u_tilde + weight g)|_M^2/2 + constant. */
     void (*set_target)(TimeIntegrator *);
-    /* Reads newton->at.u.  The last stage of an implicit method, and an
+    /* Reads newton->iterate.u.  The last stage of an implicit method, and an
      * explicit method, fill new_x and new_v. */
     void (*finish)(TimeIntegrator *);
 } IntegratorMethod;
@@ -60,7 +60,7 @@ struct TimeIntegrator {
     Newton *newton;  /* NULL for explicit methods */
     /* State of an unfinished step: */
     int stage;     /* 0 ... stages - 1 */
-    Status worst_status; /* OK, or the last other status of a minimisation */
+    Status bad_status; /* OK, or the last other status of a minimisation */
     double weight; /* s^2, factor of P in E */
     double remaining_part; /* part of the prescribed way that is not done yet */
     int parts_made;        /* number of parts of the prescribed way so far */

@@ -19,7 +19,7 @@ static Colour colour_of_cell(const EnvelopeCell *cell)
     int shade = 0;
     if (!cell->is_known)
         return COLOUR_CHIP;
-    if (cell->worst_status)
+    if (cell->bad_status)
         return COLOUR_REFUSED;
     while (shade < ENVELOPE_SHADES && cell->updates > 4 << shade)
         shade++;
@@ -98,7 +98,7 @@ void envelope_add_values(const Simulation *simulation, LiveValues *values)
         const EnvelopeCell *one =
             &map->cell[i / ENVELOPE_COLUMNS][i % ENVELOPE_COLUMNS];
         known += one->is_known;
-        converged += one->is_known && !one->worst_status;
+        converged += one->is_known && !one->bad_status;
     }
     values->colour[0] = colour_of_shade(3);
     values->colour[1] = colour_of_shade(2);
@@ -113,6 +113,6 @@ void envelope_add_values(const Simulation *simulation, LiveValues *values)
     values_add(values, "k", envelope_stiffness(map->row));
     values_add(values, "steps", ENVELOPE_STEPS);
     values_add(values, "updates", cell->updates);
-    values_add_flag(values, "refused cell", cell->worst_status);
-    values_add_flag(values, "converged cell", !cell->worst_status);
+    values_add_flag(values, "refused cell", cell->bad_status);
+    values_add_flag(values, "converged cell", !cell->bad_status);
 }

@@ -1,4 +1,4 @@
-/* frame.c - fills the contents of a frame; frame_draw draws them. */
+/* frame.c - fills the contents of a frame; picture.c draws them. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

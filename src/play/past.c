@@ -485,7 +485,7 @@ static Status end_failed_pane(Past *past, int p, Status why)
     pane->step = step;
     pane->substeps = 0;
     pane->outcome = past_entry(past, p, last)->outcome;
-    pane->outcome.status = past->worst_status = why;
+    pane->outcome.status = past->bad_status = why;
     if (past_makes_step(past))
         past->work_stage = WORK_MADE;
     return pane_finish_step(past, p);
@@ -564,7 +564,7 @@ static Status pane_end_iteration(Past *past, int p, Status status)
     pane->has_trace = past->stores_states;
     pane->substeps += moved;
     if (past_makes_step(past) && status)
-        past->worst_status = status;
+        past->bad_status = status;
     double middle =
         simulation_time(simulation) + 0.5 * find_pane_timestep(pane);
     const Entry *to = past_entry(past, p, pane->step + 1);
@@ -616,7 +616,7 @@ static Status begin_new_step(Past *past)
         longest = pace;
         past->end_time = simulation_time(&pane->simulation) + pace;
     }
-    past->worst_status = STATUS_OK;
+    past->bad_status = STATUS_OK;
     if (reserve_entry(past, present_branch(past)))
         return pane_fail(past, 0, STATUS_OUT_OF_MEMORY);
     past->work_stage = WORK_MAKES;
@@ -627,7 +627,7 @@ static Status begin_new_step(Past *past)
  * step, as its scene is over or it has failed, the newest step is shown. */
 static Status end_past_work(Past *past)
 {
-    Status worst = past_makes_step(past) ? past->worst_status : STATUS_OK;
+    Status status = past_makes_step(past) ? past->bad_status : STATUS_OK;
     if (past->work_stage == WORK_MADE) {
         present_branch(past)->entries++;
     } else if (past->work_stage == WORK_MAKES) {
@@ -638,7 +638,7 @@ static Status end_past_work(Past *past)
     }
     past->work_stage = WORK_DONE;
     past->step = past->aim_step;
-    return worst;
+    return status;
 }
 
 Status past_iterate(Past *past)
@@ -835,7 +835,7 @@ static Status apply_pane_edit(Past *past, int pane, const Command *edit,
     else if (edit->kind == COMMAND_PLACE)
         simulation_place_node(simulation, (int)edit->number, edit->x, edit->y,
                               true);
-    else
+    else if (edit->kind == COMMAND_FLIP)
         exhibit_flip_switch(simulation, (int)edit->number);
     Status status = store_state(past, pane, true, entry);
     return status ? status : pane_set_step(past, pane, past->step);

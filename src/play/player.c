@@ -282,7 +282,7 @@ void player_free(Player *player)
     close_window(player);
     recording_free(&player->recording);
     past_free(&player->past);
-    player_forget_step(player);
+    player_reset_view(player);
     sheet_close(player);
     control_release(player->commands.queue.pins);
     script_free(&player->setup.script);

@@ -41,8 +41,8 @@ bool player_is_slow(const Player *player);
  * the shown step once more if its samples are missing; player_work makes it. */
 void player_sample_line_energy(Player *player);
 
-/* Returns the speed at the start of a run, SPEED_LEAST ... SPEED_MOST: from the
- * options; else from the scene, if the run is attended; else a step a frame. */
+/* Returns log_speed at the start of a run: from the options; else of the scene,
+ * if the run is attended and no page; else 0, or UPDATE_SPEED without time. */
 int player_initial_speed(const Player *player, const Options *options);
 
 /* Whether a list of pages or numbers is open, from which a number chooses. */
@@ -72,7 +72,7 @@ Status player_tolerate_failure(Player *player, Status status);
 /* Returns the command that sets an option as a part of the present gesture. */
 Command make_set_command(const OptionRow *row, double value);
 
-/* Puts a command into the queue.  A place of a drag replaces the one before. */
+/* Queues a command if there is room.  A drag's place replaces the last one. */
 void player_enqueue(Player *player, const Command *command);
 void player_enqueue_set(Player *player, const OptionRow *row, double value);
 
@@ -101,7 +101,7 @@ Status player_edit(Player *player, const Command *change, int pane, bool again);
 Status player_work(Player *player);
 
 /* Sets the step to show, 0 ... newest + 1.  player_work makes it;
- * player_obey calls player_work after each command. */
+ * player_obey calls it unless KEEPS_STEP keeps a step that is being made. */
 Status player_seek(Player *player, long step, AfterWork after);
 
 /* Edits a pane, or each one, and makes the shown step once more.  The active
@@ -109,7 +109,7 @@ Status player_seek(Player *player, long step, AfterWork after);
 Status player_repeat_step(Player *player, const Command *change, int pane);
 
 /* Removes the ghosts, and shows the end of the step, no line of Algorithm 3. */
-void player_forget_step(Player *player);
+void player_reset_view(Player *player);
 
 /* Writes the steps that the tables do not have yet. */
 Status player_write_remaining(Player *player);

@@ -120,7 +120,7 @@ static void store_iteration(StepTrace *trace, const Newton *newton)
 {
     TraceIterate *iterate = &trace->iterate[trace->records.count];
     NewtonRecord *record = &trace->records.record[trace->records.count];
-    Iterate at = newton->at;
+    Iterate at = newton->iterate;
     size_t size = (size_t)trace->x_length;
     size_t bytes = (4 * size + SAMPLE_COUNT) * sizeof *iterate->x;
     free_iterate(iterate);
@@ -142,7 +142,7 @@ static void store_iteration(StepTrace *trace, const Newton *newton)
     at.p = iterate->p;
     if (record->solver == SOLVER_MULTIGRID) {
         for (size_t i = 0; i < size; i++)
-            iterate->p[i] = newton->at.u[i] - iterate->u[i];
+            iterate->p[i] = newton->iterate.u[i] - iterate->u[i];
         record->alpha = record->trials = moved;
     }
     at.g = g;
@@ -173,12 +173,12 @@ void step_trace_add_iterate(StepTrace *trace, const Newton *newton,
     store_iteration(trace, newton);
     trace->records.count++;
     free(trace->end_x);
-    trace->end_x = copy_array(trace, newton->at.x);
+    trace->end_x = copy_array(trace, newton->iterate.x);
     if (trace->x_tilde) /* x_tilde of the step's first minimisation is kept */
         return;
     trace->x_tilde = copy_array(trace, newton->u_tilde);
     for (int i = 0; i < trace->x_length && trace->x_tilde; i++)
-        trace->x_tilde[i] += newton->at.E.x_n[i];
+        trace->x_tilde[i] += newton->iterate.E.x_n[i];
 }
 
 static void append_place(StepTrace *trace, int iterate, StepLine line,

@@ -91,7 +91,7 @@ static void leave_algorithm_lines(Player *player)
         player->view_of_pane[p].place = -1;
 }
 
-void player_forget_step(Player *player)
+void player_reset_view(Player *player)
 {
     player->screen.must_redraw = true;
     if (player->play.mode > MODE_END)
@@ -153,7 +153,7 @@ Status player_begin_runs(Player *player, const Options *options, int count,
     if (status)
         return again ? player_refuse(player, "%s", status_text(status))
                      : status;
-    player_forget_step(player);
+    player_reset_view(player);
     player->play.mode = player_is_stopped(player) ? MODE_PAUSE : MODE_RUN;
     player->screen.drawn_step = -1;
     player->play.has_warned = player->play.has_told_gain = false;
@@ -356,7 +356,7 @@ Status player_repeat_step(Player *player, const Command *change, int pane)
     player->play.wanted_place = (TracePlace){.iterate = -1};
     if (view->place >= 0 && player->play.walk_unit != UNIT_STEP)
         player->play.wanted_place = active->trace.place[view->place];
-    player_forget_step(player);
+    player_reset_view(player);
     describe_outcome(player, row, view->ghost_label, sizeof view->ghost_label);
     if (row->effect == EFFECT_AGAIN && !failed && !simulation->scene->step)
         view->ghost = malloc(bytes);
@@ -463,7 +463,7 @@ Status player_seek(Player *player, long step, AfterWork after)
         status = release_old_hand(player);
     if (status)
         return status;
-    player_forget_step(player);
+    player_reset_view(player);
     past_choose_step(past, step,
                      after == AFTER_SHOW_FIRST || after == AFTER_SHOW_LAST);
     player->play.after_work = after;
@@ -591,7 +591,7 @@ Status obey_undo(Player *player, const Command *command)
     drop_hand_and_queue(player);
     player->hands.mouse.gesture = ++player->commands.gestures;
     update_after_edit(player);
-    player_forget_step(player);
+    player_reset_view(player);
     describe_edit(player, &edit, line, sizeof line);
     player_note(player, "%s: %s", way < 0 ? "undone" : "done again", line);
     return STATUS_OK;

@@ -343,7 +343,7 @@ static void minimise_landscape(const Simulation *simulation, double h,
                  DIAL_SHORT_P / newton->settings.h);
     newton_minimise(newton);
     newton->counters = (NewtonCounters){0}; /* the dial counts no updates */
-    memcpy(point, newton->at.x, 2 * sizeof *point);
+    memcpy(point, newton->iterate.x, 2 * sizeof *point);
 }
 
 /* Each search begins at the previous minimiser, so that the curve is

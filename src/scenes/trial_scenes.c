@@ -254,7 +254,7 @@ Status envelope_run_cell(Simulation *simulation, int column, int row)
         return worst;
     int updates = (int)run->newton->counters.iterations;
     map->cell[row][column] = (EnvelopeCell){
-        .is_known = true, .worst_status = worst, .updates = updates};
+        .is_known = true, .bad_status = worst, .updates = updates};
     map->column = column;
     map->row = row;
     return STATUS_OK;

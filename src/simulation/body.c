@@ -386,7 +386,7 @@ Status body_check_method(const Options *options, Message message)
         if (!term && row->term && !row->term->any_integrator &&
             option_is_on(row, options))
             term = row->term->name;
-    return !term || method->ends_at_minimiser
+    return !term || method->takes_all_terms
                ? STATUS_OK
                : refuse(message,
                         "--integrator: '%s' has no %s; only backward-euler has",

@@ -234,7 +234,7 @@ const OptionRow option_rows[] = {
 
     {SECTION("time step and solver:")},
     {NUMBER(timestep, "H", "time step h", "s", 0.004, 1e-30, 1e30),
-     .needs = HAS_TIME | HAS_STEP, LIST("h"), LIVE, SHOWN(1, 8, 0)},
+     .needs = HAS_TIME | HAS_TIMESTEP, LIST("h"), LIVE, SHOWN(1, 8, 0)},
     {NAME("integrator", integrator, "I", "time integrator", -1,
           integrator_methods),
      NEEDS(TIME), LIST("method"), LIVE, SHOWN(8, 16, 0)},

@@ -99,7 +99,7 @@ static void book_energy_gain(Simulation *simulation)
     const Energies now = simulation_energies(simulation, run);
     double kept = now.total - now.work, gained = kept - ledger->last_balance;
     double abs_sum = fabs(now.work);
-    bool backward_euler = simulation->run[run].method->ends_at_minimiser;
+    bool backward_euler = simulation->run[run].method->takes_all_terms;
     ledger->last_balance = kept;
     for (int i = 1; i < now.rows; i++)
         abs_sum += fabs(now.row[i].value);
@@ -121,13 +121,13 @@ Status simulation_advance(Simulation *simulation)
             status = time_integrator_advance(run);
         if (status == STATUS_RUNNING)
             return status;
-        simulation->worst_status = status ? status : simulation->worst_status;
+        simulation->bad_status = status ? status : simulation->bad_status;
         if (status_is_failure(status))
             break;
         book_energy_gain(simulation);
         simulation->step_run++;
     }
-    return finish_step(simulation, simulation->worst_status);
+    return finish_step(simulation, simulation->bad_status);
 }
 
 Status simulation_begin_step(Simulation *simulation)
@@ -138,7 +138,7 @@ Status simulation_begin_step(Simulation *simulation)
     if (scene->step)
         return finish_step(simulation, scene->step(simulation));
     simulation->step_run = 0;
-    simulation->worst_status = STATUS_OK;
+    simulation->bad_status = STATUS_OK;
     for (int r = 0; r < simulation->runs; r++)
         simulation->run[r].status = STATUS_OK;
     return STATUS_RUNNING;

@@ -36,7 +36,7 @@ static Status assemble_hessian(Newton *newton, Projection projection,
     CholeskyKind kind =
         projection == PROJECTION_NONE ? CHOLESKY_INDEFINITE : CHOLESKY_DEFINITE;
     bool grown;
-    Status status = incremental_potential_extend(&newton->at, &grown);
+    Status status = incremental_potential_extend(&newton->iterate, &grown);
     *projected = 0;
     if (!status &&
         (!direction->cholesky || direction->factor_kind != kind || grown ||
@@ -52,7 +52,7 @@ static Status assemble_hessian(Newton *newton, Projection projection,
         projection == PROJECTION_ON_DEMAND ? PROJECTION_NONE : projection;
     if (!status)
         *projected = incremental_potential_hessian(
-            &newton->at, direction->projection, &direction->A);
+            &newton->iterate, direction->projection, &direction->A);
     return status;
 }
 
@@ -167,7 +167,7 @@ static bool take_conjugate_step(Newton *newton, ConjugateGradients *state)
     int n = 2 * newton->system->nodes;
     double *r = direction->r, *z = direction->z, *q = direction->q,
            *d = direction->d;
-    double *p = newton->at.p;
+    double *p = newton->iterate.p;
     double last = state->rz;
     state->rz = dot(n, r, z);
     if (last == 0)
@@ -176,7 +176,7 @@ static bool take_conjugate_step(Newton *newton, ConjugateGradients *state)
         return false;
     for (int i = 0; i < n; i++)
         d[i] = z[i] + (last == 0 ? 0 : state->rz / last * d[i]);
-    incremental_potential_product(&newton->at, state->projection, d, q);
+    incremental_potential_product(&newton->iterate, state->projection, d, q);
     double curvature = dot(n, d, q);
     double alpha = state->rz / curvature;
     /* E is not convex along d, or rounding hides its curvature. */
@@ -193,7 +193,7 @@ static bool take_conjugate_step(Newton *newton, ConjugateGradients *state)
  * conjugate gradients if it has a shift.  Returns OK, NOT_FINITE, SINGULAR. */
 static Status solve_with_factor(Newton *newton)
 {
-    const Iterate *at = &newton->at;
+    const Iterate *at = &newton->iterate;
     const SearchDirection *direction = &newton->direction;
     int n = 2 * newton->system->nodes;
     newton->counters.solves++;
@@ -226,7 +226,7 @@ static Status direction_error_bound(Newton *newton, double *error)
 {
     const SearchDirection *direction = &newton->direction;
     const System *system = newton->system;
-    const Iterate *at = &newton->at;
+    const Iterate *at = &newton->iterate;
     double *r = direction->r, *z = direction->z, square = 0;
     Projection projection = direction->projection;
     if (projection == PROJECTION_NONE && direction->moved_since_factor > 0)
@@ -250,8 +250,8 @@ static Status direction_error_bound(Newton *newton, double *error)
 static void correct_momentum(Newton *newton)
 {
     const System *system = newton->system;
-    const double *u = newton->at.u, *u_tilde = newton->u_tilde;
-    double *p = newton->at.p, mass = 0, missing[2] = {0, 0};
+    const double *u = newton->iterate.u, *u_tilde = newton->u_tilde;
+    double *p = newton->iterate.p, mass = 0, missing[2] = {0, 0};
     if (!system_falls_freely(system))
         return;
     for (int i = 0; i < 2 * system->nodes; i++) {
@@ -266,7 +266,7 @@ static void correct_momentum(Newton *newton)
  * masses without springs: H is diagonal, and H times ones is its diagonal. */
 static void solve_diagonal(Newton *newton)
 {
-    const Iterate *at = &newton->at;
+    const Iterate *at = &newton->iterate;
     double *ones = newton->direction.b, *H = newton->direction.q;
     int n = 2 * newton->system->nodes;
     for (int i = 0; i < n; i++)
@@ -307,7 +307,7 @@ static bool refine_with_last_factor(Newton *newton)
 {
     const SearchDirection *direction = &newton->direction;
     const int n = 2 * newton->system->nodes;
-    double *g = newton->at.g, *p = newton->at.p;
+    double *g = newton->iterate.g, *p = newton->iterate.p;
     double *r = direction->r, *z = direction->z, last = INFINITY, size;
     for (int i = 0; i < n; i++) {
         p[i] = 0;
@@ -326,7 +326,7 @@ static bool refine_with_last_factor(Newton *newton)
             break;
         last = size;
         newton->record.projected = incremental_potential_product(
-            &newton->at, direction->projection, p, direction->q);
+            &newton->iterate, direction->projection, p, direction->q);
         for (int i = 0; i < n; i++)
             r[i] = -g[i] - direction->q[i];
     }
@@ -341,8 +341,8 @@ static double bound_largest_movement(const Newton *newton, double norm)
 }
 
 /* Computes the residual of p, and tests it.
- *   exact  whether p solves H p = -g up to rounding.  Otherwise the bound of
- *          its error, without rounding of g, is added to it. */
+ *   exact  whether p solves H p = -g up to rounding.  Otherwise the test adds
+ *          a bound of its error, without rounding of g. */
 static Status find_residual(Newton *newton, bool exact)
 {
     NewtonRecord *record = &newton->record;
@@ -350,7 +350,8 @@ static Status find_residual(Newton *newton, bool exact)
     Status status = STATUS_OK;
     double error = 0;
     int pivot;
-    record->residual = largest_row_sum(newton->system->nodes, newton->at.p) / h;
+    record->residual =
+        largest_row_sum(newton->system->nodes, newton->iterate.p) / h;
     record->residual_kind = exact ? RESIDUAL_VALUE : RESIDUAL_ESTIMATE;
     if (!isfinite(record->residual))
         return STATUS_NOT_FINITE;
@@ -368,7 +369,7 @@ static Status find_residual(Newton *newton, bool exact)
 /* Computes g at x, which is valid until x moves. */
 static void evaluate_gradient(Newton *newton)
 {
-    Iterate *at = &newton->at;
+    Iterate *at = &newton->iterate;
     incremental_potential_gradient(&at->E, at->u, at->x, at->g);
     newton->has_gradient = true;
 }
@@ -387,7 +388,7 @@ bool next_direction_is_negligible(Newton *newton)
     if (newton->settings.projection == PROJECTION_NONE)
         return false;
     evaluate_gradient(newton);
-    double norm = system_inverse_mass_norm(newton->system, newton->at.g);
+    double norm = system_inverse_mass_norm(newton->system, newton->iterate.g);
     return bound_largest_movement(newton, norm) <=
            negligible_direction_size(newton);
 }
@@ -424,7 +425,7 @@ Status find_direction(Newton *newton)
     newton->passes_test = false;
     if (!newton->has_gradient)
         evaluate_gradient(newton);
-    if (incremental_potential_is_diagonal(&newton->at.E)) {
+    if (incremental_potential_is_diagonal(&newton->iterate.E)) {
         solve_diagonal(newton);
         return find_residual(newton, true);
     }

@@ -18,10 +18,10 @@ RowLayout lay_out_rows(int nodes)
     int even = (nodes + 1) / 2;
     int half = (even + LANES) / LANES * LANES; /* with room for a ghost */
     return (RowLayout){.nodes = nodes,
-                  .count = {even, nodes / 2},
-                  .half = half,
-                  .pitch = 2 * half,
-                  .plane = 2 * half * (nodes + 3)};
+                       .count = {even, nodes / 2},
+                       .odd_offset = half,
+                       .pitch = 2 * half,
+                       .plane = 2 * half * (nodes + 3)};
 }
 
 void *memory_take_piece(Memory *memory, size_t bytes)

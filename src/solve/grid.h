@@ -38,7 +38,7 @@ enum { BAND = 8 };
 typedef struct RowLayout {
     int nodes;    /* number of nodes in a row, and of rows: n + 1 */
     int count[2]; /* number of even and of odd columns */
-    int half;     /* distance from a row's even columns to its odd ones */
+    int odd_offset; /* distance from a row's even columns to its odd ones */
     int pitch;    /* distance from one row to the next */
     int plane;    /* length of a plane, with the ghosts */
 } RowLayout;
@@ -48,7 +48,7 @@ RowLayout lay_out_rows(int nodes);
 /* Returns the index of node (i, j) in a plane. */
 static inline int node_place(const RowLayout *rows, int i, int j)
 {
-    return (i + 1) * rows->pitch + (j & 1) * rows->half + j / 2;
+    return (i + 1) * rows->pitch + (j & 1) * rows->odd_offset + j / 2;
 }
 
 typedef struct Grid {

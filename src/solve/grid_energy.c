@@ -19,8 +19,8 @@ FAST double grid_gradient(const Grid *grid, double *g)
         double sum[LANES] = {0};
         EACH_NODE_OF (local, band) {
             const ptrdiff_t q = at.first + e;
-            Pair mass = PAIR(local.m, q + at.node);
-            Pair fx = mass * PAIR(ax, q), fy = mass * PAIR(ay, q);
+            Doubles mass = DOUBLES(local.m, q + at.node);
+            Doubles fx = mass * DOUBLES(ax, q), fy = mass * DOUBLES(ay, q);
 #define ADD(kind, to, numbers)                                                 \
     {                                                                          \
         Spring s = evaluate_grid_spring(&local, kind, q, to, numbers);         \
@@ -30,10 +30,10 @@ FAST double grid_gradient(const Grid *grid, double *g)
     }
             ALL_SPRINGS(ADD, at)
 #undef ADD
-            PAIR(gx, q) = fx;
-            PAIR(gy, q) = fy;
-            PAIR(sum, e) +=
-                PAIR(local.inverse_m, q + at.node) * (fx * fx + fy * fy);
+            DOUBLES(gx, q) = fx;
+            DOUBLES(gy, q) = fy;
+            DOUBLES(sum, e) +=
+                DOUBLES(local.inverse_m, q + at.node) * (fx * fx + fy * fy);
         }
         total += sum_lanes(sum);
     }
@@ -42,8 +42,8 @@ FAST double grid_gradient(const Grid *grid, double *g)
 
 /* Declares the difference u of p between the ends of a spring. */
 #define P_DIFFERENCE(to)                                                       \
-    Pair ux = PAIR(px, q) - PAIR(px, q + (to));                                \
-    Pair uy = PAIR(py, q) - PAIR(py, q + (to))
+    Doubles ux = DOUBLES(px, q) - DOUBLES(px, q + (to));                       \
+    Doubles uy = DOUBLES(py, q) - DOUBLES(py, q + (to))
 
 FAST double grid_linear_residual(const Grid *grid, const double *g,
                                  const double *p, double *largest)
@@ -56,9 +56,9 @@ FAST double grid_linear_residual(const Grid *grid, const double *g,
         double sum[LANES] = {0};
         EACH_NODE_OF (local, band) {
             const ptrdiff_t q = at.first + e;
-            Pair hx = PAIR(px, q), hy = PAIR(py, q);
-            Pair mass = PAIR(local.m, q + at.node);
-            Pair fx = mass * hx, fy = mass * hy;
+            Doubles hx = DOUBLES(px, q), hy = DOUBLES(py, q);
+            Doubles mass = DOUBLES(local.m, q + at.node);
+            Doubles fx = mass * hx, fy = mass * hy;
 #define ADD(kind, to, numbers)                                                 \
     {                                                                          \
         Spring s = evaluate_grid_spring(&local, kind, q, to, numbers);         \
@@ -71,10 +71,10 @@ FAST double grid_linear_residual(const Grid *grid, const double *g,
     }
             ALL_SPRINGS(ADD, at)
 #undef ADD
-            fx = -PAIR(gx, q) - fx;
-            fy = -PAIR(gy, q) - fy;
-            PAIR(sum, e) +=
-                PAIR(local.inverse_m, q + at.node) * (fx * fx + fy * fy);
+            fx = -DOUBLES(gx, q) - fx;
+            fy = -DOUBLES(gy, q) - fy;
+            DOUBLES(sum, e) +=
+                DOUBLES(local.inverse_m, q + at.node) * (fx * fx + fy * fy);
         }
         EACH_RUN_OF (local, band)
             EACH_OF (NEXT(at, LANES)) {
@@ -101,9 +101,9 @@ FAST void grid_line_polynomial(const Grid *grid, const double *p,
         double sum[4][LANES] = {{0}};
         EACH_NODE_OF (local, band) {
             const ptrdiff_t q = at.first + e;
-            Pair hx = PAIR(px, q), hy = PAIR(py, q), q0 = {0}, q1 = {0};
-            Pair q2 = {0}, q3 = {0}, p2 = hx * hx + hy * hy;
-            Pair mass = PAIR(local.m, q + at.node);
+            Doubles hx = DOUBLES(px, q), hy = DOUBLES(py, q);
+            Doubles q0 = {0}, q1 = {0}, q2 = {0}, q3 = {0};
+            Doubles mass = DOUBLES(local.m, q + at.node);
 #define ADD(kind, to, numbers)                                                 \
     {                                                                          \
         Spring s = evaluate_grid_spring(&local, kind, q, to, numbers);         \
@@ -114,11 +114,11 @@ FAST void grid_line_polynomial(const Grid *grid, const double *p,
     }
             OWN_SPRINGS(ADD, at)
 #undef ADD
-            PAIR(sum[0], e) +=
-                q0 + mass * (PAIR(ax, q) * hx + PAIR(ay, q) * hy);
-            PAIR(sum[1], e) += q1 + 0.5 * mass * p2;
-            PAIR(sum[2], e) += q2;
-            PAIR(sum[3], e) += 0.25 * q3;
+            DOUBLES(sum[0], e) +=
+                q0 + mass * (DOUBLES(ax, q) * hx + DOUBLES(ay, q) * hy);
+            DOUBLES(sum[1], e) += q1 + 0.5 * mass * (hx * hx + hy * hy);
+            DOUBLES(sum[2], e) += q2;
+            DOUBLES(sum[3], e) += 0.25 * q3;
         }
         for (int s = 0; s < 4; s++)
             quartic[s] += sum_lanes(sum[s]);

@@ -38,8 +38,8 @@ typedef struct NodeRun {
 
 INLINE NodeRun nodes_in_row(const RowLayout *rows, int i, int odd)
 {
-    int first = (i + 1) * rows->pitch + odd * rows->half;
-    int before = odd ? -rows->half : rows->half - 1;
+    int first = (i + 1) * rows->pitch + odd * rows->odd_offset;
+    int before = odd ? -rows->odd_offset : rows->odd_offset - 1;
     return (NodeRun){.first = first,
                      .end = first + rows->count[odd],
                      .next = rows->pitch,
@@ -68,43 +68,43 @@ INLINE NodeRun nodes_in_row(const RowLayout *rows, int i, int odd)
 #endif
 #define NEXT(at, lanes) AT_MOST(lanes, (at).end - (at).first)
 
-/* Few and Pair are what EACH_FEW and EACH_PAIR handle at once.  In a browser
- * they are four numbers in single and two in double precision, and
+/* Floats and Doubles are what EACH_FLOATS and EACH_DOUBLES handle at once.  In
+ * a browser they are four numbers in single and two in double precision, and
  * contributions of springs have to be added one after the other (IN_ORDER) to
  * stay in registers.  Elsewhere they are one number, and the compiler
  * vectorises the loop. */
 #ifdef __wasm_simd128__
-typedef float Few __attribute__((vector_size(16), aligned(4)));
-typedef double Pair __attribute__((vector_size(16), aligned(8)));
-enum { PAIRED = 2 };
-#define FEW(a, q)      (*(Few *)((a) + (q)))
-#define PAIR(a, q)     (*(Pair *)((a) + (q)))
+typedef float Floats __attribute__((vector_size(16), aligned(4)));
+typedef double Doubles __attribute__((vector_size(16), aligned(8)));
+enum { SECOND_DOUBLES = 2 };
+#define FLOATS(a, q)   (*(Floats *)((a) + (q)))
+#define DOUBLES(a, q)  (*(Doubles *)((a) + (q)))
 #define IN_ORDER(a, b) __asm__ volatile("" : "+r"(a), "+r"(b))
 #define EACH_BY(n, lanes)                                                      \
     _Pragma("clang loop unroll(disable)") for (int e = 0; e < (lanes); e += n)
-#define EACH_FEW(lanes)  EACH_BY (4, lanes)
-#define EACH_PAIR(lanes) EACH_BY (2, lanes)
+#define EACH_FLOATS(lanes)  EACH_BY (4, lanes)
+#define EACH_DOUBLES(lanes) EACH_BY (2, lanes)
 #define WHERE(condition, a)                                                    \
     ((__typeof__(a))((condition) & (__typeof__(condition))(a)))
 #else
-typedef float Few;
-typedef double Pair;
-enum { PAIRED = 0 };
-#define FEW(a, q)           ((a)[q])
-#define PAIR(a, q)          ((a)[q])
+typedef float Floats;
+typedef double Doubles;
+enum { SECOND_DOUBLES = 0 };
+#define FLOATS(a, q)        ((a)[q])
+#define DOUBLES(a, q)       ((a)[q])
 #define IN_ORDER(a, b)      (void)0
-#define EACH_FEW(lanes)     EACH_OF (lanes)
-#define EACH_PAIR(lanes)    EACH_OF (lanes)
+#define EACH_FLOATS(lanes)  EACH_OF (lanes)
+#define EACH_DOUBLES(lanes) EACH_OF (lanes)
 #define WHERE(condition, a) ((condition) ? (a) : 0)
 #endif
 
 /* Converts to single precision: the number low; in a browser two pairs. */
-INLINE Few narrow_to_single(Pair low, Pair high)
+INLINE Floats narrow_to_single(Doubles low, Doubles high)
 {
 #ifdef __wasm_simd128__ /* intrinsics: clang does not emit demote by itself */
     v128_t few = wasm_f32x4_demote_f64x2_zero((v128_t)low);
     v128_t more = wasm_f32x4_demote_f64x2_zero((v128_t)high);
-    return (Few)wasm_i32x4_shuffle(few, more, 0, 1, 4, 5);
+    return (Floats)wasm_i32x4_shuffle(few, more, 0, 1, 4, 5);
 #else
     (void)high;
     return (float)low;
@@ -117,10 +117,10 @@ INLINE void narrow_numbers(const double *from, double factor, double middle,
                            int count, float *to)
 {
     for (; count > 0; count -= LANES, from += LANES, to += LANES)
-        EACH_FEW (LANES)
-            FEW(to, e) =
-                narrow_to_single(factor * (PAIR(from, e) - middle),
-                                 factor * (PAIR(from, e + PAIRED) - middle));
+        EACH_FLOATS (LANES)
+            FLOATS(to, e) = narrow_to_single(
+                factor * (DOUBLES(from, e) - middle),
+                factor * (DOUBLES(from, e + SECOND_DOUBLES) - middle));
 }
 
 /* Calls F for springs of a node, with the kind, the distance to the other node,
@@ -154,7 +154,7 @@ INLINE NodeRun grid_nodes(const Grid *grid, int i, int odd)
 }
 
 /* EACH_RUN_OF loops over the nodes of a band, LANES of a row at once in `at`;
- * EACH_NODE_OF loops over the Pairs of these nodes, too, counted by `e`. */
+ * EACH_NODE_OF loops over the Doubles of these nodes, too, counted by `e`. */
 #define EACH_RUN_OF(grid, band)                                                \
     for (int i = (band)*BAND; i < (band)*BAND + BAND && i < (grid).rows.nodes; \
          i++)                                                                  \
@@ -163,7 +163,7 @@ INLINE NodeRun grid_nodes(const Grid *grid, int i, int odd)
                  at.first += LANES)
 #define EACH_NODE_OF(grid, band)                                               \
     EACH_RUN_OF (grid, band)                                                   \
-        EACH_PAIR (NEXT(at, LANES))
+        EACH_DOUBLES (NEXT(at, LANES))
 
 /* Adds the partial sums of the lanes, always in the same order. */
 INLINE double sum_lanes(const double s[LANES])

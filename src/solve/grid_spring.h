@@ -1,5 +1,5 @@
-/* grid_spring.h - the law of a spring (spring_law.h) in the grid's loops, for a
- * Pair or a Few of nodes at once.
+/* grid_spring.h - the law of a spring (spring_law.h) in the grid's loops, for
+ * the nodes of Doubles or Floats at once.
  *
  * A spring adds c/4 s^2 to E, s = |d|^2 - l2, c = 2 w k/l2.  The gradient is
  * c s d, the Hessian c (iso I + along d d^T) with iso = s and along = 2. */
@@ -10,7 +10,7 @@
 /* The numbers of a spring in a loop: d = x_i - x_j, d2 = |d|^2, s = d2 - l^2,
  * its force factor c, and f = c s. */
 typedef struct Spring {
-    Pair dx, dy, d2, s, c, f;
+    Doubles dx, dy, d2, s, c, f;
 } Spring;
 
 /* Evaluates the spring from node q to q + to, with its numbers at q + at. */
@@ -18,15 +18,16 @@ INLINE Spring evaluate_grid_spring(const Grid *grid, int kind, ptrdiff_t q,
                                    ptrdiff_t to, ptrdiff_t at)
 {
     const double *x = grid->x, *y = x + grid->rows.plane;
-    Pair dx = PAIR(x, q) - PAIR(x, q + to), dy = PAIR(y, q) - PAIR(y, q + to);
-    Pair d2 = dx * dx + dy * dy, c = PAIR(grid->c[kind], q + at);
-    Pair s = d2 - PAIR(grid->l2[kind], q + at);
+    Doubles dx = DOUBLES(x, q) - DOUBLES(x, q + to);
+    Doubles dy = DOUBLES(y, q) - DOUBLES(y, q + to);
+    Doubles d2 = dx * dx + dy * dy, c = DOUBLES(grid->c[kind], q + at);
+    Doubles s = d2 - DOUBLES(grid->l2[kind], q + at);
     return (Spring){dx, dy, d2, s, c, c * s};
 }
 
 /* A Spring in single precision, from Grid.float_x. */
 typedef struct SingleSpring {
-    Few dx, dy, d2, s, c;
+    Floats dx, dy, d2, s, c;
 } SingleSpring;
 
 INLINE SingleSpring evaluate_single_spring(const Grid *grid, int kind,
@@ -34,9 +35,10 @@ INLINE SingleSpring evaluate_single_spring(const Grid *grid, int kind,
                                            ptrdiff_t at)
 {
     const float *x = grid->float_x, *y = x + grid->rows.plane;
-    Few dx = FEW(x, q) - FEW(x, q + to), dy = FEW(y, q) - FEW(y, q + to);
-    Few d2 = dx * dx + dy * dy, c = FEW(grid->float_c[kind], q + at);
-    return (SingleSpring){dx, dy, d2, d2 - FEW(grid->float_l2[kind], q + at),
+    Floats dx = FLOATS(x, q) - FLOATS(x, q + to);
+    Floats dy = FLOATS(y, q) - FLOATS(y, q + to);
+    Floats d2 = dx * dx + dy * dy, c = FLOATS(grid->float_c[kind], q + at);
+    return (SingleSpring){dx, dy, d2, d2 - FLOATS(grid->float_l2[kind], q + at),
                           c};
 }
 
@@ -52,11 +54,12 @@ INLINE SingleSpring evaluate_single_spring(const Grid *grid, int kind,
 /* Adds a spring to the coefficients of the change of E along p:
  * E(x + a p) - E(x) = q0 a + q1 a^2 + q2 a^3 + 1/4 q3 a^4.
  *   ux, uy  difference p_i - p_j of the spring's ends */
-INLINE void spring_line_polynomial(Spring s, Pair ux, Pair uy, Pair *q0,
-                                   Pair *q1, Pair *q2, Pair *q3)
+INLINE void spring_line_polynomial(Spring s, Doubles ux, Doubles uy,
+                                   Doubles *q0, Doubles *q1, Doubles *q2,
+                                   Doubles *q3)
 {
-    Pair B = s.dx * ux + s.dy * uy, C = ux * ux + uy * uy;
-    Pair cB = s.c * B, cC = s.c * C;
+    Doubles B = s.dx * ux + s.dy * uy, C = ux * ux + uy * uy;
+    Doubles cB = s.c * B, cC = s.c * C;
     *q0 += cB * s.s;
     *q1 += cB * B + 0.5 * s.s * cC;
     *q2 += cB * C;

@@ -22,13 +22,13 @@ typedef struct SearchContext {
 
 /* Returns E(x + alpha p) - E(x), or 0 without a line search; NaN where a term
  * does not allow the point, or where E, evaluated at both points, rises by more
- * than rounding although the change is negative.  The point is left in u_trial
- * and x_trial. */
+ * than rounding although the change is negative.  u_trial and x_trial get
+ * the point if it is accepted. */
 static double step_energy_difference(const void *function, double alpha)
 {
     const SearchContext *search = function;
     Newton *newton = search->newton;
-    const Iterate *at = &newton->at;
+    const Iterate *at = &newton->iterate;
     double *u = newton->u_trial, *x = newton->x_trial;
     bool searches = newton->settings.line_search == LINE_SEARCH_BACKTRACK;
     double change = line_energy_difference(&search->line, alpha);
@@ -48,9 +48,9 @@ static double step_energy_difference(const void *function, double alpha)
 Status find_step_length(Newton *newton)
 {
     NewtonRecord *record = &newton->record;
-    SearchContext search = {newton,
-                            incremental_potential_prepare_line(&newton->at)};
-    record->alpha = incremental_potential_max_step(&newton->at);
+    SearchContext search = {
+        newton, incremental_potential_prepare_line(&newton->iterate)};
+    record->alpha = incremental_potential_max_step(&newton->iterate);
     record->slope = search.line.polynomial.q[0];
     Status status = line_search_backtrack(step_energy_difference, &search,
                                           &record->alpha, &record->trials);

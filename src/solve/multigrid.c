@@ -133,7 +133,7 @@ static Status multigrid_evaluate_gradient(Multigrid *mg)
 /* Copies the problem to the grid.  Returns OK, OUT_OF_MEMORY, NOT_FINITE. */
 static Status multigrid_read_problem(Newton *newton)
 {
-    Iterate *at = &newton->at;
+    Iterate *at = &newton->iterate;
     const System *system = newton->system;
     double *m = newton->x_trial, *u_tilde = newton->u_trial;
     Status status = STATUS_OK;
@@ -315,10 +315,10 @@ static Status multigrid_test_iterate(Newton *newton, Status status)
     if (ends && system_falls_freely(newton->system))
         record->change +=
             grid_correct_momentum(&mg->grid) / mg->grid.energy_unit;
-    /* In no other case is newton->at read. */
+    /* In no other case is newton->iterate read. */
     if (ends || stuck || small || last || newton->settings.observer) {
         swap_iterates(newton);
-        grid_write_state(&mg->grid, &newton->at);
+        grid_write_state(&mg->grid, &newton->iterate);
     }
     if (ends && newton->rounding.stiff)
         record->change += turn_free_body(newton);

@@ -10,7 +10,7 @@
 void newton_start(Newton *newton, const double *x_n, const double *u,
                   double weight, double tolerance)
 {
-    Iterate *at = &newton->at;
+    Iterate *at = &newton->iterate;
     int size = 2 * newton->system->nodes;
     at->E =
         (IncrementalPotential){newton->system, weight, x_n, newton->u_tilde};
@@ -33,7 +33,7 @@ void newton_start(Newton *newton, const double *x_n, const double *u,
 
 void swap_iterates(Newton *newton)
 {
-    Iterate *at = &newton->at;
+    Iterate *at = &newton->iterate;
     double *u = at->u, *x = at->x;
     at->u = newton->u_trial;
     at->x = newton->x_trial;
@@ -41,8 +41,8 @@ void swap_iterates(Newton *newton)
     newton->x_trial = x;
 }
 
-/* Makes the trial point of the line search, u + alpha p, the iterate.  The
- * iterate stays if the trial point is not finite or its E exceeds the limit. */
+/* Makes the trial point, u + alpha p, the iterate.  The iterate stays if the
+ * trial point is not finite or, with a line search, its E exceeds the limit. */
 static Status update_iterate(Newton *newton)
 {
     if (!all_finite(newton->x_trial, 2 * (size_t)newton->system->nodes))
@@ -74,9 +74,9 @@ int newton_most_iterations(const Newton *newton)
                : newton->settings.max_iterations;
 }
 
-/* Turns a free body.  Decides whether the loop ends: p, or a bound of the next
- * p, passes the test, a failure, rounding, too many iterations.  If p passes
- * the test and rounding hides the decrease of E, the step has converged without
+/* Decides, after the turn of a free body, whether the loop ends: p or a bound
+ * of the next p passes the test, a failure, rounding, too many iterations.  If
+ * p passes and rounding hides the decrease of E, the step has converged without
  * p.  Without a line search an end above the start is DIVERGED.
  *   status  in, result of direction, step length and update */
 static Status test_iterate(Newton *newton, Status status)
@@ -96,7 +96,7 @@ static Status test_iterate(Newton *newton, Status status)
     bool ended = status == STATUS_OK || status == STATUS_NOT_FINITE ||
                  status_is_unconverged(status);
     if (ended && newton->settings.line_search == LINE_SEARCH_NONE &&
-        !energy_is_within_limit(newton, newton->at.u, newton->at.x))
+        !energy_is_within_limit(newton, newton->iterate.u, newton->iterate.x))
         status = STATUS_DIVERGED;
     return status;
 }
@@ -107,7 +107,7 @@ static Status test_iterate(Newton *newton, Status status)
  */
 static void book_change(Newton *newton)
 {
-    const Iterate *at = &newton->at;
+    const Iterate *at = &newton->iterate;
     const double first = newton->rounding.start_energy;
     double change = newton->change_sum;
     if (!isnan(first)) {
@@ -181,10 +181,11 @@ Status newton_create(const System *system, const NewtonSettings *settings,
     size_t size = 2 * (size_t)system->nodes;
     SearchDirection *direction = &newton->direction;
     double *next = newton->memory = calloc(12 * size, sizeof *next);
-    double **array[] = {&newton->at.u, &newton->at.x,    &newton->at.g,
-                        &newton->at.p, &newton->u_tilde, &newton->u_trial,
-                        &direction->b, &direction->r,    &direction->z,
-                        &direction->q, &direction->d,    &newton->x_trial};
+    double **array[] = {
+        &newton->iterate.u, &newton->iterate.x, &newton->iterate.g,
+        &newton->iterate.p, &newton->u_tilde,   &newton->u_trial,
+        &direction->b,      &direction->r,      &direction->z,
+        &direction->q,      &direction->d,      &newton->x_trial};
     for (size_t i = 0; next && i < sizeof array / sizeof *array; i++)
         *array[i] = next + i * size;
     return next ? STATUS_OK : STATUS_OUT_OF_MEMORY;

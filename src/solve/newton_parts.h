@@ -1,11 +1,10 @@
-/* newton_parts.h - the parts of Newton's loop (newton.c), each in a file of its
- * own. */
+/* newton_parts.h - the parts of Newton's loop (newton.c), one in each file. */
 #pragma once
 
 #include "solve/newton.h"
 
 /* The phases of an iteration, each of which may end it.  A phase reads and
- * writes the iterate newton->at and the record newton->record. */
+ * writes newton->iterate and newton->record. */
 typedef struct NewtonPhases {
     /* Computes g and p at x, and the residual of p.  Sets newton->passes_test
      * if the residual is at most the tolerance, unless a turn may follow

@@ -12,11 +12,10 @@ enum { GROUP = 4 };
 
 /* Vectors of two and four numbers, an extension of C that gcc and clang share.
  * A vector may start at any number of an array. */
-enum { TWO = 2, FOUR = 4 };
-typedef double Two
-    __attribute__((vector_size(TWO * sizeof(double)), aligned(sizeof(double))));
-typedef double Four __attribute__((vector_size(FOUR * sizeof(double)),
-                                   aligned(sizeof(double))));
+typedef double Double2
+    __attribute__((vector_size(2 * sizeof(double)), aligned(sizeof(double))));
+typedef double Double4
+    __attribute__((vector_size(4 * sizeof(double)), aligned(sizeof(double))));
 
 /* AVX marks a function for registers of four numbers; HAS_AVX tells whether the
  * processor has such registers. */
@@ -71,10 +70,10 @@ typedef struct Product {
             }                                                                  \
     }
 ROWS(one_row, double, 1)
-ROWS(two_rows, Two, 1)
-ROWS(four_rows, Two, 2)
-ROWS(four_rows_avx, Four, 1)
-ROWS(eight_rows_avx, Four, 2)
+ROWS(two_rows, Double2, 1)
+ROWS(four_rows, Double2, 2)
+ROWS(four_rows_avx, Double4, 1)
+ROWS(eight_rows_avx, Double4, 2)
 
 INLINE void multiply_columns(const Product *at, int n, bool avx)
 {
@@ -227,9 +226,9 @@ void dpotrf_(const char *uplo, const int *n, double *A, const int *lda,
 
 /* ---- solving with one right-hand side: four columns at a time ---- */
 
-static inline Two load_two(const double *a)
+static inline Double2 load_double2(const double *a)
 {
-    return *(const Two *)a;
+    return *(const Double2 *)a;
 }
 
 static const double *panel_get_column(const Panel *panel, int j)
@@ -262,10 +261,10 @@ static void solve_forward_group(const Panel *panel, int j, double *w)
         w[j + q] = v[q] *= pivot[q];
     }
     int i = j + GROUP;
-    for (; i + TWO <= panel->rows; i += TWO)
-        *(Two *)(w + i) -=
-            (load_two(a[0] + i) * v[0] + load_two(a[1] + i) * v[1]) +
-            (load_two(a[2] + i) * v[2] + load_two(a[3] + i) * v[3]);
+    for (; i + 2 <= panel->rows; i += 2)
+        *(Double2 *)(w + i) -=
+            (load_double2(a[0] + i) * v[0] + load_double2(a[1] + i) * v[1]) +
+            (load_double2(a[2] + i) * v[2] + load_double2(a[3] + i) * v[3]);
     for (; i < panel->rows; i++)
         w[i] -= (a[0][i] * v[0] + a[1][i] * v[1]) +
                 (a[2][i] * v[2] + a[3][i] * v[3]);
@@ -276,12 +275,12 @@ static void solve_backward_group(const Panel *panel, int j, double *w)
 {
     const double *a[GROUP];
     double v[GROUP], pivot[GROUP];
-    Two s[GROUP] = {{0}};
+    Double2 s[GROUP] = {{0}};
     load_column_group(panel, j, a, pivot);
     int i = j + GROUP;
-    for (; i + TWO <= panel->rows; i += TWO)
+    for (; i + 2 <= panel->rows; i += 2)
         EACH (q, GROUP)
-            s[q] += load_two(a[q] + i) * load_two(w + i);
+            s[q] += load_double2(a[q] + i) * load_double2(w + i);
     for (int q = 0; q < GROUP; q++)
         v[q] = w[j + q] - (s[q][0] + s[q][1]);
     for (; i < panel->rows; i++)

@@ -28,7 +28,7 @@ static const double AGREED = 1e-10, BLURS = 100;
 
 void rounding_start(Newton *newton)
 {
-    const Iterate *at = &newton->at;
+    const Iterate *at = &newton->iterate;
     const System *system = newton->system;
     Rounding *rounding = &newton->rounding;
     if (rounding->bounds_version != system->version + 1) {
@@ -61,7 +61,7 @@ void rounding_start(Newton *newton)
 
 bool is_below_roundoff(const Newton *newton, double change)
 {
-    const Iterate *at = &newton->at;
+    const Iterate *at = &newton->iterate;
     double E = incremental_potential_value(&at->E, at->u, at->x);
     return isfinite(E) && fabs(change) <= 4 * DBL_EPSILON * E;
 }
@@ -76,7 +76,8 @@ static double sample_coordinate_rounding(Newton *newton, const double *u,
         near_u[i] = u[i] * (1 + part * DBL_EPSILON);
         near_x[i] = x[i] * (1 + part * DBL_EPSILON);
     }
-    return fabs(incremental_potential_value(&newton->at.E, near_u, near_x) - E);
+    return fabs(
+        incremental_potential_value(&newton->iterate.E, near_u, near_x) - E);
 }
 
 /* The change of E may lie above record.change by the rounding of E and by that
@@ -85,7 +86,7 @@ static double sample_coordinate_rounding(Newton *newton, const double *u,
 bool rounding_confirms_change(Newton *newton)
 {
     Rounding *rounding = &newton->rounding;
-    const Iterate *at = &newton->at;
+    const Iterate *at = &newton->iterate;
     const double *u = newton->u_trial, *x = newton->x_trial;
     if (newton->settings.line_search == LINE_SEARCH_NONE || !rounding->stiff ||
         rounding->energy_limit < INFINITY)
@@ -107,7 +108,7 @@ bool energy_is_within_limit(const Newton *newton, const double *u,
 {
     double most = newton->rounding.energy_limit;
     return most == INFINITY ||
-           incremental_potential_value(&newton->at.E, u, x) <= most;
+           incremental_potential_value(&newton->iterate.E, u, x) <= most;
 }
 
 Status rounding_test_stagnation(Newton *newton)

@@ -1,5 +1,4 @@
-/* tiles.c - minimisation of E tile by tile, where folds run through the
- * square. */
+/* tiles.c - minimisation of E tile by tile, where folds run in the square. */
 #include "solve/tiles.h"
 
 #include <float.h>
@@ -34,7 +33,8 @@ void tiles_lay_out(const Grid *grid, Memory *memory, Tiles *tiles)
     *tiles = (Tiles){.grid = grid, .rows = high, .columns = wide};
     tiles->activity =
         memory_take_piece(memory, count * sizeof *tiles->activity);
-    tiles->change = memory_take_piece(memory, count * sizeof *tiles->change);
+    tiles->last_change =
+        memory_take_piece(memory, count * sizeof *tiles->last_change);
     tiles->chosen = memory_take_piece(memory, count * sizeof *tiles->chosen);
     size_t both = 2 * (size_t)grid->rows.plane * sizeof(float);
     tiles->u = memory_take_piece(memory, both);
@@ -73,28 +73,28 @@ INLINE void gather_springs(const Tiles *tiles, NodeRun at, bool is_close,
     const Grid *grid = tiles->grid;
     const ptrdiff_t plane = grid->rows.plane;
     const float *const ux = tiles->u, *const uy = ux + plane;
-    EACH_FEW (NEXT(at, LANES)) {
+    EACH_FLOATS (NEXT(at, LANES)) {
         const ptrdiff_t q = at.first + e;
-        Few mass = FEW(grid->float_m, q), iso = mass;
-        Few gx = FEW(tiles->start_g, q) + mass * FEW(ux, q);
-        Few gy = FEW(tiles->start_g, q + plane) + mass * FEW(uy, q);
-        Few xx = {0}, xy = {0}, yy = {0};
-        Few cx = {0}, cy = {0}, c = {0}, negative = {0};
+        Floats mass = FLOATS(grid->float_m, q), iso = mass;
+        Floats gx = FLOATS(tiles->start_g, q) + mass * FLOATS(ux, q);
+        Floats gy = FLOATS(tiles->start_g, q + plane) + mass * FLOATS(uy, q);
+        Floats xx = {0}, xy = {0}, yy = {0};
+        Floats cx = {0}, cy = {0}, c = {0}, negative = {0};
 #define ADD(kind, to, numbers)                                                 \
     {                                                                          \
         SingleSpring s = evaluate_single_spring(grid, kind, q, to, numbers);   \
-        Few wx = s.dx, wy = s.dy;                                              \
+        Floats wx = s.dx, wy = s.dy;                                           \
         if (is_close) {                                                        \
-            wx = FEW(ux, q) - FEW(ux, q + (to));                               \
-            wy = FEW(uy, q) - FEW(uy, q + (to));                               \
-            Few more = (2 * s.dx + wx) * wx + (2 * s.dy + wy) * wy;            \
+            wx = FLOATS(ux, q) - FLOATS(ux, q + (to));                         \
+            wy = FLOATS(uy, q) - FLOATS(uy, q + (to));                         \
+            Floats more = (2 * s.dx + wx) * wx + (2 * s.dy + wy) * wy;         \
             gx += s.c * more * s.dx;                                           \
             gy += s.c * more * s.dy;                                           \
             s.dx += wx;                                                        \
             s.dy += wy;                                                        \
             s.s += more;                                                       \
         }                                                                      \
-        Few fx = s.c * s.dx, fy = s.c * s.dy, f = s.c * s.s;                   \
+        Floats fx = s.c * s.dx, fy = s.c * s.dy, f = s.c * s.s;                \
         gx += f * wx;                                                          \
         gy += f * wy;                                                          \
         IN_ORDER(gx, gy);                                                      \
@@ -113,15 +113,15 @@ INLINE void gather_springs(const Tiles *tiles, NodeRun at, bool is_close,
     }
         ALL_SPRINGS(ADD, at)
 #undef ADD
-        FEW(of[GX], e) = gx;
-        FEW(of[GY], e) = gy;
-        FEW(of[XX], e) = iso + 2 * xx;
-        FEW(of[XY], e) = 2 * xy;
-        FEW(of[YY], e) = iso + 2 * yy;
-        FEW(of[CX], e) = cx;
-        FEW(of[CY], e) = cy;
-        FEW(of[CC], e) = c;
-        FEW(of[NEGATIVE], e) = negative;
+        FLOATS(of[GX], e) = gx;
+        FLOATS(of[GY], e) = gy;
+        FLOATS(of[XX], e) = iso + 2 * xx;
+        FLOATS(of[XY], e) = 2 * xy;
+        FLOATS(of[YY], e) = iso + 2 * yy;
+        FLOATS(of[CX], e) = cx;
+        FLOATS(of[CY], e) = cy;
+        FLOATS(of[CC], e) = c;
+        FLOATS(of[NEGATIVE], e) = negative;
     }
 }
 
@@ -206,18 +206,18 @@ FAST static double relax_active(Tiles *tiles, double activity, int *visits)
                     tiles->chosen[count++] = i * wide + j;
         for (int t = 0; t < count; t++) {
             int tile = tiles->chosen[t]; /* is_close is constant in each copy */
-            tiles->change[tile] = tiles->is_close
-                                      ? relax_tile(tiles, tile, true)
-                                      : relax_tile(tiles, tile, false);
+            tiles->last_change[tile] = tiles->is_close
+                                           ? relax_tile(tiles, tile, true)
+                                           : relax_tile(tiles, tile, false);
         }
         for (int t = 0; t < count; t++) { /* neighbours become active */
             int tile = tiles->chosen[t], i = tile / wide, j = tile % wide;
             for (int a = i > 0 ? i - 1 : 0; a <= i + 1 && a < high; a++)
                 for (int b = j > 0 ? j - 1 : 0; b <= j + 1 && b < wide; b++)
                     tiles->activity[a * wide + b] +=
-                        SPREAD * tiles->change[tile];
-            tiles->activity[tile] = tiles->change[tile];
-            change += tiles->change[tile];
+                        SPREAD * tiles->last_change[tile];
+            tiles->activity[tile] = tiles->last_change[tile];
+            change += tiles->last_change[tile];
         }
         *visits += count;
     }
@@ -253,7 +253,7 @@ FAST void tiles_relax(Tiles *tiles, double pace, double *p)
         tiles->activity[t] = 0;
     double lowered = relax_active(tiles, 0, &visits);
     for (int t = 0; t < count; t++)
-        tiles->activity[t] = tiles->change[t];
+        tiles->activity[t] = tiles->last_change[t];
     for (int round = 0; round < MAX_ROUNDS; round++) {
         double sum = 0, most = 0;
         for (int t = 0; t < count; t++) {

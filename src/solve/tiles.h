@@ -23,7 +23,7 @@ typedef struct Tiles {
     const Grid *grid;
     int rows, columns; /* number of tiles in a column and in a row */
     double *activity;  /* [tiles] change of E that a sweep may bring, < 0 */
-    double *change;    /* [tiles] change of E by the tile's last sweep */
+    double *last_change; /* [tiles] change of E by the tile's last sweep */
     int *chosen;       /* [tiles] numbers of the tiles that are swept next */
     bool is_close;     /* nodes move by less than the rounding of
                           Grid.float_x, which stays as at the start */

@@ -7,7 +7,7 @@
 
 bool turns_may_follow(const Newton *newton)
 {
-    const Iterate *at = &newton->at;
+    const Iterate *at = &newton->iterate;
     double torque = 0;
     for (int i = 0; i < 2 * newton->system->nodes; i++)
         torque += fabs(at->p[i] * at->g[i]);
@@ -20,7 +20,7 @@ double turn_free_body(Newton *newton)
     const System *system = newton->system;
     const int size = 2 * system->nodes;
     const double *m = system->m, *u_tilde = newton->u_tilde;
-    double *u = newton->at.u, *x = newton->at.x;
+    double *u = newton->iterate.u, *x = newton->iterate.x;
     double mass = 0, centre[2] = {0}, moved[2] = {0}, along = 0, across = 0;
     int pivot;
     bool turns = newton->rounding.stiff ||
@@ -55,9 +55,9 @@ double turn_free_body(Newton *newton)
         int other = i ^ 1;
         double arm = x[i] - centre[i % 2], side = x[other] - centre[other % 2];
         new_u[i] = u[i] + cosine_less_1 * arm + (i % 2 ? sine : -sine) * side;
-        new_x[i] = newton->at.E.x_n[i] + new_u[i];
+        new_x[i] = newton->iterate.E.x_n[i] + new_u[i];
     }
-    if (!incremental_potential_allows(&newton->at.E, new_u, new_x))
+    if (!incremental_potential_allows(&newton->iterate.E, new_u, new_x))
         return 0; /* rounding closed a gap */
     memcpy(u, new_u, (size_t)size * sizeof *u);
     memcpy(x, new_x, (size_t)size * sizeof *x);

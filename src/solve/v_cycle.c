@@ -67,15 +67,15 @@ INLINE void compute_tensor_row(const VCycle *cycle, int i)
         for (NodeRun at = grid_nodes(&grid, i, odd); at.first < at.end;
              at.first += LANES) {
 #define ADD(kind, to, numbers)                                                 \
-    EACH_FEW (NEXT(at, LANES)) {                                               \
+    EACH_FLOATS (NEXT(at, LANES)) {                                            \
         const ptrdiff_t q = at.first + e;                                      \
         SingleSpring s = evaluate_single_spring(&grid, kind, q, to, numbers);  \
         CLAMPED_TENSOR(s.s, s.d2 + 1e-35f, iso, along);                        \
         along = along * (1 - kept) + 2 * kept;                                 \
         iso += kept * WHERE(s.s < 0, s.s);                                     \
-        FEW(level.K[kind][0], q) = s.c * (iso + along * s.dx * s.dx);          \
-        FEW(level.K[kind][1], q) = s.c * along * s.dx * s.dy;                  \
-        FEW(level.K[kind][2], q) = s.c * (iso + along * s.dy * s.dy);          \
+        FLOATS(level.K[kind][0], q) = s.c * (iso + along * s.dx * s.dx);       \
+        FLOATS(level.K[kind][1], q) = s.c * along * s.dx * s.dy;               \
+        FLOATS(level.K[kind][2], q) = s.c * (iso + along * s.dy * s.dy);       \
     }
             OWN_SPRINGS(ADD, at)
 #undef ADD
@@ -111,7 +111,8 @@ INLINE void invert_diagonal_row(const Level *of, int i)
 INLINE void split_even_odd(const RowLayout *rows, int I, int first,
                            const float *line, float *to)
 {
-    float *even = to + node_place(rows, I, first), *odd = even + rows->half;
+    float *even = to + node_place(rows, I, first),
+          *odd = even + rows->odd_offset;
     EACH_OF (AT_MOST(LANES / 2, (rows->nodes - first + 1) / 2)) {
         even[e] = line[2 * e];
         odd[e] = line[2 * e + 1];
@@ -123,7 +124,7 @@ INLINE void split_even_odd(const RowLayout *rows, int I, int first,
 #define FINER(from)                                                            \
     const float *const a = (from) + node_place(&fine, 2 * I, 0) + first
 #define EVEN(di)    a[(di)*fine.pitch + e]
-#define ODD(di, dj) a[(di)*fine.pitch + fine.half + e + (dj)]
+#define ODD(di, dj) a[(di)*fine.pitch + fine.odd_offset + e + (dj)]
 
 /* A coarse tensor is the mean of the four finer ones it stands for. */
 INLINE void coarsen_row(const Level *level, const Level *coarse, int I)
@@ -231,26 +232,26 @@ INLINE void visit_row(const Level *of, int i, int colour, PassResult result,
         return;
     for (NodeRun at = nodes_in_row(&level.rows, i, colour % 2);
          at.first < at.end; at.first += LANES)
-        EACH_FEW (NEXT(at, LANES)) {
+        EACH_FLOATS (NEXT(at, LANES)) {
             const ptrdiff_t q = at.first + e;
-            Few hx = {0}, hy = {0}, ax = {0}, ay = {0};
+            Floats hx = {0}, hy = {0}, ax = {0}, ay = {0};
             if (result == FIRST) { /* ax and ay are b - A x here, else A x */
-                ax = FEW(bx, q);
-                ay = FEW(by, q);
+                ax = FLOATS(bx, q);
+                ay = FLOATS(by, q);
             } else if (!from_0) {
-                hx = FEW(x, q);
-                hy = FEW(y, q);
-                ax = FEW(level.m, q) * hx;
-                ay = FEW(level.m, q) * hy;
+                hx = FLOATS(x, q);
+                hy = FLOATS(y, q);
+                ax = FLOATS(level.m, q) * hx;
+                ay = FLOATS(level.m, q) * hy;
             }
 #define ADD(kind, to, numbers)                                                 \
     {                                                                          \
-        Few dx = FEW(x, q + (to)), dy = FEW(y, q + (to));                      \
+        Floats dx = FLOATS(x, q + (to)), dy = FLOATS(y, q + (to));             \
         dx = from_0 ? dx : hx - dx;                                            \
         dy = from_0 ? dy : hy - dy;                                            \
-        Few xy = FEW(level.K[kind][1], q + (numbers));                         \
-        ax += FEW(level.K[kind][0], q + (numbers)) * dx + xy * dy;             \
-        ay += xy * dx + FEW(level.K[kind][2], q + (numbers)) * dy;             \
+        Floats xy = FLOATS(level.K[kind][1], q + (numbers));                   \
+        ax += FLOATS(level.K[kind][0], q + (numbers)) * dx + xy * dy;          \
+        ay += xy * dx + FLOATS(level.K[kind][2], q + (numbers)) * dy;          \
         IN_ORDER(ax, ay);                                                      \
     }
             if (along) {
@@ -260,21 +261,21 @@ INLINE void visit_row(const Level *of, int i, int colour, PassResult result,
                 CROSS_SPRINGS(ADD, at)
             }
 #undef ADD
-            Few rx = from_0 ? ax : FEW(bx, q) - ax;
-            Few ry = from_0 ? ay : FEW(by, q) - ay;
+            Floats rx = from_0 ? ax : FLOATS(bx, q) - ax;
+            Floats ry = from_0 ? ay : FLOATS(by, q) - ay;
             if (result == FIRST || result == SMOOTH) {
-                Few xx = FEW(level.D[0], q), xy = FEW(level.D[1], q);
-                Few yy = FEW(level.D[2], q);
-                FEW(x, q) = hx + (xx * rx + xy * ry);
-                FEW(y, q) = hy + (xy * rx + yy * ry);
+                Floats xx = FLOATS(level.D[0], q), xy = FLOATS(level.D[1], q);
+                Floats yy = FLOATS(level.D[2], q);
+                FLOATS(x, q) = hx + (xx * rx + xy * ry);
+                FLOATS(y, q) = hy + (xy * rx + yy * ry);
             } else if (result == RESIDUAL) {
-                FEW(wx, q) = WHERE(FEW(level.D[0], q) != 0, rx);
-                FEW(wy, q) = WHERE(FEW(level.D[0], q) != 0, ry);
+                FLOATS(wx, q) = WHERE(FLOATS(level.D[0], q) != 0, rx);
+                FLOATS(wy, q) = WHERE(FLOATS(level.D[0], q) != 0, ry);
             } else {
-                FEW(xb, e) += hx * FEW(bx, q) + hy * FEW(by, q);
-                FEW(xw, e) += hx * ax + hy * ay;
-                FEW(wx, q) = ax;
-                FEW(wy, q) = ay;
+                FLOATS(xb, e) += hx * FLOATS(bx, q) + hy * FLOATS(by, q);
+                FLOATS(xw, e) += hx * ax + hy * ay;
+                FLOATS(wx, q) = ax;
+                FLOATS(wy, q) = ay;
             }
         }
 }
@@ -287,14 +288,14 @@ INLINE void prolong_row(const Level *level, const RowLayout *coarse, int i,
     const RowLayout fine = level->rows;
     const float *const a = from + node_place(coarse, i / 2, 0);
     const float *const z = from + node_place(coarse, (i + 1) / 2, 0);
-    const int half = coarse->half, at = node_place(&fine, i, 0);
-    float *const even = to + at, *const odd = even + fine.half;
-    const float *const D = level->D[0] + at, *const odd_D = D + fine.half;
+    const int odd_offset = coarse->odd_offset, at = node_place(&fine, i, 0);
+    float *const even = to + at, *const odd = even + fine.odd_offset;
+    const float *const D = level->D[0] + at, *const odd_D = D + fine.odd_offset;
     for (int first = 0; 2 * first < fine.count[0]; first += LANES / 2)
-        EACH_OF (AT_MOST(LANES / 2, fine.half / 2 - first)) {
+        EACH_OF (AT_MOST(LANES / 2, fine.odd_offset / 2 - first)) {
             const int J = first + e;
             float here = 0.5f * (a[J] + z[J]);
-            float after = 0.5f * (a[half + J] + z[half + J]);
+            float after = 0.5f * (a[odd_offset + J] + z[odd_offset + J]);
             float next = 0.5f * (a[J + 1] + z[J + 1]);
             even[2 * J] += D[2 * J] != 0 ? here : 0;
             even[2 * J + 1] += D[2 * J + 1] != 0 ? after : 0;

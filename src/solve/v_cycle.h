@@ -38,8 +38,7 @@ typedef struct Level {
 typedef struct VCycle {
     const Grid *grid;
     Level level[MAX_LEVELS]; /* the finest level first */
-    float *p, *d, *Ad; /* [2 planes] solution, direction d and A d of conjugate
-                          gradients */
+    float *p, *d, *Ad;       /* [2 planes] p, d, A d of conjugate gradients */
     bool is_clamped;   /* negative eigenvalues of the springs become 0 */
     bool is_set_up; /* has the tensors at grid->x; set to false when x moves */
     long cycles;    /* number of V-cycles so far */

@@ -81,7 +81,7 @@ static void backward_euler_set_target(TimeIntegrator *run)
 
 static void backward_euler_finish(TimeIntegrator *run)
 {
-    const Iterate *end = &run->newton->at;
+    const Iterate *end = &run->newton->iterate;
     double h = run->h;
     memcpy(run->new_x, end->x, run->x_length * sizeof *run->new_x);
     for (size_t i = 0; i < run->x_length; i++)
@@ -107,7 +107,7 @@ static void bdf2_set_target(TimeIntegrator *run)
 
 static void bdf2_finish(TimeIntegrator *run)
 {
-    const Iterate *end = &run->newton->at;
+    const Iterate *end = &run->newton->iterate;
     double h = run->h, *v = run->v;
     double *du = run->memory, *v_old = du + run->x_length;
     if (run->memory_h != h)
@@ -145,7 +145,7 @@ static void sdirk2_set_target(TimeIntegrator *run)
 
 static void sdirk2_finish(TimeIntegrator *run)
 {
-    const Iterate *end = &run->newton->at;
+    const Iterate *end = &run->newton->iterate;
     double h = run->h, gh = SDIRK_G * h, rest = (1 - SDIRK_G) * h;
     double *s = run->new_v;
     bool first = run->stage == 0;
@@ -166,7 +166,7 @@ static void midpoint_set_target(TimeIntegrator *run)
 
 static void midpoint_finish(TimeIntegrator *run)
 {
-    const double *u = run->newton->at.u;
+    const double *u = run->newton->iterate.u;
     for (size_t i = 0; i < run->x_length; i++) {
         run->new_x[i] = run->x[i] + 2 * u[i];
         run->new_v[i] = 4 * u[i] / run->h - run->v[i];
@@ -175,7 +175,7 @@ static void midpoint_finish(TimeIntegrator *run)
 
 const IntegratorMethod integrator_methods[] = {
     {"backward-euler", "backward Euler", 1, .is_implicit = true,
-     .ends_at_minimiser = true, .damps = true, .stages = 1,
+     .takes_all_terms = true, .damps = true, .stages = 1,
      .set_target = backward_euler_set_target, .finish = backward_euler_finish},
     {"symplectic-euler", "symplectic Euler", 1,
      .finish = symplectic_euler_finish},

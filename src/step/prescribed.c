@@ -116,7 +116,7 @@ static bool move_by_part(TimeIntegrator *run, double part)
     double *u = run->new_x, *x = run->new_v, way = part * run->h;
     double *before = run->newton->x_trial, *p = run->newton->u_trial;
     for (int i = 0; i < 2 * system->nodes; i++) {
-        u[i] = p[i] = run->parts_made == 0 ? 0 : run->newton->at.u[i];
+        u[i] = p[i] = run->parts_made == 0 ? 0 : run->newton->iterate.u[i];
         before[i] = x_n[i] + u[i];
         if (system->pin_v && system->pinned[i / 2])
             u[i] += way * system->pin_v[i];
@@ -218,10 +218,10 @@ double prescribed_work(const TimeIntegrator *run)
     const System *system = run->system;
     const Contact *contact = contact_of(system);
     const Newton *newton = run->newton;
-    const double *u = newton->at.u, *x = newton->at.x;
-    EvalPoint at = make_eval_point(system, newton->at.E.x_n, u, x);
+    const double *u = newton->iterate.u, *x = newton->iterate.x;
+    EvalPoint at = make_eval_point(system, newton->iterate.E.x_n, u, x);
     double *g = run->new_x, pins = 0, sum = 0;
-    at.weight = newton->at.E.weight;
+    at.weight = newton->iterate.E.weight;
     if (system->pin_v) {
         memset(g, 0, run->x_length * sizeof *g);
         inertia_energy_gradient(system->nodes, u, newton->u_tilde, system->m,

@@ -20,7 +20,7 @@ bool integrator_method_refuses(const IntegratorMethod *method,
 {
     for (int t = 0; t < system->terms; t++) {
         const TermKind *kind = system->term[t].kind;
-        if (!kind->any_integrator && !method->ends_at_minimiser)
+        if (!kind->any_integrator && !method->takes_all_terms)
             return true;
     }
     return false;
@@ -35,7 +35,7 @@ Status time_integrator_create(const IntegratorMethod *method, System *system,
         .method = method, .system = system, .x_length = size, .h = settings->h};
     if (!system_is_feasible(make_eval_point(system, x, NULL, x)) ||
         integrator_method_refuses(method, system) ||
-        (system->pin_v && !method->ends_at_minimiser))
+        (system->pin_v && !method->takes_all_terms))
         return STATUS_INVALID_INPUT;
     run->x = calloc((4 + (size_t)method->arrays) * size, sizeof *x);
     if (!run->x)
@@ -161,7 +161,7 @@ static Status end_step(TimeIntegrator *run, Status status)
 
 Status time_integrator_begin(TimeIntegrator *run)
 {
-    run->worst_status = STATUS_OK;
+    run->bad_status = STATUS_OK;
     run->stage = 0;
     if (run->newton)
         run->newton->change = 0;
@@ -191,7 +191,7 @@ Status time_integrator_advance(TimeIntegrator *run)
         }
         if (status_is_failure(status))
             return end_step(run, status);
-        run->worst_status = status ? status : run->worst_status;
+        run->bad_status = status ? status : run->bad_status;
 
         /* Compute x and v, or begin the next stage */
         method->finish(run);
@@ -200,7 +200,7 @@ Status time_integrator_advance(TimeIntegrator *run)
     }
     if (method->stages == 0)
         method->finish(run);
-    return end_step(run, run->worst_status);
+    return end_step(run, run->bad_status);
 }
 
 Status time_integrator_step(TimeIntegrator *run)

@@ -62,7 +62,7 @@ static int watch_size(const Watch *watch)
 /* The present minimisation, with a start that nobody overwrites. */
 static IncrementalPotential watch_potential(const Watch *watch)
 {
-    IncrementalPotential E = watch->run->newton->at.E;
+    IncrementalPotential E = watch->run->newton->iterate.E;
     E.x_n = watch->x_n;
     return E;
 }
@@ -169,9 +169,9 @@ static void judge_end(Watch *watch)
     if (newton->passes_test)
         judge_convergence(watch, watch->u, limit);
     else if (newton->active_solver == SOLVER_MULTIGRID)
-        judge_convergence(watch, newton->at.u, limit);
+        judge_convergence(watch, newton->iterate.u, limit);
     else
-        judge_convergence(watch, newton->at.u,
+        judge_convergence(watch, newton->iterate.u,
                           fmin(limit, 1e-6 * sqrt(l2) / newton->settings.h));
 }
 
@@ -198,7 +198,7 @@ static void watch_begin(Watch *watch)
 {
     int n = watch_size(watch);
     const Newton *newton = watch->run->newton;
-    memcpy(watch->x_n, newton->at.E.x_n, (size_t)n * sizeof *watch->x_n);
+    memcpy(watch->x_n, newton->iterate.E.x_n, (size_t)n * sizeof *watch->x_n);
     for (int i = 0; i < n; i++)
         watch->u[i] = watch->run->is_driven ? watch->run->new_x[i] : 0;
     if (!system_find_term(watch->run->system, &cell_energy))
@@ -219,7 +219,7 @@ static void watch_descent(Watch *watch, const double *u, const char *where)
         fabsl(energy - watch->start) + fabsl(watch->energy - watch->start);
     bool was_flat = watch->flat, flat = watch->run->is_driven;
     watch->flat =
-        smallest_cell(moment.E.system, watch->run->newton->at.x) < FLAT;
+        smallest_cell(moment.E.system, watch->run->newton->iterate.x) < FLAT;
     flat = flat && (watch->flat || was_flat || !isfinite(watch->energy));
     if (!isfinite(energy) && !flat)
         blame(watch, "E is %Lg %s", energy, where);
@@ -242,7 +242,8 @@ static void check_excuse(Watch *watch, const NewtonRecord *record)
         long double away = (long double)watch->u[i] - E.u_tilde[i];
         scale += 0.5L * E.system->m[i / 2] * away * away;
     }
-    scale += E.weight * exact_potential(E.system, watch->run->newton->at.x);
+    scale +=
+        E.weight * exact_potential(E.system, watch->run->newton->iterate.x);
     if (fabs(record->slope) < 3 * DBL_EPSILON * scale)
         blame(watch, "%s, but the slope %g is lost in E = %Lg",
               status_name(record->status), record->slope, scale);
@@ -276,7 +277,7 @@ static bool watch_record(void *user, const NewtonRecord *record)
         return true;
     if (record->iteration == 0)
         watch_begin(watch);
-    check_edges(watch, newton->at.x);
+    check_edges(watch, newton->iterate.x);
     if (record->iteration != watch->updates)
         blame(watch, "record %d after %d updates", record->iteration,
               watch->updates);
@@ -284,15 +285,15 @@ static bool watch_record(void *user, const NewtonRecord *record)
     if (watch->updates > newton->settings.max_iterations)
         blame(watch, "%d iterations, more than allowed", watch->updates);
     for (int i = 0; i < watch_size(watch); i++)
-        if (!isfinite(newton->at.u[i]) || !isfinite(newton->at.x[i]))
+        if (!isfinite(newton->iterate.u[i]) || !isfinite(newton->iterate.x[i]))
             blame(watch, "iterate %d is not finite", watch->updates);
     if (newton->settings.line_search != LINE_SEARCH_NONE)
-        watch_descent(watch, newton->at.u, "in an iteration");
+        watch_descent(watch, newton->iterate.u, "in an iteration");
     check_excuse(watch, record);
-    check_walls(watch, newton->at.x);
+    check_walls(watch, newton->iterate.x);
     if (record->status == STATUS_OK)
         judge_end(watch);
-    memcpy(watch->u, newton->at.u,
+    memcpy(watch->u, newton->iterate.u,
            (size_t)watch_size(watch) * sizeof *watch->u);
     return true;
 }
@@ -466,7 +467,7 @@ static void check_state(Watch *watch)
     if (watch->springs &&
         run->newton && /* with flow and breaks E changes between steps */
         run->newton->settings.line_search != LINE_SEARCH_NONE)
-        watch_descent(watch, run->newton->at.u, "as the step ends");
+        watch_descent(watch, run->newton->iterate.u, "as the step ends");
 }
 
 Verdict watch_step(Watch *watch)

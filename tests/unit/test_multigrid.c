@@ -26,7 +26,7 @@ static Simulation *begin_problem(int segments, double stretch)
     Simulation *square = simulate(
         "--segments %d --stretch %g --solver multigrid", segments, stretch);
     newton = square->run[0].newton;
-    at = &newton->at;
+    at = &newton->iterate;
     body = &square->system;
     x_n = square->run[0].x;
     size = 2 * body->nodes;
@@ -98,7 +98,7 @@ static bool see_fall(void *user, const NewtonRecord *record)
     E->now = now;
     if (record->status == STATUS_OK) {
         const double *judged = newton->passes_test ? newton->u_trial : at->u;
-        CHECK(large_judge(&newton->at.E, judged, newton->settings.h,
+        CHECK(large_judge(&newton->iterate.E, judged, newton->settings.h,
                           newton->tolerance) == LARGE_PASSED);
         E->judged++;
         E->by_bound += !newton->passes_test;

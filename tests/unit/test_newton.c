@@ -24,7 +24,7 @@ static bool keep_last(void *user, const NewtonRecord *record)
     Last *last = user;
     const Newton *newton = last->simulation->run[0].newton;
     last->record = *record;
-    memcpy(last->u, record->alpha != 0 ? newton->u_trial : newton->at.u,
+    memcpy(last->u, record->alpha != 0 ? newton->u_trial : newton->iterate.u,
            2 * (size_t)newton->system->nodes * sizeof *last->u);
     return true;
 }
@@ -55,7 +55,7 @@ TEST(residuals_are_what_they_are_called)
             double x_n[LARGEST];
             memcpy(x_n, run->x, 2 * (size_t)run->system->nodes * sizeof *x_n);
             make_steps(simulation, 1);
-            IncrementalPotential E = newton->at.E;
+            IncrementalPotential E = newton->iterate.E;
             E.x_n = x_n;
             double residual = last.record.residual;
             double exact = exact_residual(&E, last.u, NULL, run->h, 0, 1, NULL);
@@ -66,9 +66,9 @@ TEST(residuals_are_what_they_are_called)
             else if (multigrid && newton->passes_test)
                 CHECK_NEAR(residual, exact, tolerance - residual);
             else if (multigrid) /* ended by the bound of the next residual */
-                CHECK_AT_MOST(
-                    exact_residual(&E, newton->at.u, NULL, run->h, 0, 1, NULL),
-                    tolerance);
+                CHECK_AT_MOST(exact_residual(&E, newton->iterate.u, NULL,
+                                             run->h, 0, 1, NULL),
+                              tolerance);
             else
                 CHECK_NEAR(residual, exact, 1e-3 * exact);
         }
@@ -148,7 +148,7 @@ TEST(nearly_singular_steps_end_or_say_why_not)
     const double x[4] = {0, 0, 0.5, 0};
     for (int i = 0; i < 3; i++) {
         Real g[4], H[16];
-        const Iterate *at = &newton.at;
+        const Iterate *at = &newton.iterate;
         make_pair(1, 1, rows[i].k);
         pair.pinned[0] = 1;
         watch_pair(1, 1e-6, rows[i].projection);
@@ -216,17 +216,16 @@ static bool keep_energy(void *unused, char *line)
     Simulation *simulation = simulate_watched(pause_always, NULL, "%s", line);
     TimeIntegrator *run = &simulation->run[0];
     Newton *newton = run->newton;
+    const Iterate *at = &newton->iterate;
     for (int step = 0; step < 6; step++) {
         memset(run->v, 0, run->x_length * sizeof *run->v);
         memset(newton->u_tilde, 0, run->x_length * sizeof *run->v);
         newton_start(newton, run->x, NULL, run->h * run->h,
                      newton->settings.tolerance);
-        double start = incremental_potential_value(&newton->at.E, newton->at.u,
-                                                   newton->at.x);
+        double start = incremental_potential_value(&at->E, at->u, at->x);
         while (newton->status == STATUS_RUNNING) {
             newton_minimise(newton);
-            CHECK_AT_MOST(incremental_potential_value(
-                              &newton->at.E, newton->at.u, newton->at.x),
+            CHECK_AT_MOST(incremental_potential_value(&at->E, at->u, at->x),
                           start * (1 + 1e-9));
         }
         double before = simulation_energies(simulation, 0).total;

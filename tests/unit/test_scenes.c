@@ -129,7 +129,7 @@ TEST(envelope_cells_are_runs)
             worst = status ? status : worst;
         }
         CHECK(cell->is_known);
-        CHECK_STATUS(cell->worst_status, worst);
+        CHECK_STATUS(cell->bad_status, worst);
         refused += worst != STATUS_OK;
         CHECK(cell->updates == simulation_sum_counters(run).iterations);
         CHECK_SAME_BITS(map->run[0].x, run->run[0].x, 2 * run->system.nodes);
@@ -167,14 +167,14 @@ TEST(pairs_that_come_up_inside_a_step_have_entries)
     CHECK(system->nodes == 18);
     make_steps(scene, 1);
     CHECK(self->pairs == 0);
-    CHECK_OK(incremental_potential_extend(&newton->at, &grown));
+    CHECK_OK(incremental_potential_extend(&newton->iterate, &grown));
     CHECK(!grown);
     for (int i = 9; i < 18; i++)
         u[2 * i + 1] = -0.2 + 0.5 * self->d_hat;
     newton->settings.max_iterations = 1;
     newton_start(newton, scene->run[0].x, u, 1e-4, 1e-30);
     CHECK_STATUS(newton_minimise(newton), STATUS_ITERATION_LIMIT);
-    Iterate before = newton->at; /* residual of the last direction */
+    Iterate before = newton->iterate; /* residual of the last direction */
     before.u = newton->u_trial;
     before.x = newton->x_trial;
     incremental_potential_gradient(&before.E, before.u, before.x, before.g);
@@ -182,8 +182,8 @@ TEST(pairs_that_come_up_inside_a_step_have_entries)
     incremental_potential_product(&before, newton->direction.projection,
                                   before.p, Hp);
     for (int i = 0; i < 36; i++)
-        CHECK_NEAR(Hp[i], -newton->at.g[i], 1e-10);
-    CHECK_OK(incremental_potential_extend(&newton->at, &grown));
+        CHECK_NEAR(Hp[i], -newton->iterate.g[i], 1e-10);
+    CHECK_OK(incremental_potential_extend(&newton->iterate, &grown));
     CHECK(!grown);
 }
 

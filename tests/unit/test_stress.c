@@ -46,7 +46,7 @@ static void go_back_a_little(TimeIntegrator *run)
 {
     integrator_methods[0].finish(run);
     for (size_t i = 0; i < run->x_length; i++)
-        run->newton->at.u[i] *= 0.9;
+        run->newton->iterate.u[i] *= 0.9;
 }
 
 static void fall_through(TimeIntegrator *run)
@@ -164,10 +164,10 @@ TEST(an_unfinished_search_is_noticed)
     Simulation *simulation = simulate("--segments 12 --solver multigrid");
     Newton *newton = simulation->run[0].newton;
     newton_start(newton, simulation->run[0].x, NULL, 1.6e-5, 0.01);
-    CHECK(large_judge(&newton->at.E, newton->at.u, newton->settings.h,
+    CHECK(large_judge(&newton->iterate.E, newton->iterate.u, newton->settings.h,
                       newton->tolerance) == LARGE_FAILED);
     CHECK_OK(newton_minimise(newton));
-    CHECK(large_judge(&newton->at.E, newton->at.u, newton->settings.h,
+    CHECK(large_judge(&newton->iterate.E, newton->iterate.u, newton->settings.h,
                       newton->tolerance) == LARGE_PASSED);
 }
 
