@@ -137,7 +137,7 @@ struct TermKind {
     bool is_external;      /* has forces that move the centre of mass */
     bool depends_on_start; /* P depends on x_n too, and a turn changes P */
     bool any_integrator; /* works with every integrator; other terms only with
-                            backward Euler, whose x_(n+1) is the minimiser */
+                            backward Euler */
 };
 
 struct Term {

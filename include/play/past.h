@@ -1,4 +1,4 @@
-/* past.h - the past has all steps and edits of up to six panes side by side.
+/* past.h - all steps and edits of up to OPTIONS_MAX_PANES panes side by side.
  *
  * A step is a pure function: state and control of entry k give the state of
  * entry k+1.  Therefore states can be dropped and made again with the same

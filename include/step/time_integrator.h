@@ -2,7 +2,7 @@
  *
  * A method (methods.c) reads x and v of t_n and fills new_x and new_v of
  * t_n + h, which become x and v if they are finite.  An implicit method
- * minimises E once in each of its stages: set_target writes u_tilde, finish
+ * minimises E in each of its stages: set_target writes u_tilde, finish
  * reads the minimiser.  Newton's observer may pause a step, and
  * time_integrator_advance continues it. */
 #pragma once

@@ -29,6 +29,6 @@ Status multigrid_create(int segments, Multigrid **multigrid);
 void multigrid_free(Multigrid *multigrid);
 
 /* Whether multigrid makes the minimisation that newton->iterate describes: the
- * settings ask for multigrid, and all terms suit it.  newton->refusal becomes
- * the reason why multigrid cannot, or NULL. */
+ * settings ask for multigrid, and all terms suit it.  newton->refusal_reason
+ * becomes the reason why multigrid cannot, or NULL. */
 bool multigrid_accepts(Newton *newton);
