@@ -11,6 +11,11 @@ Colour colour_of_run(int run)
     return colours[run % 6];
 }
 
+Colour colour_of_spring_kind(int kind)
+{
+    return colour_of_run(kind < 2 ? kind : 3);
+}
+
 /* The first TERMS colours are those of letters and energies: the row of a new
  * energy raises TERMS.  Then come words and methods. */
 enum { TERMS = 21 };

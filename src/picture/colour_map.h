@@ -53,6 +53,9 @@
 /* Returns the colour of pane or run 0, 1, ... if there are several. */
 Colour colour_of_run(int run);
 
+/* Returns the colour of horizontal (0), vertical (1) and diagonal springs. */
+Colour colour_of_spring_kind(int kind);
+
 /* Returns the colour of term 0, 1, ... of the formulas, 0 after the last term.
  * A term is a letter or an energy. */
 Colour colour_of_term(int term);

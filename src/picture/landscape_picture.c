@@ -431,10 +431,16 @@ void dial_draw(Plot *stage)
         plot_disc(&plot, dial->point[i], 4.5, COLOUR_X);
     plot_disc(&plot, simulation->run[0].x, 9, COLOUR_TEXT);
     plot_label(&plot, 1, simulation->exhibit.x_tilde, COLOUR_X_TILDE, "{xt}");
-    for (int i = points - 11; i > 10; i -= 10)
-        plot_label(&plot, 1, dial->point[i], COLOUR_X, "h %s %s s",
-                   i == points - 11 ? "\u2265" : "=",
-                   format_number(dial->h[i]).text);
+    for (int i = points - 11; i > 10 && plot.has_text; i -= 10) {
+        bool last = i == points - 11; /* above its disc, not beside it */
+        double at[2];
+        plot_to_pixel(&plot, dial->point[i], at);
+        paper_write_on_panel(
+            plot.paper, FACE_BOLD, 1, COLOUR_X, at[0] + (last ? 0 : plot.em),
+            at[1] - (last ? 2 : 0.6) * plot.em,
+            last ? ALIGN_CENTRE : ALIGN_LEFT, "h %s %s s",
+            last ? "\u2265" : "=", format_number(dial->h[i]).text);
+    }
 }
 
 void dial_add_values(const Simulation *simulation, LiveValues *values)

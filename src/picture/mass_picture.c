@@ -432,7 +432,6 @@ void mass_add_values(const Simulation *simulation, LiveValues *values)
                      step.moves_by_old_v ? step.v : step.new_v);
     double h = simulation->run[0].h;
     if (!step.moves_by_old_v && !backward) {
-        values_add(values, "h limit", 2);
         values_add_flag(values, "ellipse", h < 2);
         if (h < 2) /* beyond, growth makes the invariant inexact */
             values_add(values, "kept", symplectic_invariant(step.x, step.v, h));

@@ -203,11 +203,14 @@ static void draw_switches(const Plot *stage)
         Box box = box_of_switch(stage, i, count),
             mark = box_inset(box, box.height / 4);
         bool on = switches[i].is_on;
+        Colour colour = stage->simulation->options.layers & LAYER_KINDS
+                            ? colour_of_spring_kind(i)
+                            : COLOUR_VALUE;
         canvas_framed_box(&paper->canvas, box, on ? COLOUR_LIT : COLOUR_CHIP,
                           COLOUR_BORDER);
         mark.width = mark.height;
-        canvas_framed_box(&paper->canvas, mark,
-                          on ? COLOUR_VALUE : COLOUR_WHITE, COLOUR_FAINT);
+        canvas_framed_box(&paper->canvas, mark, on ? colour : COLOUR_WHITE,
+                          COLOUR_FAINT);
         box_cut_off(&box, EDGE_LEFT, 2 * mark.width);
         paper_write_in_box(paper, FACE_REGULAR, 0.92,
                            on ? COLOUR_TEXT : COLOUR_FAINT, box, ALIGN_LEFT,

@@ -8,10 +8,9 @@
 #include "picture/square_pen.h"
 
 enum {
-    ARROW_SPACING = 16,  /* pixels, least distance between two arrows */
-    MIN_CELL = 5,        /* pixels, least size of cells with drawn springs */
-    MAX_NUMBERED = 121,  /* most nodes of a mesh with node numbers or forces */
-    MAX_EIGENVALUES = 25 /* most nodes of a mesh with eigenvalues of H */
+    ARROW_SPACING = 16, /* pixels, least distance between two arrows */
+    MIN_CELL = 5,       /* pixels, least size of cells with drawn springs */
+    MAX_NUMBERED = 121  /* most nodes of a mesh with node numbers or forces */
 };
 
 static const double MIN_ARROW = 1.5; /* ems; shorter arrows of p are scaled */
@@ -469,7 +468,6 @@ static void draw_mean_velocity(const SquarePen *pen)
  * kinds has wider springs of the newest spring's kind. */
 static void draw_springs_by_kind(const SquarePen *pen)
 {
-    static const int colours[] = {0, 1, 3, 3}; /* colour_of_run's argument */
     const System *system = pen->system;
     int newest = exhibit_spring_kind(pen->simulation,
                                      find_newest_spring(pen->simulation));
@@ -478,7 +476,7 @@ static void draw_springs_by_kind(const SquarePen *pen)
         int kind = exhibit_spring_kind(pen->simulation, s);
         if (system->k[s] > 0)
             square_draw_spring(pen, s, wide && kind == newest ? 3.5 : 2,
-                               colour_of_run(colours[kind]));
+                               colour_of_spring_kind(kind));
     }
 }
 
@@ -661,49 +659,6 @@ static void add_force_values(const Simulation *simulation, const double *x,
     values_add(values, "elastic", system_potential(&simulation->system, x));
 }
 
-/* Adds the sums of (q . g)^2 / lambda over the negative and the positive
- * eigenvalues of H at the run's start, and g . p. */
-static void add_slope_values(const Simulation *simulation, LiveValues *values)
-{
-    enum { MOST = 2 * MAX_EIGENVALUES, SWEEPS = 10 };
-    const System *system = &simulation->system;
-    double A[MOST + 1][MOST + 1] = {{0}}; /* H, and g as its last column */
-    double x[MOST], a[MOST] = {0}, one[MOST] = {0}, sum[2] = {0};
-    double h2 = simulation->options.timestep * simulation->options.timestep;
-    int n = 2 * system->nodes;
-    compute_rest_positions(simulation, x);
-    for (int i = 0; i < n; i += 2)
-        x[i] *= simulation->options.stretch;
-    EvalPoint at = make_eval_point(system, NULL, NULL, x);
-    system_acceleration(system, x, a);
-    for (int i = 0; i < n; i++) {
-        one[i] = h2;
-        for (const TermKind *kind; (kind = eval_point_next_term(&at));)
-            if (kind->hessian)
-                kind->hessian(&at, PROJECTION_NONE, NULL, one, A[i]);
-        one[i] = 0;
-        A[i][i] += system->m[i / 2];
-        A[i][n] = -h2 * system->m[i / 2] * a[i];
-    }
-    /* Jacobi's method: rotations make H diagonal, and g becomes Q^T g. */
-    for (int k = 0; k < SWEEPS * n * n; k++) {
-        int i = k / n % n, j = k % n;
-        double turn = i < j ? 0.5 * atan2(2 * A[i][j], A[j][j] - A[i][i]) : 0;
-        double c = cos(turn), s = sin(turn);
-        for (int r = 0; r < 2 * n + 2 && turn != 0; r++) {
-            double *u = r > n ? &A[i][r - n - 1] : &A[r][i], u_before = *u;
-            double *v = r > n ? &A[j][r - n - 1] : &A[r][j];
-            *u = c * u_before - s * *v;
-            *v = s * u_before + c * *v;
-        }
-    }
-    for (int i = 0; i < n; i++)
-        sum[A[i][i] < 0] += A[i][n] * A[i][n] / A[i][i];
-    values_add(values, "lower sum", sum[1]);
-    values_add(values, "upper sum", sum[0]);
-    values_add(values, "first slope", -sum[0] - sum[1]);
-}
-
 /* Adds the values of mesh, law, fastest mode and forces, which pages use. */
 void square_add_values(const Simulation *simulation, LiveValues *values)
 {
@@ -738,8 +693,6 @@ void square_add_values(const Simulation *simulation, LiveValues *values)
     }
     if (options->layers & LAYER_FORCES && nodes <= MAX_NUMBERED)
         add_force_values(simulation, x, values);
-    if (options->layers & LAYER_EIGENVALUES && nodes <= MAX_EIGENVALUES)
-        add_slope_values(simulation, values);
 }
 
 /* Samples all energies of the first run, J. */

@@ -316,7 +316,7 @@ static void fill_time_line(const Player *player, FrameContent *content)
 }
 
 /* If options of the page are changed, or a handle has moved, writes a heading
- * for Look with the page's own options: "The page's own answer, with h 1 s:".
+ * for Look with the page's own options: "The page's own answer, with h = 1 s:".
  */
 static void fill_own_options(const Player *player, LectureContent *lecture)
 {
@@ -345,7 +345,7 @@ static void fill_own_options(const Player *player, LectureContent *lecture)
         is_changed = true;
         player_format_value(row[i], &own[p], player_simulation(player), value,
                             sizeof value);
-        append(text, sizeof text, "%s%s %s", before, option_label(row[i]),
+        append(text, sizeof text, "%s%s = %s", before, option_label(row[i]),
                value);
         before = ", ";
     }
