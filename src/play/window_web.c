@@ -18,7 +18,7 @@ EM_JS(void, page_find_size, (int *size), {
 });
 EM_JS(double, page_find_font_size, (void), { return Page.letter(); });
 EM_JS(bool, page_has_document, (void), { return Page.hasDocument(); });
-EM_JS(void, page_draw, (const void *pixels, int width, int height, int card), {
+EM_JS(void, page_paint, (const void *pixels, int width, int height, int card), {
     Page.show(HEAPU8, pixels, width, height, card);
 });
 /* clang-format on */
@@ -41,7 +41,7 @@ Status page_show_card(const Canvas *canvas, int card)
         rgba[i] =
             0xff000000 | (p & 0xff00) | (p & 0xff) << 16 | (p >> 16 & 0xff);
     }
-    page_draw(rgba, canvas->width, canvas->height, card);
+    page_paint(rgba, canvas->width, canvas->height, card);
     return STATUS_OK;
 }
 

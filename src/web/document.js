@@ -272,7 +272,7 @@ const showDocument = (time) => {
     put($(word), 'hidden', !now[word]);
     fill($(word), now[word] ?? [], (line) => paragraph(line, word === 'formula'));
   }
-  setMarkup($('told'), now.verdict && / it is /.test(told) ? '' : told);
+  setMarkup($('told'), told === field('verdict') ? '' : told);
   put($('told'), 'className', warning === '1' ? 'warning' : '');
   if (isNew(seen, 'asks', [now.asks, now.page, !now.look])) showGuess(now.asks ?? []);
   put($('step'), 'max', newest);

@@ -55,6 +55,7 @@ $(W)/elasto.js: $(WEB_OBJECTS) $(W)/fonts/done src/web/web.mk
 	  -s TOTAL_STACK=4194304 -s SUPPORT_LONGJMP=emscripten \
 	  --embed-file $(W)/fonts@/usr/share/fonts/truetype/dejavu \
 	  --exclude-file '*/done' 2>$@.log || { cat $@.log; exit 1; }
+	$(Q)! grep -w mismatch $@.log | grep -v ': z' || { rm $@; exit 1; }
 
 build/elasto.html: src/web/pack.py src/web/page.html src/web/page.css \
                    src/web/markup.js src/web/page.js src/web/document.js \

@@ -249,10 +249,11 @@ const addresses = async (browser) => {
   };
   await follows('', PAGES[0].replace(' ', '+').replace(/\+.*/, ''));
   await follows('PageDown', PAGES[1].replace(' ', '+'));
-  await follows('7', PAGES[1].replace(' ', '+')); // before its answer is told a guess
+  await follows('7', PAGES[1].replace(' ', '+')); // a guess
   await tab.key('Enter');
   await tab.until(`field('verdict')`);
-  await tab.run('canvas.focus()');
+  await tab.run(`canvas.focus(), (location.hash = 'square')`);
+  await follows('', 'square');
   await follows('7', SCENES[6]);
   await tab.run(`location.hash = 'circle+--timestep+0.05&bare'`);
   await follows('', 'circle+--timestep+0.05&bare');
