@@ -113,4 +113,11 @@ verdict the_log_says_the_kind_of_each_residual "$(
     kinds value '$NF == 2' --projection clamp,none
 )"
 
+# Summaries, without run times, after each line of tests/data/summaries.txt.
+verdict summaries_say_what_runs_have_done "$(
+    sed -n 's/^> //p' "$root/tests/data/summaries.txt" | while read -r line; do
+        echo "> $line"
+        eval "timeout 60 \"\$elasto\" --headless $line" 2>&1 | grep -v '^wall time'
+    done | diff "$root/tests/data/summaries.txt" - | head -n 3
+)"
 exit $failed
