@@ -87,8 +87,8 @@ struct TermKind {
      * weight -1 and u NULL to collect forces. */
     void (*gradient)(const EvalPoint *at, double *g);
 
-    /* Appends the triplets of the Hessian, by term_add_block.  The
-     * triplets stay the same in a step.  NULL: the Hessian is 0. */
+    /* Appends the triplets of the Hessian, by term_add_block.  In a step
+     * only extend_pattern adds triplets.  NULL: the Hessian is 0. */
     void (*pattern)(const EvalPoint *at, Triplets *triplets);
 
     /* Appends the triplets that the Hessian at x needs and the pattern lacks,

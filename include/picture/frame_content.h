@@ -241,14 +241,14 @@ typedef struct List {
     ListRow row[LAYOUT_ROWS];
 } List;
 
-/* A scene in the overview of all scenes. */
+/* A scene in the overview of scenes. */
 typedef struct SheetCell {
     const char *name;
     const char *heading;          /* heading above the cell, or NULL */
     const Simulation *simulation; /* NULL: the scene is not ready yet */
 } SheetCell;
 
-/* The overview of all scenes; without cells the overview is closed. */
+/* The overview of scenes; without cells the overview is closed. */
 typedef struct SheetContent {
     int cells;
     SheetCell cell[LAYOUT_CELLS];

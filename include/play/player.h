@@ -48,7 +48,7 @@ typedef enum AfterWork {
     AFTER_NOTHING,
     AFTER_SHOW_FIRST, /* show the step's first line of Algorithm 3 */
     AFTER_SHOW_LAST,  /* show the step's last line of Algorithm 3 */
-    AFTER_SHOW_PEAK,  /* show the end; the peak of E if E exploded */
+    AFTER_SHOW_END,   /* show the end; the peak of E if E exploded */
     AFTER_COMPARE     /* compare the outcomes before and after an edit */
 } AfterWork;
 

@@ -22,7 +22,7 @@ NameTable pins_words(void);
 double body_find_lift(const Options *options, int run);
 
 /* Gives gravity, terms and springs of a run the numbers of the present options.
- * Returns OK, TOO_LARGE, OUT_OF_MEMORY. */
+ * Returns OK, OUT_OF_MEMORY. */
 Status body_update(Simulation *simulation, int run);
 
 /* Creates the mesh, and for each run of the scene the system with all its terms

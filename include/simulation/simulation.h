@@ -93,8 +93,8 @@ Status simulation_start_run(Simulation *simulation, int run,
                             const double *x, const double *v);
 
 /* Makes one step: a time step of every run, or one Scene.step; a scene that is
- * done makes none.  The result depends only on the state (control.h)
- * and the settings, to the last bit: data that solvers keep changes no bit.
+ * done makes none.  The result depends only on the state (control.h) and the
+ * settings, to the last bit: data that solvers keep changes no bit.
  * Returns OK; an unconverged status, with which the step was made; or a
  * failure, and the run that failed did not move. */
 Status simulation_step(Simulation *simulation);

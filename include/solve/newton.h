@@ -66,7 +66,7 @@ typedef struct NewtonSettings {
 
 /* Counts of the work since the object was made.  No decision reads them. */
 typedef struct NewtonCounters {
-    long iterations;      /* number of updates of x */
+    long updates;         /* number of updates of x */
     long factorisations;  /* number of factorisations of the Hessian */
     long solves;          /* number of solves with a factor */
     long projected;       /* blocks projected, summed over factorisations */

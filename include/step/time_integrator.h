@@ -64,7 +64,7 @@ struct TimeIntegrator {
     double weight; /* s^2, factor of P in E */
     double remaining_part; /* part of the prescribed way that is not done yet */
     int parts_made;        /* number of parts of the prescribed way so far */
-    long iterations_before; /* Newton's iterations before this step */
+    long updates_before;   /* Newton's updates before this step */
     bool is_blocked; /* walls and pins cannot move on: a body is in their way */
 };
 

@@ -265,7 +265,7 @@ static Status measure_start(BenchSolver program, int segments, int start,
     }
     runs->ms[start] = 1e3 * (clock_processor_time() - began) / steps;
     runs->newton_updates[start] =
-        (double)simulation_sum_counters(&simulation).iterations / steps;
+        (double)simulation_sum_counters(&simulation).updates / steps;
     if (!status)
         runs->energy[start] =
             100 * simulation_energies(&simulation, 0).total / energy;

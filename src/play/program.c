@@ -116,7 +116,7 @@ static void print_newton_counters(FILE *file, const Simulation *simulation)
         long long value; /* 0: the row is not printed */
     } rows[] = {
         {"Newton iterations",
-         needs & HAS_TIME ? sum.iterations : simulation->descent.count},
+         needs & HAS_TIME ? sum.updates : simulation->descent.count},
         {"factorisations", sum.factorisations},
         {"solves", sum.solves},
         {"blocks projected", sum.projected},

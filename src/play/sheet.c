@@ -1,4 +1,4 @@
-/* sheet.c - the sheet: live small pictures of all scenes. */
+/* sheet.c - the sheet: live small pictures of the scenes. */
 #include <stdio.h>
 #include <stdlib.h>
 

@@ -274,7 +274,7 @@ static void enter_line_walk(Player *player, AfterWork after)
         player->play.mode = MODE_PAUSE;
         player->view_of_pane[p].place = place;
         const double *x = step_trace_fill(trace, place, &shown);
-        if (after != AFTER_SHOW_PEAK)
+        if (after != AFTER_SHOW_END)
             continue;
         for (int i = 0; x && i < trace->x_length; i++)
             far = fmax(far, fabs(x[i]));
@@ -485,11 +485,11 @@ Status obey_next(Player *player, const Command *command)
 {
     AfterWork after = command->kind == COMMAND_STEP         ? AFTER_NOTHING
                       : player->play.walk_unit != UNIT_STEP ? AFTER_SHOW_FIRST
-                                                            : AFTER_SHOW_PEAK;
+                                                            : AFTER_SHOW_END;
     player_pause(player);
     if (after == AFTER_SHOW_FIRST && walk_lines(player, 1))
         return STATUS_OK;
-    if (after == AFTER_SHOW_PEAK &&
+    if (after == AFTER_SHOW_END &&
         player->view_of_pane[player->active].place >= 0) {
         leave_algorithm_lines(player); /* to the end of the step */
         return STATUS_OK;

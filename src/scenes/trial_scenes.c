@@ -252,7 +252,7 @@ Status envelope_run_cell(Simulation *simulation, int column, int row)
                        &simulation->run[1], ENVELOPE_STEPS, run);
     if (worst == STATUS_OUT_OF_MEMORY)
         return worst;
-    int updates = (int)run->newton->counters.iterations;
+    int updates = (int)run->newton->counters.updates;
     map->cell[row][column] = (EnvelopeCell){
         .is_known = true, .bad_status = worst, .updates = updates};
     map->column = column;

@@ -394,7 +394,7 @@ bool next_direction_is_negligible(Newton *newton)
 }
 
 /* Whether the last factor can serve again, since it was computed in this
- * minimisation, nearby and without a shift. */
+ * minimisation, nearby, as L L^T and without a shift. */
 static bool factor_is_near(const Newton *newton)
 {
     const SearchDirection *direction = &newton->direction;

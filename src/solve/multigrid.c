@@ -272,7 +272,7 @@ static Status multigrid_update_iterate(Newton *newton)
     double *g = mg->g, *p = mg->p;
     grid_add_step(&mg->grid, record->alpha, p);
     mg->moved_since_setup += record->alpha * mg->p_size;
-    newton->counters.iterations++;
+    newton->counters.updates++;
     if (newton->passes_test)
         return STATUS_OK;
     mg->has_relaxed = mg->p_bound > STALLS * mg->last_p_bound;

@@ -57,7 +57,7 @@ static Status update_iterate(Newton *newton)
         newton->record.alpha * newton->record.residual * newton->settings.h;
     newton->rounding.E = newton->rounding.E_trial;
     newton->has_gradient = false;
-    newton->counters.iterations++;
+    newton->counters.updates++;
     return STATUS_OK;
 }
 
@@ -204,7 +204,7 @@ void newton_free(Newton *newton)
 /* NewtonCounters has members of type long only. */
 void newton_counters_add(const NewtonCounters *counters, NewtonCounters *sum)
 {
-    const long *more = &counters->iterations;
+    const long *more = &counters->updates;
     for (size_t i = 0; i < sizeof *sum / sizeof *more; i++)
-        (&sum->iterations)[i] += more[i];
+        (&sum->updates)[i] += more[i];
 }

@@ -45,7 +45,7 @@ bool prescribed_begin(TimeIntegrator *run)
     run->remaining_part = 1;
     run->parts_made = 0;
     run->is_blocked = false;
-    run->iterations_before = run->newton ? run->newton->counters.iterations : 0;
+    run->updates_before = run->newton ? run->newton->counters.updates : 0;
     for (int k = 0; contact && k < contact->obstacles; k++) {
         Obstacle *obstacle = &contact->obstacle[k];
         const Motion *motion = &obstacle->motion;
@@ -198,7 +198,7 @@ static void report_motion_end(const Newton *newton, Status status)
 bool prescribed_end_part(TimeIntegrator *run, Status *status)
 {
     const Newton *newton = run->newton;
-    long updates = newton->counters.iterations - run->iterations_before;
+    long updates = newton->counters.updates - run->updates_before;
     if (status_is_failure(*status))
         return false;
     if (run->is_blocked && !*status)

@@ -324,7 +324,7 @@ bool watch_create(TimeIntegrator *run, Tally *tally, Watch *watch)
 void watch_free(Watch *watch)
 {
     if (watch->run->newton)
-        watch->tally->updates += watch->run->newton->counters.iterations;
+        watch->tally->updates += watch->run->newton->counters.updates;
     free(watch->x);
     free(watch->v);
     free(watch->x_n);

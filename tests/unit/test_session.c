@@ -966,7 +966,7 @@ static double count_unconverged(const Simulation *simulation)
 static const struct {
     const char *name;
     size_t place;
-} counters[] = {{"all updates", offsetof(NewtonCounters, iterations)},
+} counters[] = {{"all updates", offsetof(NewtonCounters, updates)},
                 {"all factors", offsetof(NewtonCounters, factorisations)},
                 {"all solves", offsetof(NewtonCounters, solves)},
                 {"all cycles", offsetof(NewtonCounters, cycles)},
