@@ -217,7 +217,7 @@ static void report_energy_gain(Player *player)
 }
 
 /* Stops the run if all panes have ended, a step did not converge for the first
- * time, all bodies are at rest, or the page pauses at this step. */
+ * time, all bodies are at rest, or an unchanged page pauses at this step. */
 static void stop_run_if_over(Player *player)
 {
     const Past *past = &player->past;
@@ -238,9 +238,8 @@ static void stop_run_if_over(Player *player)
         rests = rests && (simulation->scene->parts & HAS_TIME) &&
                 simulation->runs == 1 && !control_hand_holds(pane->control) &&
                 simulation_is_at_rest(simulation);
-        bad = bad || pane->outcome.status;
+        bad = past_panes(past) == 1 && pane->outcome.status;
     }
-    bad = bad && past_panes(past) == 1;
     if (rests && going > 0)
         player->play.mode = MODE_REST;
     else if (ended || (bad && !player->play.has_warned))
@@ -248,8 +247,9 @@ static void stop_run_if_over(Player *player)
     if (ended) /* the sentence above the picture says how the run ended */
         player->note[0] = '\0';
     player->play.has_warned = player->play.has_warned || bad;
-    if (past->step == options->pause_step && options->pause_step > 0 &&
-        options->page == player->tour.revealed)
+    if (past->step == options->pause_step && past->step > 0 &&
+        options->page == player->tour.revealed &&
+        !player->screen.frame.content.lecture.own_title[0])
         player->play.mode = MODE_PAUSE;
     if (player->play.mode == MODE_REST)
         report_at_rest(player);
