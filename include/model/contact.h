@@ -19,9 +19,9 @@
 
 typedef enum ObstacleKind { OBSTACLE_WALL, OBSTACLE_BALL } ObstacleKind;
 
-/* Prescribed motion of an obstacle: phases of constant velocity, then rest. */
 enum { MOTION_MAX_PHASES = 4 };
 
+/* Prescribed motion of an obstacle: phases of constant velocity, then rest. */
 typedef struct Motion {
     int phases;
     double phase_end[MOTION_MAX_PHASES]; /* s, end of the phase */
@@ -88,8 +88,8 @@ typedef struct Contact {
     Push hand;
 } Contact;
 
-/* The sum of W over all pairs of a node and an obstacle; data: Contact.  A pair
- * is an Element with s = d, and n and r as in Gap. */
+/* The sum of W over all pairs of a node and an obstacle; data: Contact.  The
+ * Element of a pair has s, n, r = d, n, r of its Gap. */
 extern const TermKind contact_energy;
 
 /* Adds the term or replaces its obstacles; removes it if there are none.

@@ -45,7 +45,7 @@ typedef struct Layout {
     int chips_left_out;     /* number of chips that do not fit */
     Box bars;               /* bars of the steps, inside the time line */
     int cells;
-    Box cell[LAYOUT_CELLS]; /* square and the name below; a heading is above */
+    Box cell[LAYOUT_CELLS]; /* scene's square and name, without its heading */
 } Layout;
 
 typedef enum Zone {

@@ -24,7 +24,7 @@ typedef struct Output {
     char *message; /* [OUTPUT_MESSAGE] or NULL: "NAME: why" of a failure */
 } Output;
 
-/* How a file ends. */
+/* Part of a file that output_close keeps. */
 typedef enum FileEnding {
     KEEP_WHOLE,  /* the file gets its name and replaces an old one */
     KEEP_PART,   /* NAME.part stays */

@@ -32,7 +32,7 @@
 /* Bytes for states and samples; beyond them every second state is dropped. */
 #define PAST_BYTES ((size_t)256 << 20)
 
-/* Largest extent that a picture can show, over the extent after step 1. */
+/* Largest reach that a picture can show, over the reach after step 1. */
 #define PAST_EXPLODED 10
 
 enum { PAST_ALL = -1 }; /* past_edit edits each pane */
@@ -133,7 +133,7 @@ typedef struct Past {
     Status bad_status;   /* OK, or the last other status of the new step */
 } Past;
 
-/* Whether there is work left that leads to the aim. */
+/* Whether work is left before aim_step is shown. */
 static inline bool past_is_working(const Past *past)
 {
     return past->work_stage != WORK_DONE;
@@ -202,7 +202,7 @@ const Control *past_start_control(const Past *past, int pane);
  * failure has ended the pane before. */
 long past_find_made_step(const Past *past, int pane, long step);
 
-/* Returns the last step up to `step` whose extent is at most PAST_EXPLODED. */
+/* Returns the last step up to `step` whose reach is at most PAST_EXPLODED. */
 long past_find_drawable_step(const Past *past, int pane, long step);
 
 /* Fills the energies over time that plots of a pane show. */

@@ -20,7 +20,7 @@ typedef enum PictureLayer {
     LAYER_FORCES = 1 << 1,   /* force on each node, as an arrow */
     LAYER_MODES = 1 << 2,    /* fastest oscillation; a spring's eigenvectors */
     LAYER_KINDS = 1 << 3,    /* a colour and a switch for each kind of spring */
-    LAYER_CUTS = 1 << 4,     /* springs are hidden until the user has guessed */
+    LAYER_CUTS = 1 << 4,     /* a filled square; springs only after the guess */
     LAYER_DOWNHILL = 1 << 5, /* -grad E, and the half plane where E falls */
     LAYER_CURVES = 1 << 6,   /* curves on which a component of grad E is 0 */
     LAYER_FIRST_STEP = 1 << 7, /* draws only the first step, and larger */

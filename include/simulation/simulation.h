@@ -118,8 +118,8 @@ bool simulation_is_at_rest(const Simulation *simulation);
 /* Returns Newton's counters, summed over the runs; explicit methods have 0. */
 NewtonCounters simulation_sum_counters(const Simulation *simulation);
 
-/* Returns when a changed option takes effect: as its row says, but in a new run
- * for scenes without time, and for a method where runs have different ones. */
+/* Returns when a changed option takes effect: row->effect, but EFFECT_START
+ * without time (HAS_START keeps EFFECT_AGAIN), and for the method if runs > 1. */
 ChangeEffect simulation_find_option_effect(const Simulation *simulation,
                                            const OptionRow *row);
 

@@ -137,7 +137,7 @@ typedef struct Newton {
     SearchDirection direction; /* the Hessian and its factor */
     bool has_gradient;         /* has the gradient at x in iterate.g */
     bool passes_test;          /* p of the last iteration passes the test */
-    int clamps_left;           /* iterations for which on-demand clamps */
+    int clamps_left;           /* iterations in which ON_DEMAND clamps */
     Rounding rounding;
     Multigrid *multigrid; /* data of multigrid; NULL: not created yet */
     Solver active_solver; /* solver of the next iteration: NEWTON, MULTIGRID */

@@ -10,7 +10,7 @@
 
 static const double HIGHLIGHT_RADIUS = 4; /* units of paper around each pixel */
 static const double MOUSE_REACH = 0.5;    /* ems, from the mouse to a term */
-static const double MIN_COVERAGE = 0.5;   /* least part of the term's colour */
+static const double MIN_COVERAGE = 0.5;   /* least ink in a term's pixel */
 
 static int channel_of(Colour colour, int k)
 {

@@ -284,7 +284,7 @@ static bool place_cards(const FrameContent *content, Layout *layout)
         least += rows[i].min_height;
     }
     if (content->lecture.page && least > room && rows->min_height > 0 &&
-        rows->first_card == 0) { /* the page's texts can be smaller */
+        rows->first_card == 0) { /* card 0, the page, may shrink */
         texts = page_least_height(content, wide, layout->em);
         lacking = rows->min_height - texts;
         least -= lacking;
@@ -435,8 +435,8 @@ static void place_main_card(const FrameContent *content, Layout *layout)
 }
 
 /* On a page, places below the picture, in a part of the stage, the first card
- * that has no room in the column.  Exceptions: pages with a main card or an
- * enlarged card; beside code in normal type also pages with several switches or
+ * that has no room in the column.  Exceptions: pages with a main or enlarged
+ * card; if code is shown in normal type, also those with several switches or
  * panes, which need the whole stage. */
 static void place_card_without_room(const FrameContent *content, Layout *layout)
 {

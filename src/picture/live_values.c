@@ -286,7 +286,7 @@ double frame_find_number(FrameContent *content, const char *name)
     return values_find_number(&active_pane(content)->values, name);
 }
 
-/* Writes a value.  The format is the characters after the colon of a text. */
+/* Writes a value.  format: characters after the colon, as in "{length:/}". */
 static void format_value(const LiveValue *one, const char *format, char *out,
                          size_t size)
 {

@@ -214,7 +214,7 @@ static Status begin_press(Player *player, const MouseTarget *target)
         return obey_at(player, COMMAND_START, mouse->dragged,
                        target->pick.point);
     default:
-        if (target->pick.kind != PICK_NODE) /* no spring is highlighted now */
+        if (target->pick.kind != PICK_NODE) /* a drag highlights only nodes */
             player->screen.view.hovered.kind = PICK_NONE;
         mouse->dragged = target->pick.nearest_node;
         mouse->drag_command = mouse->dragged < 0          ? COMMAND_PAN

@@ -58,7 +58,7 @@ static Status check_target(Player *player, const Command *command)
     return STATUS_OK;
 }
 
-/* Returns what a key's command means now, as a script has it. */
+/* Returns the script command that does what the key does now. */
 static Command resolve_key_command(const Player *player, const Command *asked)
 {
     const double *x = player_simulation(player)->run[0].x;
@@ -72,7 +72,7 @@ static Command resolve_key_command(const Player *player, const Command *asked)
     return meant;
 }
 
-/* Stores the option that a command of a page has set as the page's own. */
+/* Copies to the page's own options what a command of the page has set. */
 static void store_own_option(Player *player, const Command *command)
 {
     Options *own = &player->tour.own_options[player->active];

@@ -174,8 +174,8 @@ typedef Status CommandFunction(Player *player, const Command *command);
 
 /* ---- obey.c -------------------------------------------------------------- */
 
-/* Obeys the commands in the queue, up to the first that must wait: for the end
- * of a step, or a release for a step with the hand at its last place.
+/* Obeys the commands in the queue until one must wait: each for the end of a
+ * step, a release also for a step since the hand's last move.
  *   now  obeys all commands at once */
 Status player_obey_queue(Player *player, bool now);
 

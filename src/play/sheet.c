@@ -33,7 +33,7 @@ void sheet_close(Player *player)
     player->screen.sheet = NULL;
 }
 
-/* Closes the sheet, or opens it; the present scene is chosen, or the tour. */
+/* Closes the sheet, or opens it and selects the scene's cell or the tour's. */
 Status obey_sheet(Player *player, const Command *command)
 {
     const Options *options = player_active_options(player);

@@ -178,8 +178,8 @@ ChangeEffect simulation_find_option_effect(const Simulation *simulation,
 }
 
 /* A body is at rest if no node moves by more than STILL in a frame or a step,
- * whichever is longer, and if the forces vanish at a distance of at most
- * BALANCED.  The unit is the shortest spring. */
+ * whichever is longer, and if the forces vanish at places at most BALANCED
+ * away.  The unit is the shortest spring. */
 static const double STILL = 1e-6, BALANCED = 1e-3, FRAME = 1.0 / 60;
 
 /* Whether the nodes are close to places where the forces f vanish.  The

@@ -342,7 +342,7 @@ static double bound_largest_movement(const Newton *newton, double norm)
 
 /* Computes the residual of p, and tests it.
  *   exact  whether p solves H p = -g up to rounding.  Otherwise the test adds
- *          a bound of its error, without rounding of g. */
+ *          a bound of p's error, but not g's rounding. */
 static Status find_residual(Newton *newton, bool exact)
 {
     NewtonRecord *record = &newton->record;
