@@ -23,7 +23,7 @@ typedef struct Element {
     int node_count;            /* 1 ... 3 */
     int vector_count;          /* vectors that W depends on: 1: a, 2: a and b */
     int node[3];               /* [nodes] */
-    const double (*weight)[3]; /* [vectors] a, b = sums of weight * x_i */
+    const double (*weight)[3]; /* [vectors] a, b: sums of weight * x_i */
     int block_index; /* index of its block of the Hessian; -1: none yet */
     int partner; /* obstacle (contact) or spring of the edge (self-contact) */
     int search_cursor; /* > 0: where get_element(i) continues its search */

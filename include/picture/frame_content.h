@@ -141,19 +141,19 @@ typedef struct Pick {
 
 /* Bounds of a pane's view while the mouse drags a thing: the view stands still,
  * so that the thing stays under the mouse. */
-typedef struct HeldBounds {
+typedef struct DragBounds {
     bool is_held; /* during a drag */
     bool is_away; /* the mouse has left the stage: the view is free for now */
     int pane;
     double bounds[4]; /* left, bottom, right, top, m */
-} HeldBounds;
+} DragBounds;
 
 /* How the user looks at a frame. */
 typedef struct View {
     Lens lens;
     Pick hovered;        /* part of the picture under the mouse */
     WindowHit mouse_hit; /* part of the window under the mouse */
-    HeldBounds held_bounds;
+    DragBounds drag_bounds;
     int selected_cell; /* index of the selected cell of the overview */
 } View;
 
@@ -328,8 +328,8 @@ Layout layout_create(const FrameContent *content, int width, int height);
 Camera camera_of_pane(const FrameContent *content, const Layout *layout,
                       int pane);
 
-/* Returns the present bounds of a pane's view, for View.held_bounds. */
-HeldBounds frame_view_bounds(const FrameContent *content, const Layout *layout,
+/* Returns the present bounds of a pane's view, for View.drag_bounds. */
+DragBounds frame_view_bounds(const FrameContent *content, const Layout *layout,
                              int pane);
 
 /* Finds the part of a picture at this pixel; PICK_NONE outside of the stage. */

@@ -15,7 +15,7 @@ typedef struct Paper {
     double unit;       /* pixels, 1/14 em */
     double min_letter; /* ems, least size of letters except scripts */
     Box word_boxes[PAPER_WORDS]; /* boxes of labels and of words on panels */
-    int word_count;         /* boxes so far; the newest PAPER_WORDS remain */
+    int word_count; /* boxes so far; the newest PAPER_WORDS remain */
 } Paper;
 
 /* Creates white paper of this size in pixels.  The caller frees it, also after

@@ -18,7 +18,7 @@
  * its branch stores.
  *
  * To show a step, each pane loads the nearest stored state up to that step, and
- * makes the steps from there once more (past_iterate).  A short step of
+ * makes the steps from there once more (past_do_work).  A short step of
  * Newton's method is made once more although its state is stored, to show its
  * iterates. The panes share their time and count of steps.  A step is one time
  * step of the pane with the longest one, and as many of the others as fit into
@@ -39,7 +39,7 @@ enum { PAST_ALL = -1 }; /* past_edit edits each pane */
 
 /* A stored state, which entries of several branches can share. */
 typedef struct State {
-    int user_count;         /* number of entries that share the state */
+    int ref_count;          /* number of entries that share the state */
     size_t size;            /* bytes of memory, with this struct */
     bool is_set;            /* set by a start or a drag, not made by a step */
     const Control *control; /* control under which the state was saved */
@@ -58,7 +58,7 @@ typedef struct StepOutcome {
     int updates;   /* number of Newton's updates in all substeps */
     Status status; /* OK, or the last other status of the substeps */
     double energy_change; /* change of E in the step, J s^2 */
-    double extent; /* m, largest coordinate of run 0 */
+    double reach;         /* m, largest coordinate of run 0 */
 } StepOutcome;
 
 /* A step that a pane has made. */
@@ -149,7 +149,7 @@ void past_create(bool stores_states, bool panes_fail_alone, Past *past);
 void past_free(Past *past);
 
 /* Begins new runs side by side at step 0.  Returns as simulation_create; after
- * a failure past_iterate leads back to the step that was shown. */
+ * a failure past_do_work leads back to the step that was shown. */
 Status past_begin_runs(Past *past, const Options *options, int panes,
                        int gesture, const Command *edit);
 
@@ -162,7 +162,7 @@ Status past_begin_runs(Past *past, const Options *options, int panes,
  *            COMMAND_HANDLE, COMMAND_FLIP; COMMAND_ADD_PANE adds a pane with
  *            the past of the last one, COMMAND_END_PANE removes the last one
  *   pane     pane that is edited; PAST_ALL: each pane
- *   again    past_iterate makes the shown step once more with the edit
+ *   again    past_do_work makes the shown step once more with the edit
  *   gesture  id, or 0; edits of one gesture are undone together
  * Returns OK, OUT_OF_MEMORY. */
 Status past_edit(Past *past, const Command *edit, int pane, bool again,
@@ -175,12 +175,12 @@ void past_choose_step(Past *past, long step, bool again);
 /* Does a part of the work: makes a Newton iteration, or begins a step.  Returns
  * RUNNING while there is more work; OK or an unconverged status when the aim is
  * shown; after a failure its status, and the last whole step is shown. */
-Status past_iterate(Past *past);
+Status past_do_work(Past *past);
 
-/* Repeats past_iterate while it returns RUNNING; returns its last status. */
+/* Repeats past_do_work while it returns RUNNING; returns its last status. */
 Status past_finish_work(Past *past);
 
-/* Undoes one gesture (-1) or redoes one (1); past_iterate then shows the step.
+/* Undoes one gesture (-1) or redoes one (1); past_do_work then shows the step.
  * Returns the edit that was undone or redone, or NULL. */
 const Command *past_undo(Past *past, int way);
 

@@ -4,10 +4,10 @@
  *   keys, mouse, chips, scripts, pages -> Command    (input.c, command.h)
  *   player_obey: calls the command's function        (obey.c)
  *   that function: edits the past, or chooses the step to be shown
- *   player_work: past_iterate until that step is shown (steps.c)
+ *   player_work: past_do_work until that step is shown (steps.c)
  *
  * From key to Newton: player_obey_input, player_obey, player_work,
- * past_iterate, pane_iterate, simulation_advance, time_integrator_advance,
+ * past_do_work, pane_iterate, simulation_advance, time_integrator_advance,
  * newton_minimise. */
 #pragma once
 

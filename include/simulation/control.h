@@ -8,7 +8,7 @@
 
 /* Decisions of a user about a run.  A control that steps share is constant. */
 typedef struct Control {
-    int user_count; /* reference count; the last user frees the control */
+    int ref_count; /* reference count; the last user frees the control */
     Options options;
     int held_node;     /* node that the mouse holds; -1: none */
     int held_obstacle; /* obstacle that the mouse holds; -1: none */

@@ -119,7 +119,7 @@ bool simulation_is_at_rest(const Simulation *simulation);
 NewtonCounters simulation_sum_counters(const Simulation *simulation);
 
 /* Returns when a changed option takes effect: row->effect, but EFFECT_START
- * without time (HAS_START keeps EFFECT_AGAIN), and for the method if runs > 1. */
+ * without time (HAS_START keeps EFFECT_AGAIN) and for methods if runs > 1. */
 ChangeEffect simulation_find_option_effect(const Simulation *simulation,
                                            const OptionRow *row);
 

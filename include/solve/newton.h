@@ -141,8 +141,7 @@ typedef struct Newton {
     Rounding rounding;
     Multigrid *multigrid; /* data of multigrid; NULL: not created yet */
     Solver active_solver; /* solver of the next iteration: NEWTON, MULTIGRID */
-    const char
-        *refusal_reason;  /* why multigrid refused the minimisation, or NULL */
+    const char *refusal_reason; /* why multigrid refused to work, or NULL */
     double change_sum;    /* J s^2, sum of the updates' changes of E */
     double change_abs_sum; /* J s^2, sum of the absolute changes of E */
     double change;         /* J s^2, E at the end - E at the start, summed over

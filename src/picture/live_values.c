@@ -63,7 +63,7 @@ static void add_window_values(const FrameContent *content, LiveValues *values)
     values_add(values, "guesses", lecture->guesses);
     values_add(values, "right", lecture->right_guesses);
     values_add_flag(values,
-                    content->view->held_bounds.is_held ? "held" : "free", true);
+                    content->view->drag_bounds.is_held ? "held" : "free", true);
 }
 
 static void add_setting_values(const Simulation *simulation, LiveValues *values)

@@ -105,7 +105,7 @@ static void find_own_bounds(const FrameContent *content, const Layout *layout,
 static void find_pane_bounds(const FrameContent *content, const Layout *layout,
                              int pane, double bounds[4])
 {
-    const HeldBounds *held = &content->view->held_bounds;
+    const DragBounds *held = &content->view->drag_bounds;
     int last = content->lecture.page ? content->panes - 1 : pane;
     double own[4];
     if (held->is_held && !held->is_away &&
@@ -159,10 +159,10 @@ Camera camera_of_pane(const FrameContent *content, const Layout *layout,
     return stage_create(NULL, content, layout, pane).camera;
 }
 
-HeldBounds frame_view_bounds(const FrameContent *content, const Layout *layout,
+DragBounds frame_view_bounds(const FrameContent *content, const Layout *layout,
                              int pane)
 {
-    HeldBounds held = {.is_held = true, .pane = pane};
+    DragBounds held = {.is_held = true, .pane = pane};
     find_pane_bounds(content, layout, pane, held.bounds);
     return held;
 }
@@ -240,7 +240,7 @@ static void draw_guess(const Plot *stage)
                     at[1] + k * arm, 3 * unit, COLOUR_HAND);
     canvas_dashes(canvas, at, came, 1.6 * unit, unit, NULL, COLOUR_HAND);
     plot_label(stage, 1, guess->guess, COLOUR_HAND, "your guess, %s off",
-               format_number(guess->distance).text);
+               format_number(guess->error).text);
 }
 
 Pick frame_pick(const FrameContent *content, const Layout *layout, double x,

@@ -144,7 +144,7 @@ void scalar_draw(Plot *stage)
 }
 
 /* Returns the step length that backtracking finds from the present iterate. */
-static double find_first_length(const Simulation *simulation)
+static double find_first_alpha(const Simulation *simulation)
 {
     ScalarUpdate from = find_update(simulation, -1);
     double alpha = 1, p = from.x1 - from.x0;
@@ -171,7 +171,7 @@ void scalar_add_values(const Simulation *simulation, LiveValues *values)
     values_add_flag(values, "full length", update.alpha >= 1);
     if (update.alpha > 0 && update.alpha < 1)
         values_add(values, "shorter", update.alpha);
-    values_add(values, "first length", find_first_length(simulation));
+    values_add(values, "first length", find_first_alpha(simulation));
     values_add(values, "slope", update.slope);
     values_add(values, "curvature", update.curvature);
     values_add(values, "direction", p);

@@ -109,7 +109,7 @@ static void widen_to_obstacles(const Plot *stage, Extent *view)
     const HeldByHand *hand = &stage->content->hand;
     const Extent seen = find_seen_extent(stage, view);
     double air = 0.04 * fmin(view->half_size[0], view->half_size[1]);
-    if (hand->is_held && !stage->content->view->held_bounds.is_held)
+    if (hand->is_held && !stage->content->view->drag_bounds.is_held)
         widen_to_circle(&seen, hand->target, air, PULL_REACH, view);
     for (int k = 0; contact && k < options->grounds + options->balls; k++) {
         const Obstacle *obstacle = &contact->obstacle[k];

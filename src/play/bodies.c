@@ -11,7 +11,7 @@ Status obey_pin(Player *player, const Command *command)
         return player_refuse(player, "only nodes of a square can be pinned");
     bool pinned = simulation->system.pinned[node];
     Command change = {.kind = COMMAND_PIN, .number = node, .x = !pinned};
-    Status status = player_edit(player, &change, PAST_ALL, false);
+    Status status = player_edit_step(player, &change, PAST_ALL, false);
     if (!status)
         player_note(player, "node %ld is %s", node, pinned ? "free" : "pinned");
     return status;
@@ -34,7 +34,7 @@ Status obey_hold(Player *player, const Command *command)
                             .number = command->number,
                             .x = place[0],
                             .y = place[1]};
-    Status status = player_edit(player, &change, PAST_ALL, false);
+    Status status = player_edit_step(player, &change, PAST_ALL, false);
     player->hands.holding = player->hands.holding || !status;
     if (!status && player_is_stopped(player))
         player_note(player,
@@ -55,7 +55,7 @@ Status obey_place(Player *player, const Command *command)
                                  "no room for it there: an obstacle, a "
                                  "body, or a cell that would turn over");
     }
-    return player_edit(player, command, PAST_ALL, false);
+    return player_edit_step(player, command, PAST_ALL, false);
 }
 
 Status obey_obstacle(Player *player, const Command *command)
@@ -68,7 +68,7 @@ Status obey_obstacle(Player *player, const Command *command)
     for (int p = 0; p < past_panes(&player->past) && !status; p++)
         status = simulation_check_clearance(&player->past.pane[p].simulation,
                                             &moved, MESSAGE(player->message));
-    return status ? status : player_edit(player, command, PAST_ALL, false);
+    return status ? status : player_edit_step(player, command, PAST_ALL, false);
 }
 
 Status obey_drag(Player *player, const Command *command)
@@ -77,7 +77,7 @@ Status obey_drag(Player *player, const Command *command)
         return player_refuse(player, "the hand holds nothing");
     player->hands.holding = command->kind == COMMAND_DRAG;
     player->hands.pulled_step = player->past.step;
-    return player_edit(player, command, PAST_ALL, false);
+    return player_edit_step(player, command, PAST_ALL, false);
 }
 
 /* Moves a handle or flips a switch; a moved start leads back to step 0. */
@@ -95,7 +95,7 @@ Status obey_handle(Player *player, const Command *command)
         status = status ? status : player_work(player);
     }
     if (!status)
-        status = player_edit(player, command, PAST_ALL, false);
+        status = player_edit_step(player, command, PAST_ALL, false);
     if (past->current > now)
         past->branch[now].left_step = step; /* undo shows this step again */
     return status;

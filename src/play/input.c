@@ -28,7 +28,7 @@ static MouseTarget find_mouse_target(Player *player)
     const Mouse *mouse = &player->hands.mouse;
     const Paper *paper = player_prepare_paper(player);
     const FrameContent *content = &player->screen.frame.content;
-    HeldBounds *held = &player->screen.view.held_bounds;
+    DragBounds *held = &player->screen.view.drag_bounds;
     MouseTarget target = {
         .layout = layout_create(content, paper ? paper->canvas.width : 1,
                                 paper ? paper->canvas.height : 1),
@@ -186,7 +186,7 @@ static Status begin_press(Player *player, const MouseTarget *target)
     const LecturePage *page = player_active_options(player)->page;
     double point[2];
     mouse->dragged = target->pick.index;
-    player->screen.view.held_bounds = frame_view_bounds(
+    player->screen.view.drag_bounds = frame_view_bounds(
         &player->screen.frame.content, &target->layout, target->pane);
     switch (target->pick.kind) {
     case PICK_OBSTACLE:
@@ -448,7 +448,7 @@ static Status release_button(Player *player)
     CommandKind drag = mouse->drag_command;
     int node = mouse->dragged;
     mouse->drag_command = COMMAND_NONE;
-    player->screen.view.held_bounds.is_held = false;
+    player->screen.view.drag_bounds.is_held = false;
     if (!mouse->has_moved && (drag == COMMAND_GRAB || drag == COMMAND_PLACE) &&
         node < simulation->mesh.nodes)
         player_note(player, "a drag moves node %d, a right click %s it", node,

@@ -162,7 +162,7 @@ Status obey_set(Player *player, const Command *command)
         return player_restart_runs(player, options, panes, command);
     if (again && change.x != old)
         return player_repeat_step(player, &change, pane);
-    return player_edit(player, &change, pane, false);
+    return player_edit_step(player, &change, pane, false);
 }
 
 Status player_enqueue_notches(Player *player, const OptionRow *row, int notches)

@@ -53,9 +53,9 @@ Status obey_add_pane(Player *player, const Command *command)
         return STATUS_INVALID_INPUT;
     const Command change = make_set_command(
         option_find("integrator"), (double)(next - integrator_methods));
-    Status status = player_edit(player, command, PAST_ALL, false);
+    Status status = player_edit_step(player, command, PAST_ALL, false);
     if (!status && !player->tour.obeys_page)
-        status = player_edit(player, &change, panes, false);
+        status = player_edit_step(player, &change, panes, false);
     if (status)
         return status;
     player->active = panes;
@@ -67,5 +67,5 @@ Status obey_end_pane(Player *player, const Command *command)
 {
     if (past_panes(&player->past) < 2)
         return player_refuse(player, "there is only one");
-    return player_edit(player, command, PAST_ALL, false);
+    return player_edit_step(player, command, PAST_ALL, false);
 }

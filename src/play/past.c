@@ -91,8 +91,8 @@ long past_find_drawable_step(const Past *past, int pane, long step)
     const Entry *first = past_entry(past, pane, 1);
     if (!first)
         return step;
-    double most = PAST_EXPLODED * fmax(first->outcome.extent, 1e-300);
-    while (step > 0 && !(past_entry(past, pane, step)->outcome.extent <= most))
+    double most = PAST_EXPLODED * fmax(first->outcome.reach, 1e-300);
+    while (step > 0 && !(past_entry(past, pane, step)->outcome.reach <= most))
         step--;
     return step;
 }
@@ -103,7 +103,7 @@ long past_find_drawable_step(const Past *past, int pane, long step)
 static void drop_state(Past *past, Entry *entry)
 {
     State *state = entry->state;
-    if (state && --state->user_count == 0) {
+    if (state && --state->ref_count == 0) {
         past->used_bytes -= state->size;
         control_release(state->control);
         free(state);
@@ -283,7 +283,7 @@ static Branch *push_branch(Past *past, Branch wanted, const Command *edit)
             if (i > 0)
                 to->state = NULL;
             if (to->state)
-                to->state->user_count++;
+                to->state->ref_count++;
         }
     if (past->branches > 0)
         branch[-1].left_step = past->step;
@@ -304,7 +304,7 @@ static double find_pane_timestep(const PastPane *pane)
 
 /* Returns the Newton object of the first run that has one, whose iterations are
  * traced; NULL while another run makes its step. */
-static const Newton *find_traced_newton(const Simulation *simulation)
+static const Newton *find_newton_to_trace(const Simulation *simulation)
 {
     for (int r = 0; r < simulation->runs && !simulation->scene->step; r++)
         if (simulation->run[r].newton)
@@ -322,7 +322,7 @@ static bool observe_newton(void *user, const NewtonRecord *record)
     pane->outcome.updates += record->alpha != 0;
     if (pane->simulation.scene->step) /* a step of this scene is one update */
         pane->outcome.energy_change = record->change;
-    const Newton *newton = find_traced_newton(&pane->simulation);
+    const Newton *newton = find_newton_to_trace(&pane->simulation);
     if (newton && pane->trace.x_length > 0 && record->iteration >= 0)
         step_trace_add_iterate(&pane->trace, newton, record);
     Records *records = &pane->records;
@@ -553,9 +553,9 @@ static Status pane_end_iteration(Past *past, int p, Status status)
         step_trace_end(&pane->trace, &simulation->options);
     bool moved = simulation->steps > pane->start_steps;
     outcome->status = status ? status : outcome->status;
-    outcome->extent = 0;
+    outcome->reach = 0;
     for (int i = 0; i < 2 * simulation->system.nodes; i++)
-        outcome->extent = fmax(outcome->extent, fabs(simulation->run[0].x[i]));
+        outcome->reach = fmax(outcome->reach, fabs(simulation->run[0].x[i]));
     for (int r = 0; r < simulation->runs && !simulation->scene->step; r++)
         if (simulation->run[r].newton)
             outcome->energy_change += simulation->run[r].newton->change;
@@ -641,7 +641,7 @@ static Status end_past_work(Past *past)
     return status;
 }
 
-Status past_iterate(Past *past)
+Status past_do_work(Past *past)
 {
     if (past->work_stage == WORK_DONE)
         return STATUS_OK;
@@ -667,7 +667,7 @@ Status past_finish_work(Past *past)
 {
     Status status = STATUS_RUNNING;
     while (status == STATUS_RUNNING)
-        status = past_iterate(past);
+        status = past_do_work(past);
     return status;
 }
 

@@ -95,7 +95,8 @@ Status player_begin_runs(Player *player, const Options *options, int count,
                          const Command *edit);
 
 /* Edits a pane, or each one, at the shown step (past_edit). */
-Status player_edit(Player *player, const Command *change, int pane, bool again);
+Status player_edit_step(Player *player, const Command *change, int pane,
+                        bool again);
 
 /* Iterates until the chosen step is shown; in a window at most for SLICE. */
 Status player_work(Player *player);

@@ -72,7 +72,7 @@ Status player_restore_pins(Player *player, const Control *before)
             .kind = COMMAND_PIN, .number = i, .x = before->pinned[i]};
         now = past_control(&player->past, 0);
         if (now->pinned[i] != before->pinned[i])
-            status = player_edit(player, &pin, PAST_ALL, false);
+            status = player_edit_step(player, &pin, PAST_ALL, false);
     }
     control_release(before);
     return status;
@@ -238,12 +238,12 @@ Status obey_predict(Player *player, const Command *command)
         return STATUS_OK;
     double way =
         math_hypot(guess->reached[0] - at[0], guess->reached[1] - at[1]);
-    bool right = guess->distance <= 0.1 * way;
+    bool right = guess->error <= 0.1 * way;
     Status status = player_reveal_answer(player, NULL);
     player->tour.guesses++;
     player->tour.right_guesses += right;
     append(player->tour.verdict, VALUE_SIZE, "Your click is %s%s.",
-           right ? "right" : format_number(guess->distance).text,
+           right ? "right" : format_number(guess->error).text,
            right ? "" : "\u00a0m off");
     return status;
 }

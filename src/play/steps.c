@@ -162,7 +162,8 @@ Status player_begin_runs(Player *player, const Options *options, int count,
     return record_step(player);
 }
 
-Status player_edit(Player *player, const Command *change, int pane, bool again)
+Status player_edit_step(Player *player, const Command *change, int pane,
+                        bool again)
 {
     if (player->play.mode == MODE_REST)
         player->play.mode = MODE_RUN; /* bodies may move again */
@@ -362,7 +363,7 @@ Status player_repeat_step(Player *player, const Command *change, int pane)
         view->ghost = malloc(bytes);
     if (view->ghost)
         memcpy(view->ghost, simulation->run[0].x, bytes);
-    Status status = player_edit(player, change, pane, !failed);
+    Status status = player_edit_step(player, change, pane, !failed);
     if (status)
         return status;
     player->screen.drawn_step = -1;
@@ -419,7 +420,7 @@ Status player_work(Player *player)
     while (past_is_working(past) && !player->is_quitting) {
         long before = past->step;
         bool made = past_makes_step(past);
-        Status status = past_iterate(past);
+        Status status = past_do_work(past);
         if (!past_is_working(past) || (status && status != STATUS_RUNNING)) {
             status = finish_work(player, status, before, made);
             if (status)
@@ -447,7 +448,7 @@ static Status release_old_hand(Player *player)
         player->hands.holding)
         return STATUS_OK;
     player->commands.gesture = ++player->commands.gestures;
-    Status status = player_edit(player, &release, PAST_ALL, false);
+    Status status = player_edit_step(player, &release, PAST_ALL, false);
     player->commands.gesture = gesture;
     return status;
 }

@@ -243,5 +243,5 @@ void scene_predict(Simulation *simulation, double x, double y)
         .guess_step = simulation->steps,
         .guess = {x, y},
         .reached = {end[0], end[1]},
-        .distance = math_hypot(end[0] - x, count == 1 ? 0 : end[1] - y)};
+        .error = math_hypot(end[0] - x, count == 1 ? 0 : end[1] - y)};
 }

@@ -18,7 +18,7 @@ Control *control_from_simulation(const Simulation *simulation)
     Control *control = malloc(sizeof *control + (size_t)system->nodes);
     if (!control)
         return NULL;
-    *control = (Control){.user_count = 1,
+    *control = (Control){.ref_count = 1,
                          .options = simulation->options,
                          .held_node = -1,
                          .held_obstacle = -1,
@@ -34,7 +34,7 @@ Control *control_copy(const Control *from)
     if (!control)
         return NULL;
     memcpy(control, from, size);
-    control->user_count = 1;
+    control->ref_count = 1;
     return control;
 }
 
@@ -80,14 +80,14 @@ void control_store_obstacle(Control *control, int number,
 const Control *control_retain(const Control *control)
 {
     if (control)
-        ((Control *)control)->user_count++;
+        ((Control *)control)->ref_count++;
     return control;
 }
 
 void control_release(const Control *control)
 {
     Control *own = (Control *)control;
-    if (own && --own->user_count == 0)
+    if (own && --own->ref_count == 0)
         free(own);
 }
 

@@ -122,7 +122,7 @@ static bool read_next_row(TableReader *reader, TableRow row)
 }
 
 /* Reads the rows of one run at the step options->state_step; -1: at the last
- * step.  If the user went back, the last rows of a step count.
+ * step.  If the user went back, a step's newest rows are used.
  *   row  [reader->rows] out */
 static void read_rows(TableReader *reader, const Options *options,
                       TableRow *row)

@@ -26,20 +26,20 @@ INLINE Spring evaluate_grid_spring(const Grid *grid, int kind, ptrdiff_t q,
 }
 
 /* A Spring in single precision, from Grid.float_x. */
-typedef struct SingleSpring {
+typedef struct FloatSpring {
     Floats dx, dy, d2, s, c;
-} SingleSpring;
+} FloatSpring;
 
-INLINE SingleSpring evaluate_single_spring(const Grid *grid, int kind,
-                                           ptrdiff_t q, ptrdiff_t to,
-                                           ptrdiff_t at)
+INLINE FloatSpring evaluate_float_spring(const Grid *grid, int kind,
+                                         ptrdiff_t q, ptrdiff_t to,
+                                         ptrdiff_t at)
 {
     const float *x = grid->float_x, *y = x + grid->rows.plane;
     Floats dx = FLOATS(x, q) - FLOATS(x, q + to);
     Floats dy = FLOATS(y, q) - FLOATS(y, q + to);
     Floats d2 = dx * dx + dy * dy, c = FLOATS(grid->float_c[kind], q + at);
-    return (SingleSpring){dx, dy, d2, d2 - FLOATS(grid->float_l2[kind], q + at),
-                          c};
+    return (FloatSpring){dx, dy, d2, d2 - FLOATS(grid->float_l2[kind], q + at),
+                         c};
 }
 
 /* Declares iso and along of the clamped Hessian c (iso I + along d d^T), in

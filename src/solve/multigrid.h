@@ -3,19 +3,18 @@
  * Newton's method for E = |u - u_tilde|_M^2/2 + w P(x_n + u).  A multigrid
  * V-cycle on the Hessian finds the directions (v_cycle.h); after a poor one the
  * Hessian is clamped.  Each direction is made conjugate to the one before.  E
- * along a direction is a quartic, whose minimum is the step length.  Where folds
- * move, tiles of nodes find a second direction (tiles.h); the direction after
- * is not conjugate.  No update raises E.
+ * along a direction is a quartic, whose minimum is the step length.  Where the
+ * square folds, tiles of nodes find a second direction (tiles.h); the direction
+ * after is not conjugate.  No update raises E.
  *
  * The test of Algorithm 3 needs p = -H^-1 g with the clamped H, which conjugate
  * gradients know up to a linear residual r = -g - H p, computed in double
  * precision.  H - M is positive semi-definite, so the error of p is at most
- * |r|_(M^-1) in the norm of M, and the residual, max over nodes of
- * |p_x| + |p_y|, over h, is known up to sqrt(2/m)/h |r|_(M^-1) with the smallest
- * m.  p passes the test if the residual and this bound together are at most the
- * tolerance.  With p = 0, r = -g the bound limits the next p: a step also ends
- * if that p is negligible, or, after a p that seems to pass, at most half of
- * the tolerance.
+ * |r|_(M^-1) in the norm of M, and the residual, max over nodes of |p_x| +
+ * |p_y|, over h, is known up to sqrt(2/m)/h |r|_(M^-1) with the smallest m.  p
+ * passes the test if the residual plus this bound is at most the tolerance.
+ * With p = 0, r = -g the bound limits the next p: a step also ends if that p is
+ * negligible, or, after a p that seems to pass, at most half of the tolerance.
  *
  * A step depends on its arguments alone.  Results have the same bits for every
  * width of registers. */

@@ -26,7 +26,7 @@ void newton_start(Newton *newton, const double *x_n, const double *u,
     newton->direction.moved_since_factor = INFINITY; /* no factor yet */
     newton->clamps_left = 0;
     newton->change_sum = newton->change_abs_sum = 0;
-    rounding_start(newton);
+    rounding_prepare(newton);
     newton->active_solver =
         multigrid_accepts(newton) ? SOLVER_MULTIGRID : SOLVER_NEWTON;
 }

@@ -76,7 +76,7 @@ extern const NewtonPhases multigrid_phases;
  * line search, E itself is compared with its start. */
 
 /* Prepares newton->rounding for a minimisation. */
-void rounding_start(Newton *newton);
+void rounding_prepare(Newton *newton);
 
 /* Whether a change of E, J s^2, is at most a few units in E's last place. */
 bool is_below_roundoff(const Newton *newton, double change);

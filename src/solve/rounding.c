@@ -26,7 +26,7 @@ static const double MARGIN = 1e-12;
  * this effect differ by large factors.) */
 static const double AGREED = 1e-10, BLURS = 100;
 
-void rounding_start(Newton *newton)
+void rounding_prepare(Newton *newton)
 {
     const Iterate *at = &newton->iterate;
     const System *system = newton->system;

@@ -82,7 +82,7 @@ INLINE void gather_springs(const Tiles *tiles, NodeRun at, bool is_close,
         Floats cx = {0}, cy = {0}, c = {0}, negative = {0};
 #define ADD(kind, to, numbers)                                                 \
     {                                                                          \
-        SingleSpring s = evaluate_single_spring(grid, kind, q, to, numbers);   \
+        FloatSpring s = evaluate_float_spring(grid, kind, q, to, numbers);     \
         Floats wx = s.dx, wy = s.dy;                                           \
         if (is_close) {                                                        \
             wx = FLOATS(ux, q) - FLOATS(ux, q + (to));                         \

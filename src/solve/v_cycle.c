@@ -69,7 +69,7 @@ INLINE void compute_tensor_row(const VCycle *cycle, int i)
 #define ADD(kind, to, numbers)                                                 \
     EACH_FLOATS (NEXT(at, LANES)) {                                            \
         const ptrdiff_t q = at.first + e;                                      \
-        SingleSpring s = evaluate_single_spring(&grid, kind, q, to, numbers);  \
+        FloatSpring s = evaluate_float_spring(&grid, kind, q, to, numbers);    \
         CLAMPED_TENSOR(s.s, s.d2 + 1e-35f, iso, along);                        \
         along = along * (1 - kept) + 2 * kept;                                 \
         iso += kept * WHERE(s.s < 0, s.s);                                     \

@@ -108,7 +108,7 @@ static void move_carried_nodes(const System *system, const Contact *contact,
 /* Moves obstacles, pins and carried nodes by a part of the step.  Sets new_x to
  * u: Newton's displacement plus this motion.  Returns whether all terms allow u
  * and no body passes through another.  If not, moves the obstacles back. */
-static bool move_by_part(TimeIntegrator *run, double part)
+static bool try_motion(TimeIntegrator *run, double part)
 {
     const System *system = run->system;
     Contact *contact = contact_of(run->system);
@@ -146,7 +146,7 @@ static double move_farthest(TimeIntegrator *run, double part, int halvings,
                             int parts)
 {
     for (int i = 0; i < halvings && run->parts_made < parts; i++, part /= 2)
-        if (move_by_part(run, part))
+        if (try_motion(run, part))
             return part;
     return 0;
 }
@@ -170,7 +170,7 @@ void prescribed_start(TimeIntegrator *run)
         part = move_farthest(run, run->remaining_part, MAX_HALVINGS, MAX_PARTS);
     run->is_blocked = part == 0 && others;
     if (part == 0) /* no further motion in this step */
-        move_by_part(run, 0);
+        try_motion(run, 0);
     else
         run->moved_part += part;
     run->remaining_part = part == 0 ? 0 : run->remaining_part - part;

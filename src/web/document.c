@@ -158,8 +158,8 @@ static void put_values(Writer *to, const Pane *pane, const char *name)
 }
 
 /* Writes a row of a table or legend. */
-static void put_cells(Writer *to, const char *word, int index,
-                      const CardTableRow *row)
+static void put_row(Writer *to, const char *word, int index,
+                    const CardTableRow *row)
 {
     print(to, "%s\t%d\t#%06x", word, index, document_colour(row->colour));
     for (int c = 0; c < row->columns; c++)
@@ -180,7 +180,7 @@ static bool put_table(Writer *to, const FrameContent *content, int index,
         if (i > 0 && i < rows - MOST_ROWS)
             continue;
         card_fill_row(content, card, i, &row);
-        put_cells(to, "cells", index, &row);
+        put_row(to, "cells", index, &row);
     }
     return rows > 0;
 }
@@ -208,7 +208,7 @@ static void put_card(Writer *to, const FrameContent *content, int index,
         print(to, "\n");
         for (int i = 0; card->legend_row && card->legend_row(content, i, &row);
              i++)
-            put_cells(to, "legend", index, &row);
+            put_row(to, "legend", index, &row);
         TextLine line = text_begin(&pane->values, card->legend);
         while (text_next_line(&line))
             print(to, "legend\t%d\t#%06x\t%s\n", index,

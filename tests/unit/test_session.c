@@ -372,7 +372,7 @@ static void begin_step(void)
     Past *past = &player.past;
     show_result(player_seek(&player, past->step + 1, AFTER_NOTHING));
     while (!past->pane[0].is_iterating)
-        CHECK_STATUS(past_iterate(past), STATUS_RUNNING);
+        CHECK_STATUS(past_do_work(past), STATUS_RUNNING);
 }
 
 /* Counts the files of the session's folder; `away` removes them. */
