@@ -141,8 +141,9 @@ static void add_trace_values(const Simulation *simulation, const Trace *trace,
     if (trace->trials > 0)
         values_add_flag(values, trace->is_accepted ? "taken" : "refused", true);
     values_add_flag(values, "given up", trace->given_up);
-    const NewtonRecord *last = trace->record + trace->records - 1;
-    if (simulation->scene->parts & HAS_TIME && trace->records > 0 &&
+    const NewtonRecord *last =
+        trace->records > 0 ? trace->record + trace->records - 1 : NULL;
+    if (simulation->scene->parts & HAS_TIME && last &&
         last->status == STATUS_OK) {
         /* A bound shows that the next p is small enough, or rounding hides the
          * change of E by the last p. */

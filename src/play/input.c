@@ -29,6 +29,8 @@ static MouseTarget find_mouse_target(Player *player)
     const Paper *paper = player_prepare_paper(player);
     const FrameContent *content = &player->screen.frame.content;
     DragBounds *held = &player->screen.view.drag_bounds;
+    if (player->screen.must_redraw) /* the frame can be of a discarded step */
+        player_fill_frame(player);
     MouseTarget target = {
         .layout = layout_create(content, paper ? paper->canvas.width : 1,
                                 paper ? paper->canvas.height : 1),

@@ -285,7 +285,8 @@ static void fill_iterate_values(const StepTrace *trace, const TracePlace *at,
 const double *step_trace_fill(const StepTrace *trace, int place, Trace *shown)
 {
     int count = trace->records.count;
-    const NewtonRecord *row = trace->records.record, *last = row + count - 1;
+    const NewtonRecord *row = trace->records.record;
+    const NewtonRecord *last = count > 0 ? row + count - 1 : row;
     bool over = place < 0 || place >= trace->place_count;
     bool given_up = count > 0 && last->status != STATUS_OK &&
                     last->status != STATUS_RUNNING;
