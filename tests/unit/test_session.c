@@ -567,10 +567,11 @@ static void begin_record(void)
 /* Adds the lines of a text to the record that an earlier text does not have. */
 static void record_changes(const char *before, const char *now)
 {
-    for (; *now; now += strcspn(now, "\n") + 1) {
+    for (size_t length; *now; now += length + (now[length] == '\n')) {
         char line[1024];
         size_t used = strlen(record);
-        snprintf(line, sizeof line, "%.*s\n", (int)strcspn(now, "\n"), now);
+        length = strcspn(now, "\n");
+        snprintf(line, sizeof line, "%.*s\n", (int)length, now);
         if (!strstr(before, line))
             snprintf(record + used, sizeof record - used, "%s", line);
     }
