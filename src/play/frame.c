@@ -315,42 +315,27 @@ static void fill_time_line(const Player *player, FrameContent *content)
              player_active_pane(player)->outcome.updates);
 }
 
-/* If options of the page are changed, or a handle has moved, writes a heading
- * for Look with the page's own options: "The page's own answer, with h = 1 s:".
- */
+/* If the page is changed, writes a heading for Look with the page's own
+ * options: "The page's own answer, with h = 1 s:". */
 static void fill_own_options(const Player *player, LectureContent *lecture)
 {
     const OptionRow *row[OPTIONS_MAX_ROWS];
-    const Options *own = player->tour.own_options;
     char text[SENTENCE_SIZE] = "The page's own answer", value[VALUE_SIZE];
     const char *before = ", with ";
-    const Past *past = &player->past;
-    const LecturePage *page = past_control(past, 0)->options.page;
-    /* After undo the window may show another page than the one opened last. */
-    if (!page || page != own->page || !player->setup.asks_guess)
+    if (!player_has_changed_page(player))
         return;
     int rows = player_list_options(player, true, row);
-    int panes = (int)fmin(player->tour.own_panes, past_panes(past));
-    bool is_changed =
-        exhibit_find_flips(&past->pane[0].simulation) != own->flips;
-    for (int b = past->current; !past->branch[b].from_options; b--)
-        is_changed |= past->branch[b].edit.kind == COMMAND_HANDLE;
     for (int i = 0; i < rows; i++) {
-        int p = 0; /* the first pane whose option is not the page's own */
-        while (p < panes && option_is_equal(row[i], &own[p],
-                                            &past_control(past, p)->options))
-            p++;
-        if (p == panes)
+        const Options *own = player_find_own_options(player, row[i]);
+        if (!own)
             continue;
-        is_changed = true;
-        player_format_value(row[i], &own[p], player_simulation(player), value,
+        player_format_value(row[i], own, player_simulation(player), value,
                             sizeof value);
         append(text, sizeof text, "%s%s = %s", before, option_label(row[i]),
                value);
         before = ", ";
     }
-    if (is_changed)
-        snprintf(lecture->own_title, sizeof lecture->own_title, "%s:", text);
+    snprintf(lecture->own_title, sizeof lecture->own_title, "%s:", text);
 }
 
 static void fill_frame(const Player *player, Frame *frame)

@@ -10,29 +10,6 @@ static const OptionRow *find_command_option(const Command *command)
     return command->number < 0 ? NULL : &option_rows[command->number];
 }
 
-/* Whether the scene uses an option whose value is a number or a choice. */
-static bool is_scene_number(const Player *player, const OptionRow *row)
-{
-    return (row->needs & player_active_options(player)->scene->parts) &&
-           row->kind != OPTION_SWITCH && row->kind != OPTION_TEXT;
-}
-
-int player_list_options(const Player *player, bool all,
-                        const OptionRow *found[OPTIONS_MAX_ROWS])
-{
-    const Options options = player_shown_options(player);
-    int own = all ? 0 : options_list_visible(&options, found), count = own;
-    for (const OptionRow *row = option_rows; row->name; row++) {
-        bool more = all || player->hands.added_rows >> (row - option_rows) & 1;
-        more = more && is_scene_number(player, row);
-        for (int i = 0; i < own; i++)
-            more = more && found[i] != row;
-        if (more)
-            found[count++] = row;
-    }
-    return all || count < LAYOUT_SETTINGS ? count : LAYOUT_SETTINGS - 1;
-}
-
 const char *player_find_idle_reason(const Player *player, const OptionRow *row)
 {
     const Simulation *simulation = player_simulation(player);
@@ -56,7 +33,7 @@ const char *player_find_idle_reason(const Player *player, const OptionRow *row)
 Status obey_add(Player *player, const Command *command)
 {
     const OptionRow *row = find_command_option(command);
-    if (!row || !is_scene_number(player, row))
+    if (!row || !player_has_number(player, row))
         return player_refuse(player, "this scene has no such number");
     const char *idle = player_find_idle_reason(player, row);
     if (idle)

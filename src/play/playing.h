@@ -22,6 +22,21 @@ const Options *player_active_options(const Player *player);
  * which some scenes change by themselves. */
 Options player_shown_options(const Player *player);
 
+/* Whether the scene uses this option, and its value is a number or a choice. */
+bool player_has_number(const Player *player, const OptionRow *row);
+
+/* Lists the row of numbers, or all numbers of the scene.  Returns how many. */
+int player_list_options(const Player *player, bool all,
+                        const OptionRow *found[OPTIONS_MAX_ROWS]);
+
+/* Returns the page's own options of the first pane in which this option has
+ * another value now, or NULL. */
+const Options *player_find_own_options(const Player *player,
+                                       const OptionRow *row);
+
+/* Whether options or switches of the page were changed, or a handle moved. */
+bool player_has_changed_page(const Player *player);
+
 /* Finds the default options of a page or, if `page` is NULL, of a scene.  The
  * scene of the command line has the options given there.
  *   options  [options->panes] out, room for OPTIONS_MAX_PANES; a page has 1 */
@@ -140,10 +155,6 @@ bool player_hides_answer(const Player *player);
 Status player_reveal_answer(Player *player, const char *typed);
 
 /* ---- numbers.c ----------------------------------------------------------- */
-
-/* Lists the row of numbers, or all numbers of the scene.  Returns how many. */
-int player_list_options(const Player *player, bool all,
-                        const OptionRow *found[OPTIONS_MAX_ROWS]);
 
 /* Returns why a number has no effect now, or NULL. */
 const char *player_find_idle_reason(const Player *player, const OptionRow *row);

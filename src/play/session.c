@@ -44,6 +44,59 @@ int player_copy_options(const Player *player,
     return past_panes(past);
 }
 
+bool player_has_number(const Player *player, const OptionRow *row)
+{
+    return (row->needs & player_active_options(player)->scene->parts) &&
+           row->kind != OPTION_SWITCH && row->kind != OPTION_TEXT;
+}
+
+int player_list_options(const Player *player, bool all,
+                        const OptionRow *found[OPTIONS_MAX_ROWS])
+{
+    const Options options = player_shown_options(player);
+    int own = all ? 0 : options_list_visible(&options, found), count = own;
+    for (const OptionRow *row = option_rows; row->name; row++) {
+        bool more = all || player->hands.added_rows >> (row - option_rows) & 1;
+        more = more && player_has_number(player, row);
+        for (int i = 0; i < own; i++)
+            more = more && found[i] != row;
+        if (more)
+            found[count++] = row;
+    }
+    return all || count < LAYOUT_SETTINGS ? count : LAYOUT_SETTINGS - 1;
+}
+
+const Options *player_find_own_options(const Player *player,
+                                       const OptionRow *row)
+{
+    const Past *past = &player->past;
+    const Options *own = player->tour.own_options;
+    int panes = (int)fmin(player->tour.own_panes, past_panes(past));
+    for (int p = 0; p < panes; p++)
+        if (!option_is_equal(row, &own[p], &past_control(past, p)->options))
+            return &own[p];
+    return NULL;
+}
+
+bool player_has_changed_page(const Player *player)
+{
+    const OptionRow *row[OPTIONS_MAX_ROWS];
+    const Options *own = player->tour.own_options;
+    const Past *past = &player->past;
+    const LecturePage *page = past_control(past, 0)->options.page;
+    /* After undo the window may show another page than the one opened last. */
+    if (!page || page != own->page || !player->setup.asks_guess)
+        return false;
+    bool is_changed =
+        exhibit_find_flips(&past->pane[0].simulation) != own->flips;
+    for (int b = past->current; !past->branch[b].from_options; b--)
+        is_changed |= past->branch[b].edit.kind == COMMAND_HANDLE;
+    int rows = player_list_options(player, true, row);
+    for (int i = 0; i < rows && !is_changed; i++)
+        is_changed = player_find_own_options(player, row[i]);
+    return is_changed;
+}
+
 Status player_find_defaults(Player *player, const char *scene,
                             const LecturePage *page, Options *options)
 {

@@ -250,7 +250,7 @@ static void stop_run_if_over(Player *player)
     player->play.has_warned = player->play.has_warned || bad;
     if (past->step == options->pause_step && past->step > 0 &&
         options->page == player->tour.revealed &&
-        !player->screen.frame.content.lecture.own_title[0])
+        !player_has_changed_page(player))
         player->play.mode = MODE_PAUSE;
     if (player->play.mode == MODE_REST)
         report_at_rest(player);
