@@ -13,7 +13,7 @@
 
 typedef struct Triplets {
     int size;    /* rows = columns of the matrix */
-    long long entries; /* number of triplets */
+    long long count; /* number of triplets */
     int *row; /* [count] row of each triplet, >= column; NULL: only counted */
     int *column; /* [count] column of each triplet */
 } Triplets;
@@ -24,7 +24,7 @@ typedef struct Sparse {
     int *column_start; /* [size+1] column c is start[c] ... start[c+1]-1 */
     int *row;      /* [entries] row of each entry, ascending in each column */
     double *value; /* [entries+1] value[entries] sums the dropped entries */
-    int *slot;     /* [triplets] place of each triplet in value */
+    int *slot;     /* [triplets] index of each triplet in value */
 } Sparse;
 
 /* Allocates room for the triplets that were counted, to be added once more.

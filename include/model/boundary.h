@@ -33,15 +33,15 @@ typedef struct Boundary {
     int *point_node;      /* [nodes] node of each point */
     Box2 *edge_box;       /* [springs] boxes of the edges, sorted */
     Box2 *point_box;      /* [nodes] box of each point, by node */
-    unsigned char *sides; /* [springs] solid triangles at each spring */
+    unsigned char *triangles; /* [springs] number of solid triangles at each */
     unsigned char *node_role; /* [nodes] bits: in a triangle, on an edge */
 
     /* Motion for which the boxes were made: from x by alpha (p - mean). */
-    bool boxes_valid; /* the boxes are those of the present boundary */
-    bool is_swept;    /* false: the boxes are those of x alone */
+    bool has_valid_boxes; /* the boxes are those of the present boundary */
+    bool is_swept;        /* the boxes cover the way along p, not x alone */
     double *x, *p;    /* [2n] m; x is the start of the block of all arrays */
-    double alpha;     /* the boxes hold the motion alpha p */
-    double mean[2];   /* m, mean of p over the points; a motion that all points
+    double alpha;     /* the boxes cover the motion alpha p */
+    double mean_p[2]; /* m, mean of p over the points; a motion that all points
                          share brings none closer to an edge */
     double margin;    /* m, each box is wider by it at all sides */
     double widest_edge; /* m, largest extent of an edge's box, coordinate 0 */

@@ -17,7 +17,7 @@
 
 typedef struct Cells {
     Triangles triangles; /* four in each cell */
-    int (*sides)[3];     /* [triangles.count] sides; W is 0 if one is broken */
+    int (*side_springs)[3]; /* [triangles.count] W is 0 if one is broken */
     double c;            /* J, A0 k_c */
 } Cells;
 

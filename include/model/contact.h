@@ -72,12 +72,12 @@ enum { CONTACT_MAX_OBSTACLES = 20 };
 
 /* An obstacle that a hand pulls to a point (push.c). */
 typedef struct Push {
-    bool held;        /* whether a hand holds an obstacle */
+    bool is_held;     /* whether a hand holds an obstacle */
     int obstacle;     /* number of the obstacle */
     double target[2]; /* m, target of the obstacle's point o */
     SquareMesh mesh;  /* mesh of the bodies, whose cells no ball may enter */
-    bool stopped;     /* the obstacle found no room to move in this step */
-    double stopped_at; /* part of the step before the obstacle stopped */
+    bool is_blocked;  /* the obstacle found no room to move in this step */
+    double free_part; /* part of the step before the obstacle stopped */
 } Push;
 
 typedef struct Contact {
@@ -103,8 +103,8 @@ Contact *contact_of(const System *system);
 
 /* Whether the energy of this node and this obstacle counts.  The free ball's
  * own node does not count, nor a fixed node at a fixed obstacle. */
-bool contact_has_pair(const Contact *contact, const System *system, int node,
-                      int obstacle);
+bool contact_counts_pair(const Contact *contact, const System *system, int node,
+                         int obstacle);
 
 /* Returns the radius of a node, m: R for the free ball's node, 0 for others. */
 double contact_node_radius(const Contact *contact, int node);

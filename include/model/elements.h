@@ -56,7 +56,7 @@ static inline void element_get_vectors(const Element *element, const double *x,
 typedef struct Triangles {
     int count;
     double area;    /* m^2, A0 of each triangle at rest */
-    double unit;    /* 1/m^2, 1/(2 A0) */
+    double inverse_J0; /* 1/m^2, 1/(2 A0), where J is 2 A0 at rest */
     int (*node)[3]; /* [count] nodes a, b, c of each triangle, anticlockwise */
 } Triangles;
 
@@ -121,7 +121,7 @@ struct ElementKind {
 typedef struct ElementIterator {
     const EvalPoint *point;
     const ElementKind *kind;
-    double way;      /* m, bound on the change of vectors a and b by alpha p */
+    double motion_bound; /* m, bound on the change of a and b by alpha p */
     int i, count;    /* present element, number of elements */
     Element element; /* present element, out */
 } ElementIterator;

@@ -12,16 +12,16 @@
 
 #include "model/system.h"
 
-/* A spring that may break after this step. */
-typedef struct Candidate {
+/* A spring that is stretched beyond its strength. */
+typedef struct Overload {
     double load; /* strain divided by strength, > 1 */
     int spring;
-} Candidate;
+} Overload;
 
 typedef struct Fracture {
     double strength;      /* s_c > 0, mean strain at which springs break */
-    Candidate *candidate; /* [springs] workspace */
-    unsigned char *is_taken; /* [nodes] 1: a spring of the node broke now */
+    Overload *overload;   /* [springs] workspace, largest load first */
+    unsigned char *has_new_break; /* [nodes] 1: a spring broke there */
 } Fracture;
 
 /* Fracture as a term; data: Fracture.  The option's number is s_c.  The term

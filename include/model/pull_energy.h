@@ -19,7 +19,7 @@ typedef struct Pull {
 
     /* The following members are for the hand alone. */
     double mouse_xy[2]; /* m, position of the mouse */
-    double stiffness;   /* J/m^2, stiffness with which the mouse pulls */
+    double mouse_k;     /* J/m^2, stiffness with which the mouse pulls */
     double cell_size;   /* m, side of a cell of the pulled body */
     double side;     /* m, side of the pulled body */
 } Pull;

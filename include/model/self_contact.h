@@ -35,8 +35,8 @@ typedef struct SelfContact {
     Boundary boundary;
     int pairs;      /* number of blocks in this step */
     int capacity;   /* number of pairs for which `pair` has room */
-    int sorted;     /* number of pairs at the start of this step */
-    SelfPair *pair; /* [capacity] the first `sorted` by node, then by edge */
+    int start_pairs; /* number of pairs at the start of this step */
+    SelfPair *pair; /* [capacity] the first start_pairs by node, then by edge */
 } SelfContact;
 
 /* The sum of W over all points and edges; data: SelfContact.  An element is a

@@ -37,7 +37,7 @@ struct System {
     unsigned version; /* rises with every change of numbers or terms */
     unsigned pattern_version; /* rises when the Hessian's pattern changes */
     int terms;
-    Term term[SYSTEM_MAX_TERMS]; /* terms in the order of TermKind.place */
+    Term term[SYSTEM_MAX_TERMS]; /* terms in the order of TermKind.rank */
     /* Energy lost by column, to a NULL name.  A loss outlives its term. */
     EnergyLoss losses[SYSTEM_MAX_TERMS];
 };
@@ -99,7 +99,7 @@ bool system_has_gravity(const System *system);
 double system_gravity_potential(const System *system, const double *x);
 
 /* Sets g to 0 at pinned nodes.  g [2n] in/out. */
-void system_clear_pinned(const System *system, double *g);
+void system_zero_pinned(const System *system, double *g);
 
 /* Writes a = gravity - M^-1 grad P(x), and 0 at pinned nodes.
  *   x  [2n] m, in

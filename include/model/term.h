@@ -62,17 +62,17 @@ struct TermKind {
      * term dissipates (system_book_loss).  NULL: no such column. */
     const char *energy_name, *loss_name;
 
-    /* Order of the list.  Equal places keep the order in which they were added.
+    /* Order of the list.  Equal ranks keep the order in which they were added.
      * Sums and end_step thus keep their order when a term is added later. */
-    enum TermPlace {
-        PLACE_FORCE, /* springs, triangles, fields: the usual place */
-        PLACE_DAMPING,
-        PLACE_CONTACT,
-        PLACE_FRICTION,
-        PLACE_CELLS,
-        PLACE_FRACTURE, /* after all terms whose energy breaks with springs */
-        PLACE_HAND,
-    } place;
+    enum TermRank {
+        RANK_FORCE, /* springs, triangles, fields: the usual rank */
+        RANK_DAMPING,
+        RANK_CONTACT,
+        RANK_FRICTION,
+        RANK_CELLS,
+        RANK_FRACTURE, /* after all terms whose energy breaks with springs */
+        RANK_HAND,
+    } rank;
 
     /* Kind of the elements, if the term is a sum over elements (elements.h).
      * The functions from value to line_remainder are then elements.c's.  Only
@@ -132,12 +132,12 @@ struct TermKind {
     /* Frees the allocations that data points to, not data itself. */
     void (*free)(void *data);
 
-    bool diagonal; /* P is a sum of c/2 |x_i - o|^2 over nodes i, c > 0,
-                      so its Hessian is a diagonal matrix */
+    bool is_diagonal;      /* P is a sum of c/2 |x_i - o|^2 over nodes i, c > 0,
+                              so its Hessian is a diagonal matrix */
     bool is_external;      /* has forces that move the centre of mass */
     bool depends_on_start; /* P depends on x_n too, and a turn changes P */
-    bool any_integrator; /* works with every integrator; other terms only with
-                            backward Euler */
+    bool supports_all_integrators; /* works with every integrator; other terms
+                                      only with backward Euler */
 };
 
 struct Term {

@@ -47,7 +47,7 @@ Status incremental_potential_pattern(const System *system, Sparse *A);
 /* Adds pairs near each other at u, x to the terms' lists.  *grown out: whether
  * the Hessian has entries that its pattern lacks, so that the pattern must be
  * made again.  Returns OK, OUT_OF_MEMORY. */
-Status incremental_potential_extend(const Iterate *iterate, bool *grown);
+Status incremental_potential_extend_pattern(const Iterate *at, bool *grown);
 
 /* Writes the projected Hessian of E at u, x to A, which has the pattern.
  * Returns how many blocks of terms the projection changed. */
@@ -104,5 +104,5 @@ double line_energy_difference(const void *function, double alpha);
 double incremental_potential_max_step(const Iterate *at);
 
 /* Whether every term allows u, x [2n]. */
-bool incremental_potential_allows(const IncrementalPotential *E,
-                                  const double *u, const double *x);
+bool incremental_potential_is_feasible(const IncrementalPotential *E,
+                                       const double *u, const double *x);

@@ -24,7 +24,7 @@ enum { AUTO_NEWTON_SEGMENTS = 8 };
 
 /* How well the residual of a direction p is known. */
 typedef enum ResidualKind {
-    RESIDUAL_VALUE,   /* p solves H p = -g up to rounding */
+    RESIDUAL_EXACT,   /* p solves H p = -g up to rounding */
     RESIDUAL_ESTIMATE /* p solves H p = -g up to a bounded linear residual */
 } ResidualKind;
 
@@ -35,13 +35,13 @@ typedef struct NewtonRecord {
     double residual; /* m/s, max over nodes of |p_x| + |p_y|, over h */
     ResidualKind residual_kind; /* how well the residual is known */
     double alpha;               /* step length along p; 0: x has not moved */
-    int trials;                 /* energies that the line search looked at */
+    int trials;                 /* step lengths that the line search tried */
     double slope;        /* J s^2, grad E . p; below 0: p leads downhill */
     double change;       /* J s^2, change of E by the update */
     int projected;       /* blocks of the Hessian that were projected */
     int negative_pivots; /* negative pivots of the Hessian from which p came,
                             without projection */
-    bool factorised;     /* has a new factor of the Hessian */
+    bool has_new_factor; /* has a new factor of the Hessian */
     double shift;        /* kg, added to the diagonal of the Hessian */
     double seconds;      /* computing time of the iteration */
     Status status;  /* RUNNING, or how the iteration ended the minimisation */
@@ -102,12 +102,12 @@ typedef struct SearchDirection {
 /* Data for the rounding errors of a minimisation (rounding.c). */
 typedef struct Rounding {
     unsigned bounds_version; /* 1 + System.version of min_mass, max_curvature
-                               and shortest; 0: not computed yet */
+                                and shortest_spring; 0: not computed yet */
     double min_mass;         /* kg, the smallest mass */
     double max_curvature;    /* J/m^2, the largest curvature of a term */
-    double shortest; /* m, the shortest spring at rest; 1 without springs */
-    bool stiff;      /* w max_curvature > 1e5 min_mass, w: P's weight in E:
-                        a decrease of E is checked by a second computation */
+    double shortest_spring;  /* m, length at rest; 1 without springs */
+    bool is_stiff; /* w max_curvature > 1e5 min_mass, w: P's weight in E:
+                      a decrease of E is checked by a second computation */
     bool factor_is_inexact; /* w max_curvature > 1e10 min_mass: the residual
                                is only an estimate */
     double start_energy;    /* J s^2, E at the start; NAN: not needed */
@@ -144,7 +144,7 @@ typedef struct Newton {
     const char *refusal_reason; /* why multigrid refused to work, or NULL */
     double change_sum;    /* J s^2, sum of the updates' changes of E */
     double change_abs_sum; /* J s^2, sum of the absolute changes of E */
-    double change;         /* J s^2, E at the end - E at the start, summed over
+    double total_change;   /* J s^2, E at the end - E at the start, summed over
                               minimisations; the caller resets it to 0 */
 } Newton;
 
@@ -170,4 +170,4 @@ void newton_start(Newton *newton, const double *x_n, const double *u,
 Status newton_minimise(Newton *newton);
 
 /* Returns the limit of iterations: max_iterations, or less on large squares. */
-int newton_most_iterations(const Newton *newton);
+int newton_iteration_limit(const Newton *newton);

@@ -16,8 +16,8 @@ typedef struct IntegratorMethod {
     const char *label;      /* name in the window */
     int order;              /* order of accuracy */
     bool is_implicit;       /* needs Newton */
-    bool takes_all_terms;   /* works with every term: only backward Euler */
-    bool damps;        /* takes energy out of motion, which comes to rest */
+    bool supports_all_terms; /* works with every term: only backward Euler */
+    bool dissipates;   /* takes energy out of motion, which comes to rest */
     bool only_by_name; /* is chosen by name only, and skipped by key M */
     int arrays;        /* arrays [2n] kept between steps */
     int stages;        /* minimisations of a step; explicit: 0 */

@@ -7,12 +7,12 @@
 
 Status triplets_allocate(Triplets *triplets)
 {
-    size_t bytes = (size_t)triplets->entries * sizeof(int);
-    if (triplets->entries >= INT_MAX)
+    size_t bytes = (size_t)triplets->count * sizeof(int);
+    if (triplets->count >= INT_MAX)
         return STATUS_TOO_LARGE;
     triplets->row = malloc(bytes);
     triplets->column = malloc(bytes);
-    triplets->entries = 0;
+    triplets->count = 0;
     if (!triplets->row || !triplets->column)
         return STATUS_OUT_OF_MEMORY;
     return STATUS_OK;
@@ -27,7 +27,7 @@ void triplets_free(Triplets *triplets)
 
 void triplets_add(Triplets *triplets, int row, int column)
 {
-    long long t = triplets->entries++;
+    long long t = triplets->count++;
     if (!triplets->row)
         return;
     triplets->row[t] = row > column ? row : column;
@@ -54,7 +54,7 @@ static void counting_sort(int count, int size, const int *key, const int *in,
 Status sparse_create(const Triplets *triplets, Sparse *A)
 {
     const int *row = triplets->row, *column = triplets->column;
-    int count = (int)triplets->entries, size = triplets->size;
+    int count = (int)triplets->count, size = triplets->size;
     size_t bytes = ((size_t)count + 1) * sizeof(int);
     size_t starts = ((size_t)size + 1) * sizeof *A->column_start;
     *A = (Sparse){.size = size,

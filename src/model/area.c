@@ -42,7 +42,7 @@ double triangle_max_step(const EvalPoint *at, const Element *element,
 {
     const Triangles *triangles = at->term->data;
     double J1, J2, most = ELEMENT_LIMIT * element->s;
-    area_expand_along(element->v, triangles->unit, P, &J1, &J2);
+    area_expand_along(element->v, triangles->inverse_J0, P, &J1, &J2);
     double discriminant = J1 * J1 - 4 * J2 * most;
     if (!(discriminant >= 0))
         return INFINITY;
@@ -85,13 +85,13 @@ bool area_project_hessian(const double f[4], double unit, double on_plus,
         area->across_a[i] = i % 2 ? -a[i - 1] : a[i + 1];
         area->across_b[i] = i % 2 ? -b[i - 1] : b[i + 1];
     }
-    area->on_plus = on_plus;
-    area->on_minus = on_minus;
+    area->lambda_a = on_plus;
+    area->lambda_b = on_minus;
     bool changed = project_psd_2x2(projection, Q);
     if (!projects_blocks(projection))
         return changed;
-    area->on_plus = project_eigenvalue(projection, on_plus);
-    area->on_minus = project_eigenvalue(projection, on_minus);
+    area->lambda_a = project_eigenvalue(projection, on_plus);
+    area->lambda_b = project_eigenvalue(projection, on_minus);
     return changed || on_plus < 0 || on_minus < 0;
 }
 
@@ -102,8 +102,8 @@ void area_assemble_hessian(const AreaHessian *area, double H[4][4])
         for (int c = 0; c < 4; c++)
             H[r][c] = Q[0] * a[r] * a[c] + Q[2] * b[r] * b[c] +
                       Q[1] * (a[r] * b[c] + b[r] * a[c]) +
-                      area->on_minus * area->across_b[r] * area->across_b[c] +
-                      area->on_plus * area->across_a[r] * area->across_a[c];
+                      area->lambda_b * area->across_b[r] * area->across_b[c] +
+                      area->lambda_a * area->across_a[r] * area->across_a[c];
 }
 
 static double dot4(const double a[4], const double b[4])
@@ -118,8 +118,8 @@ void area_multiply_hessian(const AreaHessian *area, const double v[4],
     double on_a = dot4(area->a, v), on_b = dot4(area->b, v);
     double along_a = Q[0] * on_a + Q[1] * on_b;
     double along_b = Q[1] * on_a + Q[2] * on_b;
-    double across_a = area->on_plus * dot4(area->across_a, v);
-    double across_b = area->on_minus * dot4(area->across_b, v);
+    double across_a = area->lambda_a * dot4(area->across_a, v);
+    double across_b = area->lambda_b * dot4(area->across_b, v);
     for (int i = 0; i < 4; i++)
         Hv[i] = along_a * area->a[i] + along_b * area->b[i] +
                 across_a * area->across_a[i] + across_b * area->across_b[i];

@@ -36,7 +36,7 @@ void area_expand_along(const double f[4], double unit, const double P[4],
 
 /* Returns Triangles with legs of this length, m, and a right angle, at rest.
  *   node  [3 count] int, memory for the nodes */
-static inline Triangles right_triangles(int count, double leg, void *node)
+static inline Triangles make_right_triangles(int count, double leg, void *node)
 {
     double area = 0.5 * leg * leg;
     return (Triangles){count, area, 1 / (2 * area), node};
@@ -69,7 +69,7 @@ void triangle_set_element(const EvalPoint *at, int t, Element *element);
 typedef struct AreaHessian {
     double a[4], b[4], across_a[4], across_b[4]; /* unit vectors */
     double Q[3];                                 /* Q_aa, Q_ab, Q_bb */
-    double on_plus, on_minus; /* eigenvalues of across_a and across_b */
+    double lambda_a, lambda_b; /* eigenvalues of across_a and across_b */
 } AreaHessian;
 
 /* Writes H at f [4], projected.  Returns whether an eigenvalue was changed. */

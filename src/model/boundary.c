@@ -6,14 +6,14 @@
 #include <string.h>
 
 /* Boundary.near_edge has room for this many edges for each node of the mesh. */
-enum { NEAR_PER_NODE = 8 };
+enum { NEAR_EDGES_PER_NODE = 8 };
 
 Status boundary_create(const SquareMesh *mesh, Boundary *boundary)
 {
     size_t nodes = (size_t)mesh->nodes, springs = (size_t)mesh->springs;
-    size_t bytes = 4 * nodes * sizeof(double) +
-                   (nodes + springs) * sizeof(Box2) +
-                   (2 + NEAR_PER_NODE) * nodes * sizeof(int) + springs + nodes;
+    size_t bytes =
+        4 * nodes * sizeof(double) + (nodes + springs) * sizeof(Box2) +
+        (2 + NEAR_EDGES_PER_NODE) * nodes * sizeof(int) + springs + nodes;
     *boundary =
         (Boundary){.mesh = *mesh, .version = ~0u, .x = calloc(1, bytes)};
     if (!boundary->x)
@@ -24,9 +24,9 @@ Status boundary_create(const SquareMesh *mesh, Boundary *boundary)
     boundary->point_node = (int *)(boundary->point_box + nodes);
     boundary->near_list_end = boundary->point_node + nodes;
     boundary->near_edge = boundary->near_list_end + nodes;
-    boundary->sides =
-        (unsigned char *)(boundary->near_edge + NEAR_PER_NODE * nodes);
-    boundary->node_role = boundary->sides + springs;
+    boundary->triangles =
+        (unsigned char *)(boundary->near_edge + NEAR_EDGES_PER_NODE * nodes);
+    boundary->node_role = boundary->triangles + springs;
     return STATUS_OK;
 }
 
@@ -40,7 +40,7 @@ enum { IN_A_TRIANGLE = 1, ON_AN_EDGE = 2 };
 static void find_boundary(Boundary *boundary, const System *system)
 {
     const SquareMesh *shape = &boundary->mesh;
-    memset(boundary->sides, 0, (size_t)shape->springs);
+    memset(boundary->triangles, 0, (size_t)shape->springs);
     memset(boundary->node_role, 0, (size_t)shape->nodes);
     boundary->points = boundary->edges = 0;
     for (int c = 0; c < shape->cells; c++) {
@@ -56,11 +56,11 @@ static void find_boundary(Boundary *boundary, const System *system)
         for (int k = other; k < 4; k += 2)
             for (int i = 0; i < 3 && solid >> k & 1; i++) {
                 boundary->node_role[node[k][i]] |= IN_A_TRIANGLE;
-                boundary->sides[side[k][i]]++;
+                boundary->triangles[side[k][i]]++;
             }
     }
     for (int s = 0; s < shape->springs; s++) {
-        if (boundary->sides[s] != 1)
+        if (boundary->triangles[s] != 1)
             continue;
         boundary->edge_box[boundary->edges++].edge_spring = s;
         for (int end = 0; end < 2; end++)
@@ -70,7 +70,7 @@ static void find_boundary(Boundary *boundary, const System *system)
         if (boundary->node_role[i] != IN_A_TRIANGLE)
             boundary->point_node[boundary->points++] = i;
     boundary->version = system->version;
-    boundary->boxes_valid = false;
+    boundary->has_valid_boxes = false;
 }
 
 /* ---- search for near edges ---------------------------------------------- */
@@ -94,10 +94,10 @@ static int compare_left_sides(const void *one, const void *other)
 }
 
 /* Makes and sorts the boxes of the motion relative to the mean motion. */
-static void bound_motions(Boundary *boundary, const System *system)
+static void compute_boxes(Boundary *boundary, const System *system)
 {
     const double *x = boundary->x, *p = boundary->is_swept ? boundary->p : NULL;
-    double *mean = boundary->mean;
+    double *mean = boundary->mean_p;
     boundary->widest_edge = mean[0] = mean[1] = 0;
     Box2 all = empty_box;
     for (int i = 0; i < boundary->points; i++) {
@@ -176,23 +176,23 @@ void boundary_update(Boundary *boundary, const System *system, const double *x,
                      const double *p, double alpha, double margin)
 {
     size_t bytes = 2 * (size_t)boundary->mesh.nodes * sizeof *x;
-    int room = NEAR_PER_NODE * boundary->mesh.nodes, count = 0, cursor = 0,
-        edge;
+    int room = NEAR_EDGES_PER_NODE * boundary->mesh.nodes, count = 0,
+        cursor = 0, edge;
     if (boundary->version != system->version)
         find_boundary(boundary, system);
-    if (boundary->boxes_valid && boundary->is_swept == (p != NULL) &&
+    if (boundary->has_valid_boxes && boundary->is_swept == (p != NULL) &&
         boundary->alpha == alpha && boundary->margin == margin &&
         memcmp(boundary->x, x, bytes) == 0 &&
         (!p || memcmp(boundary->p, p, bytes) == 0))
         return;
-    boundary->boxes_valid = true;
+    boundary->has_valid_boxes = true;
     boundary->is_swept = p != NULL;
     boundary->alpha = alpha;
     boundary->margin = margin;
     memcpy(boundary->x, x, bytes);
     if (p)
         memcpy(boundary->p, p, bytes);
-    bound_motions(boundary, system);
+    compute_boxes(boundary, system);
     boundary->has_near_edges = true;
     for (int i = 0; i < boundary->points && boundary->has_near_edges; i++) {
         while ((edge = search_next_edge(boundary, system, i, &cursor)) >= 0 &&

@@ -15,8 +15,8 @@ static bool cell_get_element(const EvalPoint *at, int t, double way,
 {
     const Cells *cells = at->term->data;
     const double *k = at->system->k;
-    const int *node = cells->triangles.node[t], *side = cells->sides[t];
-    double e[4], unit = cells->triangles.unit;
+    const int *node = cells->triangles.node[t], *side = cells->side_springs[t];
+    double e[4], unit = cells->triangles.inverse_J0;
     subtract_node(at->x, node[1], node[2], node[0], e);
     double sides = fabs(e[0]) + fabs(e[1]) + fabs(e[2]) + fabs(e[3]);
     double J = cross(e, e + 2) / (2 * cells->triangles.area);
@@ -52,7 +52,7 @@ static bool cell_hessian(const EvalPoint *at, const Element *element,
                          Projection projection, double H[4][4])
 {
     const Cells *cells = at->term->data;
-    double s = element->s / CELL_J_HAT, q = cells->triangles.unit;
+    double s = element->s / CELL_J_HAT, q = cells->triangles.inverse_J0;
     double slope = cells->c / CELL_J_HAT * barrier_slope(s) * q;
     double bend = cells->c / (CELL_J_HAT * CELL_J_HAT) * barrier_curvature(s);
     AreaHessian area;
@@ -67,7 +67,7 @@ static double cell_line_remainder(const EvalPoint *at, const Element *element,
 {
     const Cells *cells = at->term->data;
     double J1, J2, s = element->s / CELL_J_HAT;
-    area_expand_along(element->v, cells->triangles.unit, P, &J1, &J2);
+    area_expand_along(element->v, cells->triangles.inverse_J0, P, &J1, &J2);
     J1 *= alpha;
     J2 *= alpha * alpha;
     return cells->c * (barrier_slope(s) * J2 / CELL_J_HAT +
@@ -97,7 +97,7 @@ const TermKind cell_energy = {
     .name = "cells that cannot turn over",
     ELEMENTS(triangle),
     .energy_name = "contact",
-    .place = PLACE_CELLS,
+    .rank = RANK_CELLS,
     .curvature_bound = cell_curvature_bound,
 };
 
@@ -105,16 +105,17 @@ Status cells_configure(System *system, const SquareMesh *shape,
                        double stiffness)
 {
     int count = 4 * shape->cells;
-    Cells *cells = system_add_term(system, &cell_energy,
-                                   sizeof *cells + 2 * (size_t)count *
-                                                       sizeof *cells->sides);
+    Cells *cells = system_add_term(
+        system, &cell_energy,
+        sizeof *cells + 2 * (size_t)count * sizeof *cells->side_springs);
     if (!cells)
         return STATUS_OUT_OF_MEMORY;
     Triangles *triangles = &cells->triangles;
-    *triangles = right_triangles(count, shape->spacing, cells + 1);
+    *triangles = make_right_triangles(count, shape->spacing, cells + 1);
     cells->c = triangles->area * stiffness;
-    cells->sides = triangles->node + count;
+    cells->side_springs = triangles->node + count;
     for (int t = 0; t < count; t++)
-        square_mesh_get_triangle(shape, t, triangles->node[t], cells->sides[t]);
+        square_mesh_get_triangle(shape, t, triangles->node[t],
+                                 cells->side_springs[t]);
     return STATUS_OK;
 }

@@ -37,8 +37,8 @@ Contact *contact_of(const System *system)
     return system_term_data(system, &contact_energy);
 }
 
-bool contact_has_pair(const Contact *contact, const System *system, int node,
-                      int obstacle)
+bool contact_counts_pair(const Contact *contact, const System *system, int node,
+                         int obstacle)
 {
     int ball = contact->obstacle[obstacle].node;
     bool held = system->pinned[node] && !system->pin_v &&
@@ -73,7 +73,7 @@ static bool contact_get_element(const EvalPoint *at, int i, double way,
     const Contact *contact = at->term->data;
     int nodes = at->system->nodes, obstacle = i < nodes ? 0 : i / nodes;
     int node = i - obstacle * nodes;
-    if (!contact_has_pair(contact, at->system, node, obstacle))
+    if (!contact_counts_pair(contact, at->system, node, obstacle))
         return false;
     const Obstacle *other = &contact->obstacle[obstacle];
     Gap gap = contact_measure_gap(other, obstacle_origin(other, at->x),
@@ -227,7 +227,7 @@ const TermKind contact_energy = {
     .name = "contact",
     ELEMENTS(pairs),
     .energy_name = "contact",
-    .place = PLACE_CONTACT,
+    .rank = RANK_CONTACT,
     .curvature_bound = contact_curvature_bound,
     .is_external = true,
 };

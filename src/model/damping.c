@@ -60,7 +60,7 @@ const TermKind damping = {
     .name = "damping",
     .configure = damping_configure,
     .loss_name = "damping",
-    .place = PLACE_DAMPING,
+    .rank = RANK_DAMPING,
     .begin_step = damping_begin_step,
     .end_step = damping_end_step,
 };

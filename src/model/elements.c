@@ -21,7 +21,7 @@ ElementIterator elements_begin(const EvalPoint *at, const double *p,
 bool elements_next(ElementIterator *walk)
 {
     while (walk->element.search_cursor > 0 || ++walk->i < walk->count)
-        if (walk->kind->get_element(walk->point, walk->i, walk->way,
+        if (walk->kind->get_element(walk->point, walk->i, walk->motion_bound,
                                     &walk->element))
             return true;
     return false;
@@ -62,9 +62,9 @@ void elements_gradient(const EvalPoint *at, double *g)
 }
 
 /* The pair of nodes of each 2x2 part of a block, diagonal parts first. */
-enum { PARTS = 6 };
-static const int part[PARTS][2] = {{0, 0}, {1, 1}, {2, 2},
-                                   {0, 1}, {0, 2}, {1, 2}};
+enum { BLOCK_PARTS = 6 };
+static const int part[BLOCK_PARTS][2] = {{0, 0}, {1, 1}, {2, 2},
+                                         {0, 1}, {0, 2}, {1, 2}};
 
 /* Returns the number of triplets of a block, the same for every block. */
 static int count_block_entries(const EvalPoint *at)
@@ -79,7 +79,7 @@ void elements_pattern(const EvalPoint *at, Triplets *triplets)
     int node[3], blocks = kind->block_count(at);
     for (int b = 0; b < blocks; b++) {
         int nodes = kind->block_nodes(at, b, node);
-        for (int i = 0; i < PARTS; i++)
+        for (int i = 0; i < BLOCK_PARTS; i++)
             if (part[i][1] < nodes)
                 term_add_block(at->system, node[part[i][0]], node[part[i][1]],
                                triplets);
@@ -89,11 +89,11 @@ void elements_pattern(const EvalPoint *at, Triplets *triplets)
 /* Adds the entries of an element.  Entry (r, c) of the part of nodes k and l is
  * factor sum w_k w_l H_(r,c) over the pairs of vectors.  The function is inline
  * so that the compiler unrolls the loops for each number of vectors. */
-static inline void element_add_block(const Element *element, int vectors,
-                                     double H[4][4], const int *slot,
-                                     double *out)
+static inline void element_add_hessian(const Element *element, int vectors,
+                                       double H[4][4], const int *slot,
+                                       double *out)
 {
-    for (int i = 0; i < PARTS; i++) {
+    for (int i = 0; i < BLOCK_PARTS; i++) {
         int k = part[i][0], l = part[i][1];
         if (l >= element->node_count)
             continue;
@@ -147,9 +147,9 @@ int elements_hessian(const EvalPoint *at, Projection projection,
         projected += walk.kind->hessian(at, element, projection, H);
         const int *first = *slot + entries * element->block_index;
         if (element->vector_count == 1)
-            element_add_block(element, 1, H, first, out);
+            element_add_hessian(element, 1, H, first, out);
         else
-            element_add_block(element, 2, H, first, out);
+            element_add_hessian(element, 2, H, first, out);
     }
     if (!q)
         *slot += entries * at->term->kind->element->block_count(at);

@@ -24,7 +24,7 @@ double fracture_strength(const Fracture *fracture, int s)
 /* Orders candidates for qsort: largest load first, equal loads by spring. */
 static int compare_loads(const void *one, const void *other)
 {
-    const Candidate *a = one, *b = other;
+    const Overload *a = one, *b = other;
     if (a->load != b->load)
         return a->load > b->load ? -1 : 1;
     return a->spring - b->spring;
@@ -41,9 +41,9 @@ static int find_overloaded_springs(Fracture *fracture, const System *system,
         double strain = spring_strain(d2, system->l2[s]);
         double load = strain / fracture_strength(fracture, s);
         if (load > 1 && !spring_is_broken(system, s))
-            fracture->candidate[count++] = (Candidate){load, s};
+            fracture->overload[count++] = (Overload){load, s};
     }
-    qsort(fracture->candidate, (size_t)count, sizeof(Candidate), compare_loads);
+    qsort(fracture->overload, (size_t)count, sizeof(Overload), compare_loads);
     return count;
 }
 
@@ -57,11 +57,11 @@ static void fracture_end_step(const TermStep *step)
     if (count == 0)
         return;
     double energy = system_potential(system, step->x);
-    memset(fracture->is_taken, 0, (size_t)system->nodes);
+    memset(fracture->has_new_break, 0, (size_t)system->nodes);
     for (int k = 0; k < count; k++) {
-        int s = fracture->candidate[k].spring;
-        unsigned char *i = &fracture->is_taken[system->e[2 * s]];
-        unsigned char *j = &fracture->is_taken[system->e[2 * s + 1]];
+        int s = fracture->overload[k].spring;
+        unsigned char *i = &fracture->has_new_break[system->e[2 * s]];
+        unsigned char *j = &fracture->has_new_break[system->e[2 * s + 1]];
         if (*i || *j)
             continue;
         *i = *j = 1;
@@ -79,20 +79,20 @@ static Status fracture_configure(System *system, const struct SquareMesh *mesh,
     (void)mesh;
     Fracture *data =
         system_add_term(system, &fracture,
-                        sizeof *data + springs * sizeof *data->candidate +
+                        sizeof *data + springs * sizeof *data->overload +
                             (size_t)system->nodes);
     if (!data)
         return STATUS_OUT_OF_MEMORY;
     data->strength = number[0];
-    data->candidate = (Candidate *)(data + 1);
-    data->is_taken = (unsigned char *)(data->candidate + springs);
+    data->overload = (Overload *)(data + 1);
+    data->has_new_break = (unsigned char *)(data->overload + springs);
     return STATUS_OK;
 }
 
 const TermKind fracture = {
     .configure = fracture_configure,
     .loss_name = "fracture",
-    .place = PLACE_FRACTURE,
+    .rank = RANK_FRACTURE,
     .end_step = fracture_end_step,
-    .any_integrator = true,
+    .supports_all_integrators = true,
 };

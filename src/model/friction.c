@@ -206,7 +206,7 @@ static const ElementKind slips = {
 
 /* The TermKind of both terms begins with these functions. */
 #define FRICTION                                                               \
-    ELEMENTS(slips), .loss_name = "friction", .place = PLACE_FRICTION,         \
+    ELEMENTS(slips), .loss_name = "friction", .rank = RANK_FRICTION,           \
                      .begin_step = friction_begin_step,                        \
                      .end_step = friction_end_step, .depends_on_start = true
 

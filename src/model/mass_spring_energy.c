@@ -85,5 +85,5 @@ const TermKind mass_spring_energy = {
     .hessian = mass_spring_hessian,
     .line_polynomial = mass_spring_line_polynomial,
     .curvature_bound = mass_spring_curvature_bound,
-    .any_integrator = true,
+    .supports_all_integrators = true,
 };

@@ -15,7 +15,7 @@ static bool neo_hookean_get_element(const EvalPoint *at, int t, double way,
     const NeoHookean *data = at->term->data;
     (void)way;
     triangle_set_element(at, t, element);
-    element->s = data->triangles.unit * cross(element->v, element->v + 2);
+    element->s = data->triangles.inverse_J0 * cross(element->v, element->v + 2);
     return true;
 }
 
@@ -37,7 +37,7 @@ static double neo_hookean_value(const EvalPoint *at, const Element *element)
     const NeoHookean *data = at->term->data;
     double plus[2], minus[2], L = math_log(element->s);
     area_split(element->v, plus, minus);
-    double shear = 2 * data->triangles.unit * squared_length(minus);
+    double shear = 2 * data->triangles.inverse_J0 * squared_length(minus);
     return data->triangles.area *
            (data->mu * (shear + compute_volume_energy(element->s)) +
             0.5 * data->lambda * L * L);
@@ -73,7 +73,7 @@ static bool project_hessian(const EvalPoint *at, const Element *element,
     double J = element->s, p, q;
     double bend = (data->lambda * (1 - math_log(J)) + data->mu) / (J * J);
     compute_stresses(data, J, &p, &q);
-    return area_project_hessian(element->v, data->triangles.unit, 0.5 * p,
+    return area_project_hessian(element->v, data->triangles.inverse_J0, 0.5 * p,
                                 0.5 * q, data->triangles.area * bend,
                                 projection, area);
 }
@@ -105,7 +105,7 @@ static double neo_hookean_line_remainder(const EvalPoint *at,
 {
     const NeoHookean *data = at->term->data;
     double J1, J2, plus[2], minus[2], J = element->s,
-                                      unit = data->triangles.unit;
+                                      unit = data->triangles.inverse_J0;
     area_expand_along(element->v, unit, P, &J1, &J2);
     area_split(P, plus, minus);
     double bent = alpha * alpha * J2 / J, z = alpha * J1 / J + bent;
@@ -158,7 +158,7 @@ static Status neo_hookean_configure(System *system, const SquareMesh *mesh,
         return STATUS_OUT_OF_MEMORY;
     data->mu = young / (2 * (1 + nu));
     data->lambda = young * nu / ((1 + nu) * (1 - 2 * nu));
-    data->triangles = right_triangles((int)count, mesh->spacing, data + 1);
+    data->triangles = make_right_triangles((int)count, mesh->spacing, data + 1);
     for (int c = 0; c < mesh->cells; c++) {
         int node[4], spring[6];
         int i = c % (mesh->cells / mesh->bodies);

@@ -56,7 +56,7 @@ static inline FlowLaw make_flow_law(const Plasticity *data, int s)
     double H = data->hardening, flow = 1 / (1 + H);
     return (FlowLaw){.ep = data->ep[s],
                      .yield_strain = data->yield_strain + H * data->kappa[s],
-                     .flow_part = flow,
+                     .flow_fraction = flow,
                      .plastic_slope = 1 - flow};
 }
 
@@ -184,7 +184,7 @@ static double plastic_line_remainder(const EvalPoint *at, const double *p,
         double elastic = to > from ? within * (way - to + 0.5 * within) : 0;
         sum += spring.k * spring.l2 *
                (0.5 * (law.plastic_slope + law.theta) * t * t +
-                law.flow_part * elastic);
+                law.flow_fraction * elastic);
     }
     return at->weight * sum;
 }
@@ -199,7 +199,7 @@ static void plastic_end_step(const TermStep *step)
     at.term = step->term;
     for (int s = 0; s < system->springs; s++) {
         FlowSpring spring = evaluate_flow_spring(&at, s);
-        double gamma = spring.law.flow_part *
+        double gamma = spring.law.flow_fraction *
                        strain_beyond_yield(spring.law, spring.strain);
         if (!(gamma > 0) || spring_is_broken(system, s))
             continue;

@@ -63,11 +63,11 @@ static double pull_curvature_bound(const EvalPoint *at)
 #define PULL                                                                   \
     .value = pull_value, .gradient = pull_gradient, .pattern = pull_pattern,   \
     .hessian = pull_hessian, .line_polynomial = pull_line_polynomial,          \
-    .curvature_bound = pull_curvature_bound, .diagonal = true,                 \
-    .is_external = true, .any_integrator = true
+    .curvature_bound = pull_curvature_bound, .is_diagonal = true,              \
+    .is_external = true, .supports_all_integrators = true
 
 const TermKind central_field = {PULL, .energy_name = "elastic"};
-const TermKind hand_energy = {PULL, .place = PLACE_HAND};
+const TermKind hand_energy = {PULL, .rank = RANK_HAND};
 
 Status pull_configure(System *system, const TermKind *kind, const Pull *pull)
 {
@@ -92,8 +92,8 @@ void hand_begin_step(Pull *hand, const double *x, const double *v, double m,
     if (part * away > reach)
         part = reach / away;
     /* A node at rest feels the force strength times its distance. */
-    hand->k = fmin(fmax(hand->stiffness / slow, INERTIA * m / (h * h)),
-                   LIMIT * hand->stiffness);
+    hand->k = fmin(fmax(hand->mouse_k / slow, INERTIA * m / (h * h)),
+                   LIMIT * hand->mouse_k);
     if (free)
         hand->k = m / (h * h);
     for (int i = 0; i < 2; i++)

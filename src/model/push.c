@@ -19,7 +19,8 @@ static const double STRENGTH = 0.1;
 /* The obstacle keeps this part of the barrier's width from pinned nodes. */
 static const double KEPT = 0.3;
 
-enum { HALVINGS = 8, MAX_PARTS = 16 };
+/* Limits for the path of the obstacle in a step. */
+enum { MAX_HALVINGS = 8, MAX_PARTS = 16 };
 
 /* Writes the displacement of a free obstacle in a step of h seconds. */
 static void plan_obstacle_path(const Push *push, const double *o, double h,
@@ -46,7 +47,7 @@ static bool obstacle_is_pressed(const Contact *contact, const System *system,
                                       contact_node_radius(contact, i));
         if (gap.d < STRENGTH * contact->barrier.d_hat &&
             gap.n[0] * way[0] + gap.n[1] * way[1] > 0 &&
-            contact_has_pair(contact, system, i, k))
+            contact_counts_pair(contact, system, i, k))
             return true;
     }
     return false;
@@ -62,7 +63,7 @@ static bool obstacle_has_room(const Contact *contact, const System *system,
     const Obstacle *obstacle = &contact->obstacle[k];
     const double keep = KEPT * contact->barrier.d_hat;
     for (int i = 0; i < system->nodes; i++) {
-        if (!system->pinned[i] || contact_has_pair(contact, system, i, k))
+        if (!system->pinned[i] || contact_counts_pair(contact, system, i, k))
             continue;
         double before =
             contact_measure_gap(obstacle, obstacle->o, x + 2 * i, 0).d;
@@ -85,7 +86,7 @@ static double find_free_path_part(const Contact *contact, const System *system,
     double length = math_hypot(way[0], way[1]), free = 0, step = 1;
     if (obstacle->kind == OBSTACLE_BALL)
         step = fmin(fmax(0.5 * obstacle->radius / length, 1.0 / MAX_PARTS), 1);
-    for (int i = 0; i < HALVINGS && free < 1;) {
+    for (int i = 0; i < MAX_HALVINGS && free < 1;) {
         double part = fmin(free + step, 1);
         const double o[2] = {obstacle->o[0] + part * way[0],
                              obstacle->o[1] + part * way[1]};
@@ -104,10 +105,10 @@ void push_begin_step(Contact *contact, const System *system, const double *x,
 {
     Push *push = &contact->hand;
     double way[2];
-    push->stopped = false;
-    push->stopped_at = 0;
-    push->held = push->held && push->obstacle < contact->obstacles;
-    if (!push->held)
+    push->is_blocked = false;
+    push->free_part = 0;
+    push->is_held = push->is_held && push->obstacle < contact->obstacles;
+    if (!push->is_held)
         return;
     Obstacle *obstacle = &contact->obstacle[push->obstacle];
     plan_obstacle_path(push, obstacle->o, h, way);

@@ -32,9 +32,9 @@ static int find_pair_block(const SelfContact *self, SelfPair pair)
 {
     const SelfPair *found =
         self->pairs == 0 ? NULL
-                         : bsearch(&pair, self->pair, (size_t)self->sorted,
+                         : bsearch(&pair, self->pair, (size_t)self->start_pairs,
                                    sizeof pair, compare_pairs);
-    for (int i = self->sorted; i < self->pairs && !found; i++)
+    for (int i = self->start_pairs; i < self->pairs && !found; i++)
         if (compare_pairs(&self->pair[i], &pair) == 0)
             found = &self->pair[i];
     return found ? (int)(found - self->pair) : -1;
@@ -62,7 +62,7 @@ static Status self_contact_begin_step(const TermStep *step)
     SelfContact *self = step->term->data;
     Boundary *boundary = &self->boundary;
     int old = self->pairs, edge, cursor = 0;
-    bool grown = old > self->sorted;
+    bool grown = old > self->start_pairs;
     Status status = STATUS_OK;
     boundary_update(boundary, system, step->x, step->v, step->h, self->d_hat);
     for (int i = 0; i < boundary->points && !status; i++)
@@ -81,11 +81,11 @@ static Status self_contact_begin_step(const TermStep *step)
         boundary->version = system->version; /* the springs did not change */
     }
     memmove(self->pair, fresh, bytes);
-    self->pairs = self->sorted = count;
+    self->pairs = self->start_pairs = count;
     return STATUS_OK;
 }
 
-static Status self_contact_grow(const EvalPoint *at, bool *grown)
+static Status self_contact_extend_pattern(const EvalPoint *at, bool *grown)
 {
     SelfContact *self = self_contact_data(at);
     Status status = STATUS_OK;
@@ -378,9 +378,9 @@ const TermKind self_contact_energy = {
     .name = "bodies that touch",
     ELEMENTS(near_pairs),
     .energy_name = "contact",
-    .place = PLACE_CONTACT,
+    .rank = RANK_CONTACT,
     .begin_step = self_contact_begin_step,
-    .extend_pattern = self_contact_grow,
+    .extend_pattern = self_contact_extend_pattern,
     .curvature_bound = pair_curvature_bound,
     .free = self_contact_free,
 };

@@ -169,25 +169,25 @@ void square_mesh_list_springs(const SquareMesh *shape, int *e)
 }
 
 /* Columns begin[0] ... end[0]-1 and rows begin[1] ... end[1]-1 of the nodes. */
-typedef struct GridPart {
+typedef struct GridRegion {
     int begin[2], end[2];
-} GridPart;
+} GridRegion;
 
 /* Dissection stops at parts of at most this many nodes. */
-enum { GRID_LEAF = 9 };
+enum { MAX_LEAF_NODES = 9 };
 
 /* Nested dissection (George 1973).  Numbers the nodes of a part from `next` on:
  * first the two halves, then the line between them, which cuts the longer side.
  * Returns the next free number.
  *   order  out, place of each node of this body */
-static int dissect_grid(const SquareMesh *shape, GridPart part, int next,
+static int dissect_grid(const SquareMesh *shape, GridRegion part, int next,
                         int *order)
 {
     int wide = part.end[0] - part.begin[0], high = part.end[1] - part.begin[1];
-    if (wide * high > GRID_LEAF) {
+    if (wide * high > MAX_LEAF_NODES) {
         int side = wide >= high ? 0 : 1;
         int cut = part.begin[side] + (side == 0 ? wide : high) / 2;
-        GridPart low = part, upper = part;
+        GridRegion low = part, upper = part;
         low.end[side] = part.begin[side] = cut;
         upper.begin[side] = part.end[side] = cut + 1;
         next = dissect_grid(shape, low, next, order);
@@ -201,7 +201,7 @@ static int dissect_grid(const SquareMesh *shape, GridPart part, int next,
 
 void square_mesh_order_nodes(const SquareMesh *shape, int *order)
 {
-    const GridPart all = {{0, 0}, {shape->segments + 1, shape->rows + 1}};
+    const GridRegion all = {{0, 0}, {shape->segments + 1, shape->rows + 1}};
     for (int next = 0; next < shape->nodes;)
         next = dissect_grid(shape, all, next, order + next);
 }

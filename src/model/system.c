@@ -72,7 +72,7 @@ void *system_add_term(System *system, const TermKind *kind, size_t bytes)
     void *data = system_term_data(system, kind);
     if (data || place == SYSTEM_MAX_TERMS || !(data = calloc(1, bytes)))
         return data;
-    for (; place > 0 && system->term[place - 1].kind->place > kind->place;
+    for (; place > 0 && system->term[place - 1].kind->rank > kind->rank;
          place--)
         system->term[place] = system->term[place - 1];
     system->term[place] = (Term){.kind = kind, .data = data};
@@ -180,7 +180,7 @@ double system_potential(const System *system, const double *x)
     return sum;
 }
 
-void system_clear_pinned(const System *system, double *g)
+void system_zero_pinned(const System *system, double *g)
 {
     for (int i = 0; i < system->nodes; i++)
         if (system->pinned[i])
@@ -227,7 +227,7 @@ void system_acceleration(const System *system, const double *x, double *a)
             kind->gradient(&at, a);
     for (int i = 0; i < 2 * system->nodes; i++)
         a[i] = a[i] / system->m[i / 2] + system->gravity[i % 2];
-    system_clear_pinned(system, a);
+    system_zero_pinned(system, a);
 }
 
 double system_curvature_bound(const System *system)

@@ -80,7 +80,7 @@ static void add_setting_values(const Simulation *simulation, LiveValues *values)
     values_add_words(values, "scene", options->page ? NULL : scene->sentence);
     bool settles = scene->needs_dissipation && !options->page;
     values_add_flag(values, "grows", settles && forward);
-    values_add_flag(values, "keeps", settles && method && !method->damps);
+    values_add_flag(values, "keeps", settles && method && !method->dissipates);
     values_add_flag(values, "searches", scene->step == step_descent);
     values_add(values, "runs", simulation->runs);
     values_add_flag(values, "mixed",

@@ -113,7 +113,7 @@ static void widen_to_obstacles(const Plot *stage, Extent *view)
         widen_to_circle(&seen, hand->target, air, PULL_REACH, view);
     for (int k = 0; contact && k < options->grounds + options->balls; k++) {
         const Obstacle *obstacle = &contact->obstacle[k];
-        bool held = contact->hand.held && contact->hand.obstacle == k;
+        bool held = contact->hand.is_held && contact->hand.obstacle == k;
         Gap gap = contact_measure_gap(obstacle, obstacle->o, seen.middle, 0);
         const Point foot = point_along(seen.middle, -gap.d, gap.n);
         if (obstacle->kind == OBSTACLE_BALL)

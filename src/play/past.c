@@ -558,7 +558,7 @@ static Status pane_end_iteration(Past *past, int p, Status status)
         outcome->reach = fmax(outcome->reach, fabs(simulation->run[0].x[i]));
     for (int r = 0; r < simulation->runs && !simulation->scene->step; r++)
         if (simulation->run[r].newton)
-            outcome->energy_change += simulation->run[r].newton->change;
+            outcome->energy_change += simulation->run[r].newton->total_change;
     if (status && !moved && (is_out_of_memory(status) || !simulation->is_over))
         return pane_fail(past, p, status);
     pane->has_trace = past->stores_states;

@@ -242,9 +242,9 @@ Status recording_write_iteration(Recording *recording, const NewtonRecord *at,
     double iteration = at->iteration < 0 ? NAN : at->iteration;
     double step = (double)at->step_number;
     double row[] = {
-        step,       iteration,   at->residual,  at->alpha,         at->trials,
-        at->slope,  at->change,  at->projected, at->factorised,    at->shift,
-        at->status, at->seconds, at->solver,    at->residual_kind, pane};
+        step,       iteration,   at->residual,  at->alpha,          at->trials,
+        at->slope,  at->change,  at->projected, at->has_new_factor, at->shift,
+        at->status, at->seconds, at->solver,    at->residual_kind,  pane};
     if (log->output.file)
         table_add_row(log, row);
     return table_check(log);

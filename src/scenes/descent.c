@@ -234,7 +234,7 @@ Status step_descent(Simulation *simulation)
                            .residual = descent->residual,
                            .alpha = 1,
                            .slope = descent->slope,
-                           .factorised = true,
+                           .has_new_factor = true,
                            .projected =
                                evaluate_local_model(simulation).projected,
                            .x_before = {descent->point[0], descent->point[1]}};

@@ -383,10 +383,10 @@ Status body_check_method(const Options *options, Message message)
     const char *term =
         options->scene->body.pin_speed > 0 ? "moving pins" : NULL;
     for (const OptionRow *row = option_rows; row->name; row++)
-        if (!term && row->term && !row->term->any_integrator &&
+        if (!term && row->term && !row->term->supports_all_integrators &&
             option_is_on(row, options))
             term = row->term->name;
-    return !term || method->takes_all_terms
+    return !term || method->supports_all_terms
                ? STATUS_OK
                : refuse(message,
                         "--integrator: '%s' has no %s; only backward-euler has",

@@ -188,7 +188,7 @@ static Status apply_hand(Simulation *simulation, const Control *control)
                 .side = mesh->side,
                 .mouse_xy = {control->target[0], control->target[1]},
                 .target = {x[0], x[1]},
-                .stiffness = k > 0 ? STIFFER * k : 1e5 * system->m[node]});
+                .mouse_k = k > 0 ? STIFFER * k : 1e5 * system->m[node]});
 }
 
 /* Pushes the obstacle that the mouse holds, if there is one, in each run. */
@@ -200,11 +200,11 @@ static void apply_push(Simulation *simulation, const Control *control)
             continue;
         int held = control->held_obstacle;
         contact->hand =
-            (Push){.held = 0 <= held && held < contact->obstacles,
+            (Push){.is_held = 0 <= held && held < contact->obstacles,
                    .obstacle = held,
                    .target = {control->target[0], control->target[1]},
                    .mesh = simulation->mesh};
-        if (contact->hand.held)
+        if (contact->hand.is_held)
             contact->hand.target[1] +=
                 get_run_lift(simulation, r, &contact->obstacle[held]);
     }

@@ -99,7 +99,7 @@ static void book_energy_gain(Simulation *simulation)
     const Energies now = simulation_energies(simulation, run);
     double kept = now.total - now.work, gained = kept - ledger->last_balance;
     double abs_sum = fabs(now.work);
-    bool backward_euler = simulation->run[run].method->takes_all_terms;
+    bool backward_euler = simulation->run[run].method->supports_all_terms;
     ledger->last_balance = kept;
     for (int i = 1; i < now.rows; i++)
         abs_sum += fabs(now.row[i].value);
@@ -293,7 +293,7 @@ double simulation_find_fastest_mode(const Simulation *simulation,
                 kind->hessian(&at, PROJECTION_NONE, NULL, mode, image);
         for (int i = 0; i < n; i++)
             image[i] /= system->m[i / 2];
-        system_clear_pinned(system, image);
+        system_zero_pinned(system, image);
         omega2 = 0;
         for (int i = 0; i < n; i++)
             omega2 += mode[i] * image[i];

@@ -36,7 +36,8 @@ static Status assemble_hessian(Newton *newton, Projection projection,
     CholeskyKind kind =
         projection == PROJECTION_NONE ? CHOLESKY_INDEFINITE : CHOLESKY_DEFINITE;
     bool grown;
-    Status status = incremental_potential_extend(&newton->iterate, &grown);
+    Status status =
+        incremental_potential_extend_pattern(&newton->iterate, &grown);
     *projected = 0;
     if (!status &&
         (!direction->cholesky || direction->factor_kind != kind || grown ||
@@ -103,7 +104,7 @@ static Status assemble_and_factor(Newton *newton)
     Status status = assemble_hessian(newton, projection, &record->projected);
     if (!status)
         status = factor_hessian(newton);
-    record->factorised = true;
+    record->has_new_factor = true;
     record->shift = newton->direction.shift;
     newton->direction.moved_since_factor = 0;
     if (!status && newton->direction.factor_kind == CHOLESKY_INDEFINITE)
@@ -352,7 +353,7 @@ static Status find_residual(Newton *newton, bool exact)
     int pivot;
     record->residual =
         largest_row_sum(newton->system->nodes, newton->iterate.p) / h;
-    record->residual_kind = exact ? RESIDUAL_VALUE : RESIDUAL_ESTIMATE;
+    record->residual_kind = exact ? RESIDUAL_EXACT : RESIDUAL_ESTIMATE;
     if (!isfinite(record->residual))
         return STATUS_NOT_FINITE;
     newton->passes_test = record->residual <= newton->tolerance;
@@ -377,7 +378,7 @@ static void evaluate_gradient(Newton *newton)
 double negligible_direction_size(const Newton *newton)
 {
     return fmin(newton->tolerance * newton->settings.h,
-                NEGLIGIBLE * newton->rounding.shortest);
+                NEGLIGIBLE * newton->rounding.shortest_spring);
 }
 
 /* The projected Hessian is M plus something positive semi-definite, so
@@ -395,12 +396,13 @@ bool next_direction_is_negligible(Newton *newton)
 
 /* Whether the last factor can serve again, since it was computed in this
  * minimisation, nearby, as L L^T and without a shift. */
-static bool factor_is_near(const Newton *newton)
+static bool factor_is_reusable(const Newton *newton)
 {
     const SearchDirection *direction = &newton->direction;
     return direction->shift == 0 &&
            newton->settings.projection != PROJECTION_NONE &&
-           direction->moved_since_factor <= NEARBY * newton->rounding.shortest;
+           direction->moved_since_factor <=
+               NEARBY * newton->rounding.shortest_spring;
 }
 
 /* Computes p with a new factor, and the residual of p. */
@@ -429,7 +431,7 @@ Status find_direction(Newton *newton)
         solve_diagonal(newton);
         return find_residual(newton, true);
     }
-    if (factor_is_near(newton) && refine_with_last_factor(newton)) {
+    if (factor_is_reusable(newton) && refine_with_last_factor(newton)) {
         correct_momentum(newton);
         Status status = find_residual(newton, false);
         bool decided =

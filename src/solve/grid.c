@@ -11,7 +11,7 @@
 
 /* Bytes of a cache line and of memory pages; STAGGER is the number of cache
  * lines left free between two arrays. */
-enum { LINE = 64, SMALL_PAGE = 4096, LARGE_PAGE = 2 << 20, STAGGER = 5 };
+enum { CACHE_LINE = 64, SMALL_PAGE = 4096, LARGE_PAGE = 2 << 20, STAGGER = 5 };
 
 RowLayout lay_out_rows(int nodes)
 {
@@ -28,7 +28,7 @@ void *memory_take_piece(Memory *memory, size_t bytes)
 {
     char *piece = memory->base ? memory->base + memory->used : NULL;
     bytes = (bytes + SMALL_PAGE - 1) / SMALL_PAGE * SMALL_PAGE;
-    memory->used += bytes + STAGGER * LINE;
+    memory->used += bytes + STAGGER * CACHE_LINE;
     return piece;
 }
 
@@ -53,7 +53,7 @@ void grid_lay_out(int segments, Memory *memory, Grid *grid)
 {
     *grid = (Grid){.rows = lay_out_rows(segments + 1),
                    .segments = segments,
-                   .bands = segments / BAND + 1};
+                   .bands = segments / BAND_ROWS + 1};
     size_t plane = (size_t)grid->rows.plane * sizeof(double);
     size_t shifts = ((size_t)segments + 2) * sizeof(int);
     double **vectors[] = {&grid->x, &grid->x_tilde, &grid->u_tilde,
@@ -76,13 +76,13 @@ void grid_lay_out(int segments, Memory *memory, Grid *grid)
 
 /* Removes rows that equal the row before them.
  *   shift  [nodes] out, distance from a row's place to its stored numbers */
-static void share_rows(const RowLayout *rows, double *const *array, int arrays,
-                       int *shift)
+static void remove_equal_rows(const RowLayout *rows, double *const *array,
+                              int arrays, int *shift)
 {
     size_t bytes = (size_t)rows->pitch * sizeof **array;
     for (int i = 0, at = 0; i < rows->nodes; i++) {
         bool same = i > 0;
-        int from = node_place(rows, i, 0), to = node_place(rows, at, 0);
+        int from = node_index(rows, i, 0), to = node_index(rows, at, 0);
         for (int a = 0; a < arrays && same; a++)
             same = !memcmp(array[a] + from, array[a] + to - rows->pitch, bytes);
         for (int a = 0; a < arrays && !same; a++)
@@ -104,21 +104,21 @@ void grid_read_system(Grid *grid, const Iterate *at, const double *m)
     const RowLayout *rows = &grid->rows;
     double *const masses[] = {grid->m, grid->inverse_m};
     double unit, *springs[2 * KINDS];
-    grid->lightest = INFINITY;
-    grid->stiffest = 0;
+    grid->min_mass = INFINITY;
+    grid->max_stiffness = 0;
     for (int k = 0; k < rows->nodes * rows->nodes; k++)
         if (!system->pinned[k])
-            grid->lightest = fmin(grid->lightest, m[2 * k]);
-    grid->mass_unit = power_of_two_scale(grid->lightest);
-    grid->lightest *= grid->mass_unit;
+            grid->min_mass = fmin(grid->min_mass, m[2 * k]);
+    grid->mass_unit = power_of_two_scale(grid->min_mass);
+    grid->min_mass *= grid->mass_unit;
     for (int i = 0, node = 0; i < rows->nodes; i++)
         for (int j = 0; j < rows->nodes; j++, node++) {
-            int q = node_place(rows, i, j);
+            int q = node_index(rows, i, j);
             grid->m[q] = grid->mass_unit * m[2 * node];
             grid->inverse_m[q] = system->pinned[node] ? 0 : 1 / grid->m[q];
             grid->float_m[q] = system->pinned[node] ? 0 : (float)grid->m[q];
         }
-    share_rows(rows, masses, 2, grid->node_shift);
+    remove_equal_rows(rows, masses, 2, grid->node_shift);
     for (int kind = 0; kind < KINDS; kind++) {
         springs[kind] = grid->c[kind];
         springs[KINDS + kind] = grid->l2[kind];
@@ -129,7 +129,7 @@ void grid_read_system(Grid *grid, const Iterate *at, const double *m)
     for (int s = 0; s < system->springs; s++) {
         const int *e = system->e + 2 * s;
         int a = e[0] < e[1] ? e[0] : e[1], b = e[0] < e[1] ? e[1] : e[0];
-        int i = a / rows->nodes, q = node_place(rows, i, a % rows->nodes);
+        int i = a / rows->nodes, q = node_index(rows, i, a % rows->nodes);
         int kind = i == b / rows->nodes   ? UP
                    : b - a == rows->nodes ? RIGHT
                    : b - a > rows->nodes  ? DIAGONAL
@@ -139,11 +139,11 @@ void grid_read_system(Grid *grid, const Iterate *at, const double *m)
         grid->c[kind][q] = grid->mass_unit / unit * c;
         grid->l2[kind][q] = unit * point.l2[s];
     }
-    share_rows(rows, springs, 2 * KINDS, grid->spring_shift + 1);
+    remove_equal_rows(rows, springs, 2 * KINDS, grid->spring_shift + 1);
     for (int kind = 0; kind < KINDS; kind++)
         for (int q = 0; q < rows->plane; q++) {
             double c = grid->c[kind][q], l2 = grid->l2[kind][q];
-            grid->stiffest = fmax(grid->stiffest, 8 * c * l2);
+            grid->max_stiffness = fmax(grid->max_stiffness, 8 * c * l2);
             grid->float_c[kind][q] = (float)c;
             grid->float_l2[kind][q] = (float)l2;
         }
@@ -156,7 +156,7 @@ void grid_read_state(Grid *grid, const Iterate *at, const double *u_tilde)
     const double unit = grid->length_unit;
     for (int i = 0, node = 0; i < rows->nodes; i++)
         for (int j = 0; j < rows->nodes; j++, node++) {
-            int q = node_place(rows, i, j);
+            int q = node_index(rows, i, j);
             bool held = pinned[node];
             for (int k = 2 * node; k < 2 * node + 2; k++, q += rows->plane) {
                 double to = held ? at->u[k] : u_tilde[k];
@@ -174,7 +174,7 @@ void grid_write_state(const Grid *grid, Iterate *at)
     const double metre = 1 / grid->length_unit;
     for (int i = 0, node = 0; i < rows->nodes; i++)
         for (int j = 0; j < rows->nodes; j++, node++) {
-            int q = node_place(rows, i, j);
+            int q = node_index(rows, i, j);
             for (int k = 2 * node; k < 2 * node + 2; k++, q += rows->plane) {
                 at->u[k] = metre * (grid->u_tilde[q] + grid->from_target[q]);
                 at->x[k] = at->E.x_n[k] + at->u[k];

@@ -32,7 +32,7 @@ enum { RIGHT, UP, DIAGONAL, ANTIDIAGONAL, KINDS };
 enum { LANES = 8 };
 
 /* Number of rows in a band. */
-enum { BAND = 8 };
+enum { BAND_ROWS = 8 };
 
 /* Layout of a plane: where the number of each node is stored. */
 typedef struct RowLayout {
@@ -46,7 +46,7 @@ typedef struct RowLayout {
 RowLayout lay_out_rows(int nodes);
 
 /* Returns the index of node (i, j) in a plane. */
-static inline int node_place(const RowLayout *rows, int i, int j)
+static inline int node_index(const RowLayout *rows, int i, int j)
 {
     return (i + 1) * rows->pitch + (j & 1) * rows->odd_offset + j / 2;
 }
@@ -63,8 +63,8 @@ typedef struct Grid {
     double *c[KINDS];  /* [plane] 2 w k/l2 by kind of spring; 0: no spring */
     double *l2[KINDS]; /* [plane] squared rest length */
     double *m, *inverse_m; /* [plane] mass and 1/mass; inverse_m is 0 at pins */
-    double lightest;       /* smallest mass of a node that moves */
-    double stiffest;       /* largest stiffness of a node's springs, 8 c l2 */
+    double min_mass;       /* smallest mass of a node that moves */
+    double max_stiffness;  /* largest stiffness of a node's springs, 8 c l2 */
     float *float_c[KINDS]; /* [plane] c in single precision */
     float *float_l2[KINDS]; /* [plane] l2 in single precision */
     float *float_m;         /* [plane] mass without node_shift; 0 at pins */
@@ -126,8 +126,9 @@ void grid_line_polynomial(const Grid *grid, const double *p, double quartic[4]);
  *   g, last_g   grad E after and before that step
  *   last_slope  last_g.last_p, below 0
  * Returns beta >= 0. */
-double grid_conjugate(const Grid *grid, const double *g, const double *last_g,
-                      const double *last_p, double last_slope, double *p);
+double grid_conjugate_direction(const Grid *grid, const double *g,
+                                const double *last_g, const double *last_p,
+                                double last_slope, double *p);
 
 /* Moves all nodes alike, so that sum m x is sum m x_tilde, as at the minimum of
  * E where no node is pinned.  Returns the change of E, which is at most 0. */

@@ -19,7 +19,7 @@ FAST double grid_gradient(const Grid *grid, double *g)
         double sum[LANES] = {0};
         EACH_NODE_OF (local, band) {
             const ptrdiff_t q = at.first + e;
-            Doubles mass = DOUBLES(local.m, q + at.node);
+            Doubles mass = DOUBLES(local.m, q + at.mass_shift);
             Doubles fx = mass * DOUBLES(ax, q), fy = mass * DOUBLES(ay, q);
 #define ADD(kind, to, numbers)                                                 \
     {                                                                          \
@@ -32,8 +32,8 @@ FAST double grid_gradient(const Grid *grid, double *g)
 #undef ADD
             DOUBLES(gx, q) = fx;
             DOUBLES(gy, q) = fy;
-            DOUBLES(sum, e) +=
-                DOUBLES(local.inverse_m, q + at.node) * (fx * fx + fy * fy);
+            DOUBLES(sum, e) += DOUBLES(local.inverse_m, q + at.mass_shift) *
+                               (fx * fx + fy * fy);
         }
         total += sum_lanes(sum);
     }
@@ -57,7 +57,7 @@ FAST double grid_linear_residual(const Grid *grid, const double *g,
         EACH_NODE_OF (local, band) {
             const ptrdiff_t q = at.first + e;
             Doubles hx = DOUBLES(px, q), hy = DOUBLES(py, q);
-            Doubles mass = DOUBLES(local.m, q + at.node);
+            Doubles mass = DOUBLES(local.m, q + at.mass_shift);
             Doubles fx = mass * hx, fy = mass * hy;
 #define ADD(kind, to, numbers)                                                 \
     {                                                                          \
@@ -73,8 +73,8 @@ FAST double grid_linear_residual(const Grid *grid, const double *g,
 #undef ADD
             fx = -DOUBLES(gx, q) - fx;
             fy = -DOUBLES(gy, q) - fy;
-            DOUBLES(sum, e) +=
-                DOUBLES(local.inverse_m, q + at.node) * (fx * fx + fy * fy);
+            DOUBLES(sum, e) += DOUBLES(local.inverse_m, q + at.mass_shift) *
+                               (fx * fx + fy * fy);
         }
         EACH_RUN_OF (local, band)
             EACH_OF (NEXT(at, LANES)) {
@@ -103,7 +103,7 @@ FAST void grid_line_polynomial(const Grid *grid, const double *p,
             const ptrdiff_t q = at.first + e;
             Doubles hx = DOUBLES(px, q), hy = DOUBLES(py, q);
             Doubles q0 = {0}, q1 = {0}, q2 = {0}, q3 = {0};
-            Doubles mass = DOUBLES(local.m, q + at.node);
+            Doubles mass = DOUBLES(local.m, q + at.mass_shift);
 #define ADD(kind, to, numbers)                                                 \
     {                                                                          \
         Spring s = evaluate_grid_spring(&local, kind, q, to, numbers);         \
@@ -127,9 +127,9 @@ FAST void grid_line_polynomial(const Grid *grid, const double *p,
 
 /* ---- without springs ---- */
 
-FAST double grid_conjugate(const Grid *grid, const double *g,
-                           const double *last_g, const double *last_p,
-                           double last_slope, double *p)
+FAST double grid_conjugate_direction(const Grid *grid, const double *g,
+                                     const double *last_g, const double *last_p,
+                                     double last_slope, double *p)
 {
     double total = 0;
     BANDS
@@ -157,7 +157,7 @@ FAST double grid_correct_momentum(const Grid *grid)
         EACH_RUN_OF (local, band)
             EACH_OF (NEXT(at, LANES)) {
                 const ptrdiff_t q = at.first + e;
-                double m = local.m[q + at.node];
+                double m = local.m[q + at.mass_shift];
                 sum[0][e] += m;
                 sum[1][e] += m * local.from_target[q];
                 sum[2][e] += m * local.from_target[q + plane];
@@ -176,7 +176,7 @@ FAST double grid_correct_momentum(const Grid *grid)
             EACH_RUN_OF (local, band)
                 EACH_OF (NEXT(at, LANES)) {
                     const ptrdiff_t q = at.first + e;
-                    away[q] -= local.m[q + at.node] > 0 ? mean : 0;
+                    away[q] -= local.m[q + at.mass_shift] > 0 ? mean : 0;
                     x[q] = x_tilde[q] + away[q];
                 }
         }
@@ -199,7 +199,7 @@ FAST void grid_narrow_x(const Grid *grid)
     const int n = grid->segments, plane = grid->rows.plane;
     for (int c = 0; c < 2; c++) {
         const double *const x = grid->x + c * plane;
-        double middle = x[node_place(&grid->rows, n / 2, n / 2)];
-        narrow_numbers(x, 1, middle, plane, grid->float_x + c * plane);
+        double middle = x[node_index(&grid->rows, n / 2, n / 2)];
+        narrow_array(x, 1, middle, plane, grid->float_x + c * plane);
     }
 }

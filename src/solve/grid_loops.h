@@ -31,9 +31,9 @@ typedef struct NodeRun {
     ptrdiff_t first, end; /* index of the first node, and past the last one */
     ptrdiff_t next;       /* distance from a node to the next row */
     ptrdiff_t before, after; /* distances to the columns before and after */
-    ptrdiff_t own, below;    /* Grid.spring_shift of the row, and of the row
-                                before */
-    ptrdiff_t node;          /* index shift of the masses */
+    ptrdiff_t own, below;    /* Grid.spring_shift of the row, and of
+                                the row before */
+    ptrdiff_t mass_shift;    /* index shift of the masses */
 } NodeRun;
 
 INLINE NodeRun nodes_in_row(const RowLayout *rows, int i, int odd)
@@ -113,8 +113,8 @@ INLINE Floats narrow_to_single(Doubles low, Doubles high)
 
 /* Computes to = factor (from - middle) in single precision.
  *   count  of numbers, a multiple of LANES */
-INLINE void narrow_numbers(const double *from, double factor, double middle,
-                           int count, float *to)
+INLINE void narrow_array(const double *from, double factor, double middle,
+                         int count, float *to)
 {
     for (; count > 0; count -= LANES, from += LANES, to += LANES)
         EACH_FLOATS (LANES)
@@ -149,15 +149,15 @@ INLINE NodeRun grid_nodes(const Grid *grid, int i, int odd)
     NodeRun at = nodes_in_row(&grid->rows, i, odd);
     at.own = grid->spring_shift[i + 1];
     at.below = grid->spring_shift[i];
-    at.node = grid->node_shift[i];
+    at.mass_shift = grid->node_shift[i];
     return at;
 }
 
 /* EACH_RUN_OF loops over the nodes of a band, LANES of a row at once in `at`;
  * EACH_NODE_OF loops over the Doubles of these nodes, too, counted by `e`. */
 #define EACH_RUN_OF(grid, band)                                                \
-    for (int i = (band)*BAND; i < (band)*BAND + BAND && i < (grid).rows.nodes; \
-         i++)                                                                  \
+    for (int i = (band)*BAND_ROWS;                                             \
+         i < (band)*BAND_ROWS + BAND_ROWS && i < (grid).rows.nodes; i++)       \
         for (int odd = 0; odd < 2; odd++)                                      \
             for (NodeRun at = grid_nodes(&(grid), i, odd); at.first < at.end;  \
                  at.first += LANES)

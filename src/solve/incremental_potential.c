@@ -37,7 +37,7 @@ void incremental_potential_gradient(const IncrementalPotential *E,
     for (const TermKind *kind; (kind = eval_point_next_term(&at));)
         if (kind->gradient)
             kind->gradient(&at, g);
-    system_clear_pinned(system, g);
+    system_zero_pinned(system, g);
 }
 
 /* Adds the triplets of the masses and of all terms. */
@@ -65,7 +65,7 @@ Status incremental_potential_pattern(const System *system, Sparse *A)
     /* Entries of terms in rows or columns of pinned nodes are dropped, into the
      * last value of A.  A column begins with its diagonal entry, which is 1
      * here in a pinned column. */
-    for (int t = 0; t < triplets.entries && !status; t++)
+    for (int t = 0; t < triplets.count && !status; t++)
         if (t < masses)
             A->value[A->slot[t]] = system->pinned[t / 2];
         else if (A->value[A->column_start[triplets.row[t]]] != 0 ||
@@ -88,7 +88,7 @@ static int add_hessians(const Iterate *iterate, Projection projection,
     return projected;
 }
 
-Status incremental_potential_extend(const Iterate *iterate, bool *grown)
+Status incremental_potential_extend_pattern(const Iterate *iterate, bool *grown)
 {
     EvalPoint at = eval_point_of(&iterate->E, iterate->u, iterate->x);
     Status status = STATUS_OK;
@@ -116,7 +116,7 @@ int incremental_potential_product(const Iterate *at, Projection projection,
     for (int i = 0; i < 2 * system->nodes; i++)
         y[i] = system->m[i / 2] * q[i];
     int projected = add_hessians(at, projection, NULL, q, y);
-    system_clear_pinned(system, y);
+    system_zero_pinned(system, y);
     return projected;
 }
 
@@ -161,8 +161,8 @@ double incremental_potential_max_step(const Iterate *at)
     return fmin(1, system_max_step(point, at->p, false));
 }
 
-bool incremental_potential_allows(const IncrementalPotential *E,
-                                  const double *u, const double *x)
+bool incremental_potential_is_feasible(const IncrementalPotential *E,
+                                       const double *u, const double *x)
 {
     return system_is_feasible(eval_point_of(E, u, x));
 }
@@ -174,7 +174,7 @@ void incremental_potential_absorb_pulls(const Iterate *iterate, double *m,
     EvalPoint at = eval_point_of(&iterate->E, iterate->u, iterate->x);
     bool pulls = false;
     for (int t = 0; t < system->terms; t++)
-        pulls = pulls || system->term[t].kind->diagonal;
+        pulls = pulls || system->term[t].kind->is_diagonal;
     for (int i = 0; i < system->nodes; i++)
         m[2 * i] = m[2 * i + 1] = system->m[i];
     memcpy(u_tilde, iterate->E.u_tilde,
@@ -186,7 +186,7 @@ void incremental_potential_absorb_pulls(const Iterate *iterate, double *m,
         iterate->p[i] = 1;
     }
     for (const TermKind *kind; (kind = eval_point_next_term(&at));) {
-        if (!kind->diagonal)
+        if (!kind->is_diagonal)
             continue;
         kind->gradient(&at, iterate->g);
         kind->hessian(&at, PROJECTION_NONE, NULL, iterate->p, m);
@@ -203,7 +203,7 @@ bool incremental_potential_is_diagonal(const IncrementalPotential *E)
 {
     const System *system = E->system;
     for (int t = 0; t < system->terms; t++)
-        if (system->term[t].kind->value && !system->term[t].kind->diagonal)
+        if (system->term[t].kind->value && !system->term[t].kind->is_diagonal)
             return false;
     return true;
 }

@@ -40,7 +40,7 @@ static double step_energy_difference(const void *function, double alpha)
         x[i] = at->E.x_n[i] + u[i];
     }
     /* Rounding may make a point infeasible that the largest step allows. */
-    bool allowed = incremental_potential_allows(&at->E, u, x) &&
+    bool allowed = incremental_potential_is_feasible(&at->E, u, x) &&
                    rounding_confirms_change(newton);
     return !allowed ? NAN : searches ? change : 0;
 }

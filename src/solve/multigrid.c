@@ -21,7 +21,7 @@ static const double NEARBY = 0.05;
 static const double STALLS = 0.3, PACE = 0.01;
 
 /* Number of iterations after which Newton takes over; most steps need ten. */
-enum { HANDED_ITERATIONS = 200 };
+enum { MAX_MG_ITERATIONS = 200 };
 
 /* A change of E that is at most this part of the step's largest change may be
  * rounding.  If p_bound has not fallen, the change is compared with the
@@ -39,9 +39,9 @@ struct Multigrid {
     double p_bound;          /* m, upper bound of |p_x| + |p_y|, from g alone */
     double last_p_bound;     /* m, p_bound in the iteration before */
     double p_size;           /* m, upper bound of |p_x| + |p_y|, once p is
-                              conjugate to last_p */
+                                conjugate to last_p */
     double moved_since_setup; /* m, upper bound of a node's displacement since
-                               the V-cycle's matrices were computed */
+                                 the V-cycle's matrices were computed */
     double largest_change;   /* J s^2, largest change of E in this step, < 0 */
     Quartic line_E;          /* E(x + alpha p) - E(x), J s^2 */
     unsigned version;        /* System.version in the grid */
@@ -94,7 +94,8 @@ static const char *find_refusal_reason(const Newton *newton)
     bool alone = system_find_term(system, &mass_spring_energy);
     for (int t = 0; alone && t < system->terms; t++) {
         const TermKind *kind = system->term[t].kind;
-        alone = kind == &mass_spring_energy || kind->diagonal || !kind->value;
+        alone =
+            kind == &mass_spring_energy || kind->is_diagonal || !kind->value;
     }
     if (system->segments == 0)
         return "there is no square grid";
@@ -126,7 +127,7 @@ static Status multigrid_evaluate_gradient(Multigrid *mg)
     mg->gradient_norm2 = grid_gradient(&mg->grid, mg->g);
     mg->last_p_bound = mg->p_bound;
     mg->p_bound =
-        sqrt(2 / mg->grid.lightest * mg->gradient_norm2) / mg->grid.length_unit;
+        sqrt(2 / mg->grid.min_mass * mg->gradient_norm2) / mg->grid.length_unit;
     return isfinite(mg->gradient_norm2) ? STATUS_OK : STATUS_NOT_FINITE;
 }
 
@@ -159,7 +160,7 @@ static Status multigrid_read_problem(Newton *newton)
 /* ---- search direction ---- */
 
 /* Clamps the Hessian in the rest of the step. */
-static void multigrid_clamp(Multigrid *mg)
+static void multigrid_clamp_hessian(Multigrid *mg)
 {
     if (!mg->cycle.is_clamped)
         mg->moved_since_setup = INFINITY;
@@ -170,7 +171,7 @@ static void multigrid_clamp(Multigrid *mg)
 static void multigrid_compute_direction(Newton *newton)
 {
     Multigrid *mg = newton->multigrid;
-    if (mg->moved_since_setup > NEARBY * newton->rounding.shortest) {
+    if (mg->moved_since_setup > NEARBY * newton->rounding.shortest_spring) {
         mg->cycle.is_set_up = false;
         mg->moved_since_setup = 0;
     }
@@ -220,7 +221,7 @@ static double minimise_quartic(const Quartic *quartic, int *trials)
 }
 
 /* Computes the change of E along p. */
-static void multigrid_compute_line(Multigrid *mg)
+static void multigrid_compute_line_polynomial(Multigrid *mg)
 {
     grid_line_polynomial(&mg->grid, mg->p, mg->line_E.q);
     for (int i = 0; i < 4; i++)
@@ -238,17 +239,17 @@ static Status multigrid_find_step_length(Newton *newton)
     for (bool again = true; again;) {
         double beta = 0;
         if (record->iteration > 0 && !mg->has_relaxed)
-            beta = grid_conjugate(&mg->grid, mg->g, mg->last_g, mg->last_p,
-                                  last_slope, mg->p);
+            beta = grid_conjugate_direction(&mg->grid, mg->g, mg->last_g,
+                                            mg->last_p, last_slope, mg->p);
         mg->p_size = record->residual * newton->settings.h + beta * last_size;
-        multigrid_compute_line(mg);
+        multigrid_compute_line_polynomial(mg);
         record->slope = mg->line_E.q[0];
         record->alpha = record->slope <= 0
                             ? minimise_quartic(&mg->line_E, &record->trials)
                             : 0;
         again = !(record->alpha > 0) && !mg->cycle.is_clamped;
         if (again) { /* H is not positive definite */
-            multigrid_clamp(mg);
+            multigrid_clamp_hessian(mg);
             multigrid_compute_direction(newton);
         }
     }
@@ -277,9 +278,9 @@ static Status multigrid_update_iterate(Newton *newton)
         return STATUS_OK;
     mg->has_relaxed = mg->p_bound > STALLS * mg->last_p_bound;
     if (mg->has_relaxed) {
-        multigrid_clamp(mg);
+        multigrid_clamp_hessian(mg);
         tiles_relax(&mg->tiles, PACE * record->change * unit / tiles, p);
-        multigrid_compute_line(mg);
+        multigrid_compute_line_polynomial(mg);
         double alpha = minimise_quartic(&mg->line_E, &(int){0});
         if (alpha > 0) { /* not if numbers overflowed in single precision */
             grid_add_step(&mg->grid, alpha, p);
@@ -305,8 +306,8 @@ static Status multigrid_test_iterate(Newton *newton, Status status)
         return status;
     mg->largest_change = fmin(mg->largest_change, record->change);
     bool small = fabs(record->change) <= SMALL_CHANGE * -mg->largest_change;
-    bool last = record->iteration + 1 >= newton_most_iterations(newton);
-    bool stuck = status != STATUS_OK || record->iteration >= HANDED_ITERATIONS;
+    bool last = record->iteration + 1 >= newton_iteration_limit(newton);
+    bool stuck = status != STATUS_OK || record->iteration >= MAX_MG_ITERATIONS;
     bool next_passes =
         fmax(record->residual, 2 * mg->p_bound / newton->settings.h) <=
         newton->tolerance;
@@ -320,7 +321,7 @@ static Status multigrid_test_iterate(Newton *newton, Status status)
         swap_iterates(newton);
         grid_write_state(&mg->grid, &newton->iterate);
     }
-    if (ends && newton->rounding.stiff)
+    if (ends && newton->rounding.is_stiff)
         record->change += turn_free_body(newton);
     if (ends && status != STATUS_NOT_FINITE)
         return STATUS_OK;

@@ -62,13 +62,13 @@ static Status update_iterate(Newton *newton)
 }
 
 /* Large squares take longer for an update and get fewer of them, at least
- * LEAST_LIMIT, so that a step ends within seconds. */
-enum { UPDATES_TIMES_NODES = 250000, LEAST_LIMIT = 1000 };
+ * MIN_ITERATION_LIMIT, so that a step ends within seconds. */
+enum { MAX_UPDATES_TIMES_NODES = 250000, MIN_ITERATION_LIMIT = 1000 };
 
-int newton_most_iterations(const Newton *newton)
+int newton_iteration_limit(const Newton *newton)
 {
-    int most = UPDATES_TIMES_NODES / newton->system->nodes;
-    most = most > LEAST_LIMIT ? most : LEAST_LIMIT;
+    int most = MAX_UPDATES_TIMES_NODES / newton->system->nodes;
+    most = most > MIN_ITERATION_LIMIT ? most : MIN_ITERATION_LIMIT;
     return most < newton->settings.max_iterations
                ? most
                : newton->settings.max_iterations;
@@ -91,7 +91,7 @@ static Status test_iterate(Newton *newton, Status status)
     else if (status == STATUS_OK)
         status = rounding_test_stagnation(newton);
     if (status == STATUS_RUNNING &&
-        newton->record.iteration + 1 >= newton_most_iterations(newton))
+        newton->record.iteration + 1 >= newton_iteration_limit(newton))
         status = STATUS_ITERATION_LIMIT;
     bool ended = status == STATUS_OK || status == STATUS_NOT_FINITE ||
                  status_is_unconverged(status);
@@ -115,7 +115,7 @@ static void book_change(Newton *newton)
         if (newton->change_abs_sum > fabs(first) + fabs(last))
             change = last - first;
     }
-    newton->change += change;
+    newton->total_change += change;
     newton->counters.indefinite_ends +=
         newton->status == STATUS_OK && newton->record.negative_pivots > 0;
 }

@@ -8,7 +8,7 @@
 #include "solve/grid_loops.h"
 
 /* Number of columns that a loop handles at once. */
-enum { GROUP = 4 };
+enum { GROUP_COLUMNS = 4 };
 
 /* Vectors of two and four numbers, an extension of C that gcc and clang share.
  * A vector may start at any number of an array. */
@@ -49,7 +49,7 @@ typedef struct Product {
     {                                                                          \
         const int lanes = sizeof(Lanes) / sizeof(double);                      \
         const double *a = at->A + i, *b = at->B;                               \
-        Lanes s[GROUP][wide] = {0};                                            \
+        Lanes s[GROUP_COLUMNS][wide] = {0};                                    \
         for (int p = 0; p < at->k; p++, a += at->lda, b += at->ldb)            \
             EACH (r, wide)                                                     \
                 EACH (q, n)                                                    \
@@ -60,7 +60,7 @@ typedef struct Product {
                 Lanes *c = (Lanes *)to;                                        \
                 s[q][r] = at->is_subtracted ? *c - s[q][r] : s[q][r];          \
                 if (at->L) {                                                   \
-                    EACH (p, GROUP)                                            \
+                    EACH (p, GROUP_COLUMNS)                                    \
                         if (p < q)                                             \
                             s[q][r] -=                                         \
                                 s[p][r] * at->L[(size_t)p * at->ldl + q];      \
@@ -77,7 +77,7 @@ ROWS(eight_rows_avx, Double4, 2)
 
 INLINE void multiply_columns(const Product *at, int n, bool avx)
 {
-    double inverse[GROUP];
+    double inverse[GROUP_COLUMNS];
     int i = 0;
     for (int q = 0; at->L && q < n; q++)
         inverse[q] = 1 / at->L[(size_t)q * at->ldl + q];
@@ -106,7 +106,7 @@ INLINE void multiply_in_groups(const Product *at, bool avx)
         multiply_columns(at, 3, avx);
         break;
     default:
-        multiply_columns(at, GROUP, avx);
+        multiply_columns(at, GROUP_COLUMNS, avx);
     }
 }
 
@@ -146,8 +146,8 @@ void dgemm_(const char *transa, const char *transb, const int *m, const int *n,
     if (mark_unsupported_case(
             *transa == 'N' && *transb != 'N' && *alpha == 1 && *beta == 0, C))
         return;
-    for (int j = 0; j < *n; j += GROUP)
-        multiply(&(Product){*m, smaller_of(*n - j, GROUP), *k, A, B + j,
+    for (int j = 0; j < *n; j += GROUP_COLUMNS)
+        multiply(&(Product){*m, smaller_of(*n - j, GROUP_COLUMNS), *k, A, B + j,
                             C + (size_t)j * *ldc, *lda, *ldb, *ldc, false, NULL,
                             0});
 }
@@ -161,10 +161,10 @@ void dsyrk_(const char *uplo, const char *trans, const int *n, const int *k,
     if (mark_unsupported_case(
             *uplo == 'L' && *trans == 'N' && *alpha == 1 && *beta == 0, C))
         return;
-    for (int j = 0; j < *n; j += GROUP)
-        multiply(&(Product){*n - j, smaller_of(*n - j, GROUP), *k, A + j, A + j,
-                            C + (size_t)j * *ldc + j, *lda, *lda, *ldc, false,
-                            NULL, 0});
+    for (int j = 0; j < *n; j += GROUP_COLUMNS)
+        multiply(&(Product){*n - j, smaller_of(*n - j, GROUP_COLUMNS), *k,
+                            A + j, A + j, C + (size_t)j * *ldc + j, *lda, *lda,
+                            *ldc, false, NULL, 0});
 }
 
 /* B = B L^-T */
@@ -176,9 +176,9 @@ void dtrsm_(const char *side, const char *uplo, const char *trans,
                                   *diag == 'N' && *alpha == 1,
                               B))
         return;
-    for (int j = 0; j < *n; j += GROUP) {
+    for (int j = 0; j < *n; j += GROUP_COLUMNS) {
         const double *D = L + (size_t)j * *ldl + j;
-        multiply(&(Product){*m, smaller_of(*n - j, GROUP), j, B, L + j,
+        multiply(&(Product){*m, smaller_of(*n - j, GROUP_COLUMNS), j, B, L + j,
                             B + (size_t)j * *ldb, *ldb, *ldl, *ldb, true, D,
                             *ldl});
     }
@@ -209,8 +209,8 @@ void dpotrf_(const char *uplo, const int *n, double *A, const int *lda,
     *info = *uplo != 'L';
     if (*info)
         return;
-    for (int j = 0; j < *n; j += GROUP) {
-        int wide = smaller_of(*n - j, GROUP), below = *n - j - wide;
+    for (int j = 0; j < *n; j += GROUP_COLUMNS) {
+        int wide = smaller_of(*n - j, GROUP_COLUMNS), below = *n - j - wide;
         double *D = A + (size_t)j * *lda + j;
         multiply(&(Product){*n - j, wide, j, A + j, A + j, D, *lda, *lda, *lda,
                             true, NULL, 0});
@@ -239,10 +239,10 @@ static const double *panel_get_column(const Panel *panel, int j)
 /* Finds four columns from column j on, and the inverses of their pivots.  The
  * divisions do not wait for one another. */
 static inline void load_column_group(const Panel *panel, int j,
-                                     const double *a[GROUP],
-                                     double pivot[GROUP])
+                                     const double *a[GROUP_COLUMNS],
+                                     double pivot[GROUP_COLUMNS])
 {
-    for (int q = 0; q < GROUP; q++) {
+    for (int q = 0; q < GROUP_COLUMNS; q++) {
         a[q] = panel_get_column(panel, j + q);
         pivot[q] = 1 / a[q][j + q];
     }
@@ -251,16 +251,16 @@ static inline void load_column_group(const Panel *panel, int j,
 /* Solves for w[j] ... w[j + 3] and takes their share from the rows below. */
 static void solve_forward_group(const Panel *panel, int j, double *w)
 {
-    const double *a[GROUP];
-    double v[GROUP], pivot[GROUP];
+    const double *a[GROUP_COLUMNS];
+    double v[GROUP_COLUMNS], pivot[GROUP_COLUMNS];
     load_column_group(panel, j, a, pivot);
-    EACH (q, GROUP) {
+    EACH (q, GROUP_COLUMNS) {
         v[q] = w[j + q];
         EACH (p, q)
             v[q] -= a[p][j + q] * v[p];
         w[j + q] = v[q] *= pivot[q];
     }
-    int i = j + GROUP;
+    int i = j + GROUP_COLUMNS;
     for (; i + 2 <= panel->rows; i += 2)
         *(Double2 *)(w + i) -=
             (load_double2(a[0] + i) * v[0] + load_double2(a[1] + i) * v[1]) +
@@ -273,23 +273,23 @@ static void solve_forward_group(const Panel *panel, int j, double *w)
 /* Solves for w[j] ... w[j + 3], the rows below being known. */
 static void solve_backward_group(const Panel *panel, int j, double *w)
 {
-    const double *a[GROUP];
-    double v[GROUP], pivot[GROUP];
-    Double2 s[GROUP] = {{0}};
+    const double *a[GROUP_COLUMNS];
+    double v[GROUP_COLUMNS], pivot[GROUP_COLUMNS];
+    Double2 s[GROUP_COLUMNS] = {{0}};
     load_column_group(panel, j, a, pivot);
-    int i = j + GROUP;
+    int i = j + GROUP_COLUMNS;
     for (; i + 2 <= panel->rows; i += 2)
-        EACH (q, GROUP)
+        EACH (q, GROUP_COLUMNS)
             s[q] += load_double2(a[q] + i) * load_double2(w + i);
-    for (int q = 0; q < GROUP; q++)
+    for (int q = 0; q < GROUP_COLUMNS; q++)
         v[q] = w[j + q] - (s[q][0] + s[q][1]);
     for (; i < panel->rows; i++)
-        for (int q = 0; q < GROUP; q++)
+        for (int q = 0; q < GROUP_COLUMNS; q++)
             v[q] -= a[q][i] * w[i];
 #pragma GCC unroll 4
-    for (int q = GROUP - 1; q >= 0; q--) {
+    for (int q = GROUP_COLUMNS - 1; q >= 0; q--) {
 #pragma GCC unroll 4
-        for (int p = GROUP - 1; p > q; p--)
+        for (int p = GROUP_COLUMNS - 1; p > q; p--)
             v[q] -= a[q][j + p] * v[p];
         w[j + q] = v[q] *= pivot[q];
     }
@@ -298,7 +298,7 @@ static void solve_backward_group(const Panel *panel, int j, double *w)
 void panel_forward(const Panel *panel, double *w)
 {
     int j = 0;
-    for (; j + GROUP <= panel->columns; j += GROUP)
+    for (; j + GROUP_COLUMNS <= panel->columns; j += GROUP_COLUMNS)
         solve_forward_group(panel, j, w);
     for (; j < panel->columns; j++) {
         const double *a = panel_get_column(panel, j);
@@ -311,14 +311,14 @@ void panel_forward(const Panel *panel, double *w)
 void panel_backward(const Panel *panel, double *w)
 {
     int j = panel->columns;
-    while (j % GROUP > 0) {
+    while (j % GROUP_COLUMNS > 0) {
         const double *a = panel_get_column(panel, --j);
         for (int i = j + 1; i < panel->rows; i++)
             w[j] -= a[i] * w[i];
         w[j] /= a[j];
     }
     while (j > 0)
-        solve_backward_group(panel, j -= GROUP, w);
+        solve_backward_group(panel, j -= GROUP_COLUMNS, w);
 }
 
 /* ---- what else CHOLMOD and OpenMP ask for ---- */

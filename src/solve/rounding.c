@@ -39,14 +39,14 @@ void rounding_prepare(Newton *newton)
         double l2 = system->springs ? INFINITY : 1;
         for (int s = 0; s < system->springs; s++)
             l2 = fmin(l2, system->l2[s]);
-        rounding->shortest = sqrt(l2);
+        rounding->shortest_spring = sqrt(l2);
         rounding->max_curvature = system_curvature_bound(system);
     }
     rounding->best_residual = INFINITY;
     rounding->stagnant_iterations = 0;
     rounding->E = NAN;
     double stiffness = at->E.weight * rounding->max_curvature;
-    rounding->stiff = stiffness > STIFF_MASSES * rounding->min_mass;
+    rounding->is_stiff = stiffness > STIFF_MASSES * rounding->min_mass;
     rounding->factor_is_inexact =
         stiffness > INEXACT_MASSES * rounding->min_mass;
     rounding->energy_limit = INFINITY;
@@ -88,8 +88,8 @@ bool rounding_confirms_change(Newton *newton)
     Rounding *rounding = &newton->rounding;
     const Iterate *at = &newton->iterate;
     const double *u = newton->u_trial, *x = newton->x_trial;
-    if (newton->settings.line_search == LINE_SEARCH_NONE || !rounding->stiff ||
-        rounding->energy_limit < INFINITY)
+    if (newton->settings.line_search == LINE_SEARCH_NONE ||
+        !rounding->is_stiff || rounding->energy_limit < INFINITY)
         return true;
     if (isnan(rounding->E))
         rounding->E = incremental_potential_value(&at->E, at->u, at->x);

@@ -1,4 +1,4 @@
-/* tiles.c - minimisation of E tile by tile, where folds run in the square. */
+/* tiles.c - minimisation of E tile by tile, where the square buckles. */
 #include "solve/tiles.h"
 
 #include <float.h>
@@ -23,7 +23,7 @@ static const float DEFINITE = 0.0025f;
 static const double SHARE = 0.5, SPREAD = 0.1, STANDS_OUT = 2;
 
 /* Limit of the rounds, which rounding could keep from ending. */
-enum { MAX_ROUNDS = 10000 };
+enum { MAX_TILE_ROUNDS = 10000 };
 
 void tiles_lay_out(const Grid *grid, Memory *memory, Tiles *tiles)
 {
@@ -35,7 +35,7 @@ void tiles_lay_out(const Grid *grid, Memory *memory, Tiles *tiles)
         memory_take_piece(memory, count * sizeof *tiles->activity);
     tiles->last_change =
         memory_take_piece(memory, count * sizeof *tiles->last_change);
-    tiles->chosen = memory_take_piece(memory, count * sizeof *tiles->chosen);
+    tiles->active = memory_take_piece(memory, count * sizeof *tiles->active);
     size_t both = 2 * (size_t)grid->rows.plane * sizeof(float);
     tiles->u = memory_take_piece(memory, both);
     tiles->start_g = memory_take_piece(memory, both);
@@ -65,9 +65,9 @@ typedef float NodeSums[SUMS][LANES];
 
 /* Computes the sums of LANES nodes of a row, in a loop of its own, since steps
  * that do not wait for each other are faster.
- *   is_close  Tiles.is_close: a spring's force has changed since the start by
- *             c (s d - s0 d0) = c (s w + (s - s0) d0), d = d0 + w */
-INLINE void gather_springs(const Tiles *tiles, NodeRun at, bool is_close,
+ *   has_tiny_moves  Tiles.has_tiny_moves: a spring's force has changed since
+ * the start by c (s d - s0 d0) = c (s w + (s - s0) d0), d = d0 + w */
+INLINE void gather_springs(const Tiles *tiles, NodeRun at, bool has_tiny_moves,
                            NodeSums of)
 {
     const Grid *grid = tiles->grid;
@@ -84,7 +84,7 @@ INLINE void gather_springs(const Tiles *tiles, NodeRun at, bool is_close,
     {                                                                          \
         FloatSpring s = evaluate_float_spring(grid, kind, q, to, numbers);     \
         Floats wx = s.dx, wy = s.dy;                                           \
-        if (is_close) {                                                        \
+        if (has_tiny_moves) {                                                  \
             wx = FLOATS(ux, q) - FLOATS(ux, q + (to));                         \
             wy = FLOATS(uy, q) - FLOATS(uy, q + (to));                         \
             Floats more = (2 * s.dx + wx) * wx + (2 * s.dy + wy) * wy;         \
@@ -138,7 +138,7 @@ INLINE void node_line_polynomial(const NodeSums of, int e, float px, float py,
 }
 
 /* Moves LANES nodes of a row that share no spring; adds E's changes to sum. */
-INLINE void relax_nodes(const Tiles *tiles, NodeRun at, bool is_close,
+INLINE void relax_nodes(const Tiles *tiles, NodeRun at, bool has_tiny_moves,
                         double *sum)
 {
     const Grid *grid = tiles->grid;
@@ -146,7 +146,7 @@ INLINE void relax_nodes(const Tiles *tiles, NodeRun at, bool is_close,
     float *const x = grid->float_x, *const y = x + plane;
     float *const ux = tiles->u, *const uy = ux + plane;
     NodeSums of;
-    gather_springs(tiles, at, is_close, of);
+    gather_springs(tiles, at, has_tiny_moves, of);
     EACH_OF (NEXT(at, LANES)) {
         const ptrdiff_t q = at.first + e;
         float gx = of[GX][e], gy = of[GY][e], negative = of[NEGATIVE][e];
@@ -162,7 +162,7 @@ INLINE void relax_nodes(const Tiles *tiles, NodeRun at, bool is_close,
         float go = find_lowering_step(along, &lower);
         ux[q] += go * px;
         uy[q] += go * py;
-        if (!is_close) {
+        if (!has_tiny_moves) {
             x[q] += go * px;
             y[q] += go * py;
         }
@@ -172,7 +172,7 @@ INLINE void relax_nodes(const Tiles *tiles, NodeRun at, bool is_close,
 
 /* Moves each node of a tile once: even rows first, then odd rows, in each of
  * them the even columns first.  Returns the change of E. */
-INLINE double relax_tile(const Tiles *tiles, int tile, bool is_close)
+INLINE double relax_tile(const Tiles *tiles, int tile, bool has_tiny_moves)
 {
     const Grid grid = *tiles->grid;
     int top = tile / tiles->columns * TILE_ROWS, column = tile % tiles->columns;
@@ -184,7 +184,7 @@ INLINE double relax_tile(const Tiles *tiles, int tile, bool is_close)
             NodeRun at = grid_nodes(&grid, i, colour % 2);
             at.first += column * LANES;
             if (at.first < at.end)
-                relax_nodes(tiles, at, is_close, sum);
+                relax_nodes(tiles, at, has_tiny_moves, sum);
         }
     return sum_lanes(sum);
 }
@@ -193,7 +193,7 @@ INLINE double relax_tile(const Tiles *tiles, int tile, bool is_close)
  * Tiles of one colour are not neighbours, so their order has no effect.
  *   visits  out, number of sweeps
  * Returns the change of E. */
-FAST static double relax_active(Tiles *tiles, double activity, int *visits)
+FAST static double sweep_tiles(Tiles *tiles, double activity, int *visits)
 {
     const int high = tiles->rows, wide = tiles->columns;
     double change = 0;
@@ -203,15 +203,15 @@ FAST static double relax_active(Tiles *tiles, double activity, int *visits)
         for (int i = colour / 2; i < high; i += 2)
             for (int j = colour % 2; j < wide; j += 2)
                 if (tiles->activity[i * wide + j] <= activity)
-                    tiles->chosen[count++] = i * wide + j;
+                    tiles->active[count++] = i * wide + j;
         for (int t = 0; t < count; t++) {
-            int tile = tiles->chosen[t]; /* is_close is constant in each copy */
-            tiles->last_change[tile] = tiles->is_close
+            int tile = tiles->active[t]; /* each copy has a constant flag */
+            tiles->last_change[tile] = tiles->has_tiny_moves
                                            ? relax_tile(tiles, tile, true)
                                            : relax_tile(tiles, tile, false);
         }
         for (int t = 0; t < count; t++) { /* neighbours become active */
-            int tile = tiles->chosen[t], i = tile / wide, j = tile % wide;
+            int tile = tiles->active[t], i = tile / wide, j = tile % wide;
             for (int a = i > 0 ? i - 1 : 0; a <= i + 1 && a < high; a++)
                 for (int b = j > 0 ? j - 1 : 0; b <= j + 1 && b < wide; b++)
                     tiles->activity[a * wide + b] +=
@@ -226,7 +226,7 @@ FAST static double relax_active(Tiles *tiles, double activity, int *visits)
 }
 
 /* Starts a relaxation at the grid's x.
- *   g  [2 planes] out, grad E, only if is_close */
+ *   g  [2 planes] out, grad E, only if has_tiny_moves */
 INLINE void begin_relaxation(const Tiles *tiles, double *g)
 {
     const Grid *grid = tiles->grid;
@@ -234,11 +234,11 @@ INLINE void begin_relaxation(const Tiles *tiles, double *g)
     float *const start_g = tiles->start_g;
     grid_narrow_x(grid);
     memset(tiles->u, 0, 2 * (size_t)plane * sizeof(float));
-    if (tiles->is_close)
+    if (tiles->has_tiny_moves)
         grid_gradient(grid, g);
-    narrow_numbers(tiles->is_close ? g : grid->from_target, 1, 0, 2 * plane,
-                   start_g);
-    for (int c = 0; c < 2 && !tiles->is_close; c++)
+    narrow_array(tiles->has_tiny_moves ? g : grid->from_target, 1, 0, 2 * plane,
+                 start_g);
+    for (int c = 0; c < 2 && !tiles->has_tiny_moves; c++)
         EACH_OF (plane)
             start_g[c * plane + e] *= grid->float_m[e];
 }
@@ -247,14 +247,15 @@ FAST void tiles_relax(Tiles *tiles, double pace, double *p)
 {
     int count = tiles->rows * tiles->columns, visits;
     double rounding = tiles->grid->segments * FLT_EPSILON; /* error of x */
-    tiles->is_close = pace > -tiles->grid->stiffest * rounding * rounding;
+    tiles->has_tiny_moves =
+        pace > -tiles->grid->max_stiffness * rounding * rounding;
     begin_relaxation(tiles, p);
     for (int t = 0; t < count; t++)
         tiles->activity[t] = 0;
-    double lowered = relax_active(tiles, 0, &visits);
+    double lowered = sweep_tiles(tiles, 0, &visits);
     for (int t = 0; t < count; t++)
         tiles->activity[t] = tiles->last_change[t];
-    for (int round = 0; round < MAX_ROUNDS; round++) {
+    for (int round = 0; round < MAX_TILE_ROUNDS; round++) {
         double sum = 0, most = 0;
         for (int t = 0; t < count; t++) {
             sum += tiles->activity[t];
@@ -262,7 +263,7 @@ FAST void tiles_relax(Tiles *tiles, double pace, double *p)
         }
         if (!(most < 0 && most <= STANDS_OUT * sum / count))
             break;
-        lowered = relax_active(tiles, SHARE * most, &visits);
+        lowered = sweep_tiles(tiles, SHARE * most, &visits);
         if (!(lowered < pace * visits))
             break;
     }

@@ -1,14 +1,14 @@
-/* tiles.h - a direction from minimisation node by node, where folds run.
+/* tiles.h - a direction from minimisation of E node by node.
  *
- * When the square buckles, a dislocation of some ten nodes runs along a row,
- * less than a cell for each Newton direction of the whole square.  Tiles of
- * 4 x 16 nodes relax by vertex block descent (Chen, Liu, Yang, Yuksel 2024):
- * each node in turn makes Newton's step for itself alone, with its 2x2 block of
- * the Hessian, unclamped if the block is positive definite.  A node then
- * follows a fold in directions in which the clamped Hessian is flat.  Along
- * such a step E is a quartic with known coefficients.  The step may therefore
- * be longer by a factor without a rise of E, and the decrease of E in each tile
- * is known.
+ * A square that buckles has folds: dislocations of some ten nodes.  A fold
+ * moves along a row of cells, by less than a cell for each Newton direction of
+ * the whole square.  Tiles of 4 x 16 nodes relax by vertex block descent (Chen,
+ * Liu, Yang, Yuksel 2024): each node in turn makes Newton's step for itself
+ * alone, with its 2x2 block of the Hessian, unclamped if the block is positive
+ * definite.  A node then follows a fold in directions in which the clamped
+ * Hessian is flat.  Along such a step E is a quartic with known coefficients.
+ * The step may therefore be longer by a factor without a rise of E, and the
+ * decrease of E in each tile is known.
  *
  * Tiles work in single precision on a copy of x.  Near the minimum, where the
  * nodes move by less than the rounding of this copy, it stays as it is, and the
@@ -24,12 +24,12 @@ typedef struct Tiles {
     int rows, columns; /* number of tiles in a column and in a row */
     double *activity;  /* [tiles] change of E that a sweep may bring, < 0 */
     double *last_change; /* [tiles] change of E by the tile's last sweep */
-    int *chosen;       /* [tiles] numbers of the tiles that are swept next */
-    bool is_close;     /* nodes move by less than the rounding of
-                          Grid.float_x, which stays as at the start */
+    int *active;         /* [tiles] numbers of the tiles that are swept next */
+    bool has_tiny_moves; /* nodes move by less than the rounding of
+                            Grid.float_x, which stays as at the start */
     float *u;          /* [2 planes] displacements since the start */
-    float *start_g;    /* [2 planes] grad E at the start if is_close, otherwise
-                          only the gradient of the masses' energy */
+    float *start_g;    /* [2 planes] grad E at the start if has_tiny_moves,
+                          otherwise only the gradient of the masses' energy */
     long sweeps;       /* sweeps of tiles since the object was made */
 } Tiles;
 

@@ -12,7 +12,8 @@ bool turns_may_follow(const Newton *newton)
     for (int i = 0; i < 2 * newton->system->nodes; i++)
         torque += fabs(at->p[i] * at->g[i]);
     return torque > newton->tolerance * newton->settings.h *
-                        newton->rounding.min_mass * newton->rounding.shortest;
+                        newton->rounding.min_mass *
+                        newton->rounding.shortest_spring;
 }
 
 double turn_free_body(Newton *newton)
@@ -23,7 +24,7 @@ double turn_free_body(Newton *newton)
     double *u = newton->iterate.u, *x = newton->iterate.x;
     double mass = 0, centre[2] = {0}, moved[2] = {0}, along = 0, across = 0;
     int pivot;
-    bool turns = newton->rounding.stiff ||
+    bool turns = newton->rounding.is_stiff ||
                  (newton->passes_test && turns_may_follow(newton));
     if (!turns || !system_turns_freely(system, &pivot))
         return 0;
@@ -57,7 +58,7 @@ double turn_free_body(Newton *newton)
         new_u[i] = u[i] + cosine_less_1 * arm + (i % 2 ? sine : -sine) * side;
         new_x[i] = newton->iterate.E.x_n[i] + new_u[i];
     }
-    if (!incremental_potential_allows(&newton->iterate.E, new_u, new_x))
+    if (!incremental_potential_is_feasible(&newton->iterate.E, new_u, new_x))
         return 0; /* rounding closed a gap */
     memcpy(u, new_u, (size_t)size * sizeof *u);
     memcpy(x, new_x, (size_t)size * sizeof *x);

@@ -8,14 +8,14 @@
 #include "solve/grid_spring.h"
 
 /* Largest number of nodes along a side of the coarsest level. */
-enum { COARSEST = 3 };
+enum { COARSEST_NODES = 3 };
 
 void v_cycle_lay_out(const Grid *grid, Memory *memory, VCycle *cycle)
 {
     Level *level = cycle->level;
     *cycle = (VCycle){.grid = grid};
     for (int nodes = grid->rows.nodes, more = 1; more; level++) {
-        more = nodes > COARSEST;
+        more = nodes > COARSEST_NODES;
         level->rows = lay_out_rows(nodes);
         nodes = nodes / 2 + 1;
         size_t bytes = (size_t)level->rows.plane * sizeof(float);
@@ -41,14 +41,14 @@ void v_cycle_lay_out(const Grid *grid, Memory *memory, VCycle *cycle)
  * behind the one before, whose neighbouring rows it needs: what one leaves is
  * still near when the next one reads it. */
 
-INLINE bool has_row(int rows, int i)
+INLINE bool row_exists(int rows, int i)
 {
     return i >= 0 && i < rows;
 }
 
 /* Number of a level's rows; if it is even and a coarser level exists, plus one
  * row outside of the grid, so that the last coarse row lies on a row, too. */
-INLINE int rows_with_coarse(const Level *level)
+INLINE int rows_to_coarsen(const Level *level)
 {
     int nodes = level->rows.nodes;
     return level->coarse ? nodes | 1 : nodes;
@@ -111,7 +111,7 @@ INLINE void invert_diagonal_row(const Level *of, int i)
 INLINE void split_even_odd(const RowLayout *rows, int I, int first,
                            const float *line, float *to)
 {
-    float *even = to + node_place(rows, I, first),
+    float *even = to + node_index(rows, I, first),
           *odd = even + rows->odd_offset;
     EACH_OF (AT_MOST(LANES / 2, (rows->nodes - first + 1) / 2)) {
         even[e] = line[2 * e];
@@ -122,7 +122,7 @@ INLINE void split_even_odd(const RowLayout *rows, int I, int first,
 /* FINER picks an array of the finer level.  With J = first + e, EVEN(di) is its
  * number at (2 I + di, 2 J), ODD(di, dj) the one in column 2 (J + dj) + 1. */
 #define FINER(from)                                                            \
-    const float *const a = (from) + node_place(&fine, 2 * I, 0) + first
+    const float *const a = (from) + node_index(&fine, 2 * I, 0) + first
 #define EVEN(di)    a[(di)*fine.pitch + e]
 #define ODD(di, dj) a[(di)*fine.pitch + fine.odd_offset + e + (dj)]
 
@@ -173,21 +173,22 @@ INLINE void restrict_row(const RowLayout *finer, const RowLayout *coarse, int I,
 INLINE void set_up_rows(const VCycle *cycle, const Level *level, int i)
 {
     for (int row = i; row < i + 2; row++)
-        if (has_row(level->rows.nodes, row)) {
+        if (row_exists(level->rows.nodes, row)) {
             if (level == cycle->level)
                 compute_tensor_row(cycle, row);
             invert_diagonal_row(level, row);
         }
-    if (level->coarse && has_row(rows_with_coarse(level), i))
+    if (level->coarse && row_exists(rows_to_coarsen(level), i))
         coarsen_row(level, level->coarse, i / 2);
 }
 
 void v_cycle_read_system(VCycle *cycle)
 {
     const Grid *grid = cycle->grid;
-    double m = grid->lightest;
+    double m = grid->min_mass;
     Level *l = cycle->level;
-    for (; l->rows.nodes > COARSEST && grid->stiffest > m; l++, m *= 4) {
+    for (; l->rows.nodes > COARSEST_NODES && grid->max_stiffness > m;
+         l++, m *= 4) {
         const Level *coarse = l->coarse = l + 1;
         int last = l->rows.nodes - 1;
         for (int I = 0; I < coarse->rows.nodes; I++) {
@@ -195,8 +196,8 @@ void v_cycle_read_system(VCycle *cycle)
             for (int J = 0; J < coarse->rows.nodes; J++) {
                 int i = 2 * I < last ? 2 * I : last;
                 int j = 2 * J < last ? 2 * J : last;
-                if (l->m[node_place(&l->rows, i, j)] == 0)
-                    coarse->m[node_place(&coarse->rows, I, J)] = 0;
+                if (l->m[node_index(&l->rows, i, j)] == 0)
+                    coarse->m[node_index(&coarse->rows, I, J)] = 0;
             }
         }
     }
@@ -206,36 +207,36 @@ void v_cycle_read_system(VCycle *cycle)
 /* ---- the V-cycle: A x = b ---- */
 
 /* Result of a pass over one colour of a row. */
-typedef enum PassResult {
-    FIRST,    /* x = D (b + K x' of springs to earlier colours), from x = 0 */
-    RESIDUAL, /* w = b - A x after FIRST: sum K x', x' at far ends of springs
-                 to later colours */
-    SMOOTH,   /* x += D (b - A x), a Gauss-Seidel pass */
-    PRODUCT   /* w = A x; x.b and x.w are added to xb and xw */
-} PassResult;
+typedef enum PassKind {
+    PASS_FIRST,    /* x = D (b + K x' of springs to earlier colours); x was 0 */
+    PASS_RESIDUAL, /* w = b - A x after PASS_FIRST: sum K x', x' at far ends of
+                      springs to later colours */
+    PASS_SMOOTH,   /* x += D (b - A x), a Gauss-Seidel pass */
+    PASS_PRODUCT   /* w = A x; x.b and x.w are added to xb and xw */
+} PassKind;
 
 /* Makes a pass over one colour of row i, if the level has this row.  The colour
  * is 2 in odd rows, plus 1 in odd columns.  Springs lead to earlier colours
  * along the row from odd columns, and across rows from odd rows. */
-INLINE void visit_row(const Level *of, int i, int colour, PassResult result,
-                      float *xb, float *xw)
+INLINE void pass_over_row(const Level *of, int i, int colour, PassKind result,
+                          float *xb, float *xw)
 {
     const Level level = *of;
     const ptrdiff_t plane = level.rows.plane;
-    const bool from_0 = result == FIRST || result == RESIDUAL;
-    const bool along = !from_0 || (colour % 2 != 0) == (result == FIRST);
-    const bool across = !from_0 || (colour / 2 != 0) == (result == FIRST);
+    const bool from_0 = result == PASS_FIRST || result == PASS_RESIDUAL;
+    const bool along = !from_0 || (colour % 2 != 0) == (result == PASS_FIRST);
+    const bool across = !from_0 || (colour / 2 != 0) == (result == PASS_FIRST);
     float *const x = level.x, *const y = x + plane;
     float *const wx = level.w, *const wy = wx + plane;
     const float *const bx = level.b, *const by = bx + plane;
-    if (!has_row(level.rows.nodes, i))
+    if (!row_exists(level.rows.nodes, i))
         return;
     for (NodeRun at = nodes_in_row(&level.rows, i, colour % 2);
          at.first < at.end; at.first += LANES)
         EACH_FLOATS (NEXT(at, LANES)) {
             const ptrdiff_t q = at.first + e;
             Floats hx = {0}, hy = {0}, ax = {0}, ay = {0};
-            if (result == FIRST) { /* ax and ay are b - A x here, else A x */
+            if (result == PASS_FIRST) { /* (ax, ay): b - A x here, else A x */
                 ax = FLOATS(bx, q);
                 ay = FLOATS(by, q);
             } else if (!from_0) {
@@ -263,12 +264,12 @@ INLINE void visit_row(const Level *of, int i, int colour, PassResult result,
 #undef ADD
             Floats rx = from_0 ? ax : FLOATS(bx, q) - ax;
             Floats ry = from_0 ? ay : FLOATS(by, q) - ay;
-            if (result == FIRST || result == SMOOTH) {
+            if (result == PASS_FIRST || result == PASS_SMOOTH) {
                 Floats xx = FLOATS(level.D[0], q), xy = FLOATS(level.D[1], q);
                 Floats yy = FLOATS(level.D[2], q);
                 FLOATS(x, q) = hx + (xx * rx + xy * ry);
                 FLOATS(y, q) = hy + (xy * rx + yy * ry);
-            } else if (result == RESIDUAL) {
+            } else if (result == PASS_RESIDUAL) {
                 FLOATS(wx, q) = WHERE(FLOATS(level.D[0], q) != 0, rx);
                 FLOATS(wy, q) = WHERE(FLOATS(level.D[0], q) != 0, ry);
             } else {
@@ -286,9 +287,9 @@ INLINE void prolong_row(const Level *level, const RowLayout *coarse, int i,
                         const float *from, float *to)
 {
     const RowLayout fine = level->rows;
-    const float *const a = from + node_place(coarse, i / 2, 0);
-    const float *const z = from + node_place(coarse, (i + 1) / 2, 0);
-    const int odd_offset = coarse->odd_offset, at = node_place(&fine, i, 0);
+    const float *const a = from + node_index(coarse, i / 2, 0);
+    const float *const z = from + node_index(coarse, (i + 1) / 2, 0);
+    const int odd_offset = coarse->odd_offset, at = node_index(&fine, i, 0);
     float *const even = to + at, *const odd = even + fine.odd_offset;
     const float *const D = level->D[0] + at, *const odd_D = D + fine.odd_offset;
     for (int first = 0; 2 * first < fine.count[0]; first += LANES / 2)
@@ -309,19 +310,19 @@ INLINE void prolong_row(const Level *level, const RowLayout *coarse, int i,
  * come before odd rows, and in each row even columns before odd columns. */
 FAST static void descend_level(const VCycle *cycle, const Level *l)
 {
-    const int rows = rows_with_coarse(l);
+    const int rows = rows_to_coarsen(l);
     for (int i = 0; i < rows + 4; i += 2) {
         if (!cycle->is_set_up)
             set_up_rows(cycle, l, i);
-        visit_row(l, i, 0, FIRST, NULL, NULL);
-        visit_row(l, i, 1, FIRST, NULL, NULL);
-        visit_row(l, i - 1, 2, FIRST, NULL, NULL);
-        visit_row(l, i - 1, 3, FIRST, NULL, NULL);
-        visit_row(l, i - 1, 2, RESIDUAL, NULL, NULL);
-        visit_row(l, i - 1, 3, RESIDUAL, NULL, NULL);
-        visit_row(l, i - 2, 0, RESIDUAL, NULL, NULL);
-        visit_row(l, i - 2, 1, RESIDUAL, NULL, NULL);
-        for (int c = 0; c < 2 && l->coarse && has_row(rows, i - 4); c++)
+        pass_over_row(l, i, 0, PASS_FIRST, NULL, NULL);
+        pass_over_row(l, i, 1, PASS_FIRST, NULL, NULL);
+        pass_over_row(l, i - 1, 2, PASS_FIRST, NULL, NULL);
+        pass_over_row(l, i - 1, 3, PASS_FIRST, NULL, NULL);
+        pass_over_row(l, i - 1, 2, PASS_RESIDUAL, NULL, NULL);
+        pass_over_row(l, i - 1, 3, PASS_RESIDUAL, NULL, NULL);
+        pass_over_row(l, i - 2, 0, PASS_RESIDUAL, NULL, NULL);
+        pass_over_row(l, i - 2, 1, PASS_RESIDUAL, NULL, NULL);
+        for (int c = 0; c < 2 && l->coarse && row_exists(rows, i - 4); c++)
             restrict_row(&l->rows, &l->coarse->rows, i / 2 - 2,
                          l->w + c * l->rows.plane,
                          l->coarse->b + c * l->coarse->rows.plane);
@@ -339,10 +340,10 @@ FAST static void ascend_level(const Level *l)
                 prolong_row(l, &l->coarse->rows, row,
                             l->coarse->x + c * l->coarse->rows.plane,
                             l->x + c * l->rows.plane);
-        visit_row(l, i - 1, 3, SMOOTH, NULL, NULL);
-        visit_row(l, i - 1, 2, SMOOTH, NULL, NULL);
-        visit_row(l, i - 2, 1, SMOOTH, NULL, NULL);
-        visit_row(l, i - 2, 0, SMOOTH, NULL, NULL);
+        pass_over_row(l, i - 1, 3, PASS_SMOOTH, NULL, NULL);
+        pass_over_row(l, i - 1, 2, PASS_SMOOTH, NULL, NULL);
+        pass_over_row(l, i - 2, 1, PASS_SMOOTH, NULL, NULL);
+        pass_over_row(l, i - 2, 0, PASS_SMOOTH, NULL, NULL);
     }
 }
 
@@ -363,8 +364,8 @@ FAST static void multiply_level(const Level *level, double *sums)
     for (int i = 0; i < level->rows.nodes; i++) {
         float xb[LANES] = {0}, xw[LANES] = {0};
         double row[2] = {0, 0};
-        visit_row(level, i, 0, PRODUCT, xb, xw);
-        visit_row(level, i, 1, PRODUCT, xb, xw);
+        pass_over_row(level, i, 0, PASS_PRODUCT, xb, xw);
+        pass_over_row(level, i, 1, PASS_PRODUCT, xb, xw);
         for (int e = 0; e < LANES; e++) {
             row[0] += (double)xb[e];
             row[1] += (double)xw[e];
@@ -411,8 +412,8 @@ FAST static double advance_conjugate_gradients(const VCycle *of, float alpha,
                 square[e] = of_b;
             }
             EACH_OF (NEXT(at, LANES))
-                sum[e] +=
-                    grid.inverse_m[at.first + at.node + e] * (double)square[e];
+                sum[e] += grid.inverse_m[at.first + at.mass_shift + e] *
+                          (double)square[e];
         }
         total += sum_lanes(sum);
     }
@@ -425,7 +426,7 @@ FAST static double advance_conjugate_gradients(const VCycle *of, float alpha,
 bool p_passes_test(const Grid *grid, double largest, double square,
                    double longest)
 {
-    return largest + sqrt(2 / grid->lightest * square) <= longest;
+    return largest + sqrt(2 / grid->min_mass * square) <= longest;
 }
 
 /* Limit of the V-cycles for one direction. */
@@ -440,7 +441,7 @@ enum { MAX_CYCLES = 60 };
 static const double MARGIN = 1.3, HOPEFUL = 0.2, LOOSE = 0.3, LEAST = 1e-4;
 
 /* Returns the largest |x_x| + |x_y| of a node. */
-FAST static double find_largest(const Level *level)
+FAST static double find_largest_x(const Level *level)
 {
     const float *const x = level->x, *const y = x + level->rows.plane;
     float most[LANES] = {0};
@@ -460,20 +461,20 @@ FAST bool v_cycle_solve(VCycle *cycle, const double *g, double square,
 {
     const Grid *grid = cycle->grid;
     const int numbers = 2 * grid->rows.plane;
-    const double unit = power_of_two_scale(sqrt(square * grid->lightest));
+    const double unit = power_of_two_scale(sqrt(square * grid->min_mass));
     const float *found = cycle->level->x;
     double last = 0, alpha = 1;
     bool passes = false;
     if (!cycle->is_set_up)
         grid_narrow_x(grid);
-    narrow_numbers(g, -unit, 0, numbers, cycle->level->b);
+    narrow_array(g, -unit, 0, numbers, cycle->level->b);
     for (int i = 0; i < MAX_CYCLES && !passes; i++) {
         double sums[2];
         run_v_cycle(cycle, cycle->level);
         cycle->is_set_up = true;
         cycle->cycles++;
         if (i == 0) {
-            *largest = find_largest(cycle->level) / unit;
+            *largest = find_largest_x(cycle->level) / unit;
             if (!cycle->is_clamped)
                 break;
             found = cycle->p;

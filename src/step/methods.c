@@ -8,7 +8,7 @@
  * never is without damping. */
 
 /* v_(n+1) = v_n + h a(x_n) */
-static void kick(TimeIntegrator *run)
+static void kick_velocities(TimeIntegrator *run)
 {
     double *new_v = run->new_v;
     system_acceleration(run->system, run->x, new_v);
@@ -17,7 +17,7 @@ static void kick(TimeIntegrator *run)
 }
 
 /* x_(n+1) = x_n + h v */
-static void drift(TimeIntegrator *run, const double *v)
+static void drift_positions(TimeIntegrator *run, const double *v)
 {
     for (size_t i = 0; i < run->x_length; i++)
         run->new_x[i] = run->x[i] + run->h * v[i];
@@ -26,15 +26,15 @@ static void drift(TimeIntegrator *run, const double *v)
 /* Drifts with the velocity of t_n.  Order 1. */
 static void forward_euler_finish(TimeIntegrator *run)
 {
-    kick(run);
-    drift(run, run->v);
+    kick_velocities(run);
+    drift_positions(run, run->v);
 }
 
 /* Drifts with the velocity of t_(n+1).  Order 1. */
 static void symplectic_euler_finish(TimeIntegrator *run)
 {
-    kick(run);
-    drift(run, run->new_v);
+    kick_velocities(run);
+    drift_positions(run, run->new_v);
 }
 
 /* Velocity Verlet: x_(n+1) = x_n + h v_n + h^2/2 a_n,
@@ -175,7 +175,7 @@ static void midpoint_finish(TimeIntegrator *run)
 
 const IntegratorMethod integrator_methods[] = {
     {"backward-euler", "backward Euler", 1, .is_implicit = true,
-     .takes_all_terms = true, .damps = true, .stages = 1,
+     .supports_all_terms = true, .dissipates = true, .stages = 1,
      .set_target = backward_euler_set_target, .finish = backward_euler_finish},
     {"symplectic-euler", "symplectic Euler", 1,
      .finish = symplectic_euler_finish},
@@ -183,10 +183,10 @@ const IntegratorMethod integrator_methods[] = {
     {"verlet", "velocity Verlet", 2, .arrays = 1, .finish = verlet_finish},
     {"midpoint", "implicit midpoint", 2, .is_implicit = true, .stages = 1,
      .set_target = midpoint_set_target, .finish = midpoint_finish},
-    {"bdf2", "BDF2", 2, .is_implicit = true, .damps = true,
+    {"bdf2", "BDF2", 2, .is_implicit = true, .dissipates = true,
      .only_by_name = true, .arrays = 2, .stages = 1,
      .set_target = bdf2_set_target, .finish = bdf2_finish},
-    {"sdirk2", "SDIRK2", 2, .is_implicit = true, .damps = true,
+    {"sdirk2", "SDIRK2", 2, .is_implicit = true, .dissipates = true,
      .only_by_name = true, .stages = 2, .set_target = sdirk2_set_target,
      .finish = sdirk2_finish},
     {.name = NULL},

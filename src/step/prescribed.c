@@ -25,15 +25,15 @@ enum { MAX_HALVINGS = 10, MAX_PARTS = 100 };
  * barrier's width as their gap. */
 #define CARRIED_GAP 0.3
 
-/* Limits like MAX_HALVINGS and MAX_PARTS for an obstacle that a hand moves:
- * lower, as the rest of its way can wait for the next step. */
+/* Limits like MAX_HALVINGS and MAX_PARTS for an obstacle that a
+ * hand moves: lower, as the rest of its way can wait for the next step. */
 enum { HAND_HALVINGS = 6, HAND_PARTS = 8 };
 
 /* Whether obstacle k moves in the rest of this step. */
 static bool obstacle_moves(const Contact *contact, int k)
 {
     const double *v = contact->obstacle[k].v;
-    bool stopped = contact->hand.stopped && k == contact->hand.obstacle;
+    bool stopped = contact->hand.is_blocked && k == contact->hand.obstacle;
     return !stopped && (v[0] != 0 || v[1] != 0);
 }
 
@@ -89,7 +89,7 @@ static void move_carried_nodes(const System *system, const Contact *contact,
         if (!obstacle_moves(contact, k))
             continue;
         for (int i = 0; i < system->nodes; i++) {
-            if (!contact_has_pair(contact, system, i, k) ||
+            if (!contact_counts_pair(contact, system, i, k) ||
                 system->pinned[i]) /* a pinned node stays */
                 continue;
             double now[2] = {x_n[2 * i] + u[2 * i],
@@ -108,7 +108,7 @@ static void move_carried_nodes(const System *system, const Contact *contact,
 /* Moves obstacles, pins and carried nodes by a part of the step.  Sets new_x to
  * u: Newton's displacement plus this motion.  Returns whether all terms allow u
  * and no body passes through another.  If not, moves the obstacles back. */
-static bool try_motion(TimeIntegrator *run, double part)
+static bool try_prescribed_motion(TimeIntegrator *run, double part)
 {
     const System *system = run->system;
     Contact *contact = contact_of(run->system);
@@ -129,7 +129,7 @@ static bool try_motion(TimeIntegrator *run, double part)
     }
     IncrementalPotential E = {
         .system = system, .weight = run->h * run->h, .x_n = x_n};
-    if (incremental_potential_allows(&E, u, x) &&
+    if (incremental_potential_is_feasible(&E, u, x) &&
         system_path_is_free(system, before, p))
         return true;
     move_obstacles(contact, -way);
@@ -146,7 +146,7 @@ static double move_farthest(TimeIntegrator *run, double part, int halvings,
                             int parts)
 {
     for (int i = 0; i < halvings && run->parts_made < parts; i++, part /= 2)
-        if (try_motion(run, part))
+        if (try_prescribed_motion(run, part))
             return part;
     return 0;
 }
@@ -155,13 +155,13 @@ void prescribed_start(TimeIntegrator *run)
 {
     Contact *contact = contact_of(run->system);
     double part = 0;
-    if (contact && contact->hand.held &&
+    if (contact && contact->hand.is_held &&
         obstacle_moves(contact, contact->hand.obstacle)) {
         part = move_farthest(
             run, fmin(run->remaining_part, push_max_step(contact, run->h)),
             HAND_HALVINGS, HAND_PARTS);
-        contact->hand.stopped = part == 0;
-        contact->hand.stopped_at = run->moved_part;
+        contact->hand.is_blocked = part == 0;
+        contact->hand.free_part = run->moved_part;
     }
     bool others = run->system->pin_v != NULL;
     for (int k = 0; contact && k < contact->obstacles; k++)
@@ -170,7 +170,7 @@ void prescribed_start(TimeIntegrator *run)
         part = move_farthest(run, run->remaining_part, MAX_HALVINGS, MAX_PARTS);
     run->is_blocked = part == 0 && others;
     if (part == 0) /* no further motion in this step */
-        try_motion(run, 0);
+        try_prescribed_motion(run, 0);
     else
         run->moved_part += part;
     run->remaining_part = part == 0 ? 0 : run->remaining_part - part;
@@ -203,7 +203,7 @@ bool prescribed_end_part(TimeIntegrator *run, Status *status)
         return false;
     if (run->is_blocked && !*status)
         *status = STATUS_BLOCKED;
-    if (run->remaining_part > 0 && updates < newton_most_iterations(newton))
+    if (run->remaining_part > 0 && updates < newton_iteration_limit(newton))
         return true;
     /* The parts of a step share one limit of iterations. */
     if (run->remaining_part > 0)
@@ -239,8 +239,9 @@ double prescribed_work(const TimeIntegrator *run)
              elements_next(&walk);) {
             int k = walk.element.partner;
             const double *v = contact->obstacle[k].v, *n = walk.element.n;
-            bool stopped = contact->hand.stopped && k == contact->hand.obstacle;
-            sum += (stopped ? contact->hand.stopped_at : run->moved_part) *
+            bool stopped =
+                contact->hand.is_blocked && k == contact->hand.obstacle;
+            sum += (stopped ? contact->hand.free_part : run->moved_part) *
                    contact_normal_force(&contact->barrier, walk.element.s) *
                    (n[0] * v[0] + n[1] * v[1]);
         }

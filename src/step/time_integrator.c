@@ -20,7 +20,7 @@ bool integrator_method_refuses(const IntegratorMethod *method,
 {
     for (int t = 0; t < system->terms; t++) {
         const TermKind *kind = system->term[t].kind;
-        if (!kind->any_integrator && !method->takes_all_terms)
+        if (!kind->supports_all_integrators && !method->supports_all_terms)
             return true;
     }
     return false;
@@ -35,7 +35,7 @@ Status time_integrator_create(const IntegratorMethod *method, System *system,
         .method = method, .system = system, .x_length = size, .h = settings->h};
     if (!system_is_feasible(make_eval_point(system, x, NULL, x)) ||
         integrator_method_refuses(method, system) ||
-        (system->pin_v && !method->takes_all_terms))
+        (system->pin_v && !method->supports_all_terms))
         return STATUS_INVALID_INPUT;
     run->x = calloc((4 + (size_t)method->arrays) * size, sizeof *x);
     if (!run->x)
@@ -164,7 +164,7 @@ Status time_integrator_begin(TimeIntegrator *run)
     run->bad_status = STATUS_OK;
     run->stage = 0;
     if (run->newton)
-        run->newton->change = 0;
+        run->newton->total_change = 0;
     run->is_driven = prescribed_begin(run);
     Status status = begin_term_steps(run);
     if (status)

@@ -200,7 +200,7 @@ static void at_a_wall(Spot *spot, Jet *sum, const void *data, int i)
     const System *system = spot->at->system;
     const Contact *contact = contact_of(system);
     int node = i % system->nodes, k = i / system->nodes;
-    if (contact_has_pair(contact, system, node, k))
+    if (contact_counts_pair(contact, system, node, k))
         (data == contact ? touch : friction)(spot, sum, contact, node, k);
 }
 
@@ -374,7 +374,7 @@ static void meeting(Spot *spot, Jet *sum, const void *data, int i)
 static bool triangle(Spot *spot, const Cells *cells, int t, Jet *J)
 {
     const double *k = spot->at->system->k;
-    const int *node = cells->triangles.node[t], *side = cells->sides[t];
+    const int *node = cells->triangles.node[t], *side = cells->side_springs[t];
     Jet e[2][2];
     if (k[side[0]] == 0 || k[side[1]] == 0 || k[side[2]] == 0)
         return false;
@@ -716,7 +716,7 @@ static bool evaluate_block(Spot *spot, int row, const void *data, int part,
         block->H[i] = w * W.pq;
         block->g[i / n] = w * W.p;
     }
-    if (lifts && formulas[row].kind->place != PLACE_FRICTION)
+    if (lifts && formulas[row].kind->rank != RANK_FRICTION)
         add_lift(spot, row, data, part, lifts, p, q, block);
     return true;
 }
@@ -1020,7 +1020,7 @@ double smallest_gap(const System *system, const double *x)
     double smallest = INFINITY;
     for (int k = 0; contact && k < contact->obstacles; k++)
         for (int i = 0; i < system->nodes; i++)
-            if (contact_has_pair(contact, system, i, k))
+            if (contact_counts_pair(contact, system, i, k))
                 smallest = fmin(smallest, exact_gap(system, x, i, k));
     return smallest;
 }

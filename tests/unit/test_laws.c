@@ -115,7 +115,7 @@ static Obstacle *push_wall(void)
 {
     Contact *contact = contact_of(&few);
     contact->obstacle[0].o[0] = -0.1;
-    contact->hand = (Push){.held = true, .target = {1, 0}, .mesh = {.side = 1}};
+    contact->hand = (Push){.is_held = 1, .target = {1, 0}, .mesh = {.side = 1}};
     return &contact->obstacle[0];
 }
 
@@ -136,7 +136,7 @@ TEST(a_hand_pushes_with_a_bounded_speed)
     }
     CHECK_NEAR(wall->o[0], 1, 1e-12);
     CHECK(run.v[0] > 1 && run.work >= 0.5 * run.v[0] * run.v[0]);
-    contact_of(&few)->hand.held = false;
+    contact_of(&few)->hand.is_held = false;
     double work = run.work;
     step();
     CHECK(wall->o[0] == 1 && run.work == work);
@@ -178,7 +178,7 @@ TEST(a_ball_that_is_pushed_jumps_over_nothing)
     few_masses(1, 0);
     CHECK_OK(contact_configure(&few, &(Barrier){0.002, 1}, 1, &ball));
     Contact *contact = contact_of(&few);
-    contact->hand = (Push){.held = true, .target = {9, 0}, .mesh = {.side = 1}};
+    contact->hand = (Push){.is_held = 1, .target = {9, 0}, .mesh = {.side = 1}};
     let_go(0.01, still, still);
     for (int i = 0; i < 50; i++) {
         step();

@@ -70,7 +70,7 @@ static void pull(double times)
     int node = body->nodes / 2;
     Pull hand = {.node = node,
                  .mouse_xy = {0.1, 0.4},
-                 .stiffness = times * body->m[node] / (H * H),
+                 .mouse_k = times * body->m[node] / (H * H),
                  .cell_size = 1.0 / body->segments,
                  .side = 1};
     CHECK_OK(pull_configure(body, &hand_energy, &hand));

@@ -61,7 +61,7 @@ TEST(residuals_are_what_they_are_called)
             double exact = exact_residual(&E, last.u, NULL, run->h, 0, 1, NULL);
             bool multigrid = newton->active_solver == SOLVER_MULTIGRID;
             seen[multigrid][last.record.residual_kind]++;
-            if (last.record.residual_kind == RESIDUAL_VALUE)
+            if (last.record.residual_kind == RESIDUAL_EXACT)
                 CHECK_NEAR(residual, exact, 1e-9 * exact + 1e-10);
             else if (multigrid && newton->passes_test)
                 CHECK_NEAR(residual, exact, tolerance - residual);
@@ -73,8 +73,8 @@ TEST(residuals_are_what_they_are_called)
                 CHECK_NEAR(residual, exact, 1e-3 * exact);
         }
     }
-    CHECK(seen[0][RESIDUAL_VALUE] > 20 && seen[0][RESIDUAL_ESTIMATE] > 20);
-    CHECK(seen[1][RESIDUAL_VALUE] == 0 && seen[1][RESIDUAL_ESTIMATE] > 20);
+    CHECK(seen[0][RESIDUAL_EXACT] > 20 && seen[0][RESIDUAL_ESTIMATE] > 20);
+    CHECK(seen[1][RESIDUAL_EXACT] == 0 && seen[1][RESIDUAL_ESTIMATE] > 20);
 }
 
 /* ---- two nodes ----------------------------------------------------------- */

@@ -23,7 +23,7 @@ static void disturb(const Options *options, Simulation *used)
     int last = used->system.nodes - 1;
     bool pinned = used->system.pinned[last];
     bool damps =
-        used->run[0].method->takes_all_terms && used->system.springs > 0;
+        used->run[0].method->supports_all_terms && used->system.springs > 0;
     simulation_set(used, OPTION_SLOT(timestep), 2 * options->timestep);
     CHECK_OK(simulation_pin(used, last, !pinned));
     CHECK_OK(simulation_hold(used, 0, 0.1, 0.2));

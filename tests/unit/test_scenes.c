@@ -167,7 +167,7 @@ TEST(pairs_that_come_up_inside_a_step_have_entries)
     CHECK(system->nodes == 18);
     make_steps(scene, 1);
     CHECK(self->pairs == 0);
-    CHECK_OK(incremental_potential_extend(&newton->iterate, &grown));
+    CHECK_OK(incremental_potential_extend_pattern(&newton->iterate, &grown));
     CHECK(!grown);
     for (int i = 9; i < 18; i++)
         u[2 * i + 1] = -0.2 + 0.5 * self->d_hat;
@@ -183,7 +183,7 @@ TEST(pairs_that_come_up_inside_a_step_have_entries)
                                   before.p, Hp);
     for (int i = 0; i < 36; i++)
         CHECK_NEAR(Hp[i], -newton->iterate.g[i], 1e-10);
-    CHECK_OK(incremental_potential_extend(&newton->iterate, &grown));
+    CHECK_OK(incremental_potential_extend_pattern(&newton->iterate, &grown));
     CHECK(!grown);
 }
 

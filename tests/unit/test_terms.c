@@ -122,9 +122,9 @@ static void make_grid(const Row *row, Random *random, Case *c)
         c->system.k[random_below(random, c->system.springs)] = 0;
     if (row->shape == CORNER) { /* one triangle is left, without springs */
         const Cells *cells = system_find_term(&c->system, &cell_energy)->data;
+        const int *side = cells->side_springs[0];
         for (int s = 0; s < c->system.springs; s++)
-            if (s != cells->sides[0][0] && s != cells->sides[0][1] &&
-                s != cells->sides[0][2])
+            if (s != side[0] && s != side[1] && s != side[2])
                 c->system.k[s] = 0;
     }
 }
@@ -360,7 +360,7 @@ static void derivatives(Case *c, const TermKind *kind)
             differs = differs || projected[i] != Hq[i];
         CHECK((changed > 0) == differs);
     }
-    for (int i = 0; i < c->size && kind->diagonal;
+    for (int i = 0; i < c->size && kind->is_diagonal;
          i++) /* the same everywhere */
         near("curvature", fabs(Hq[i]), 0,
              c->at.weight * kind->curvature_bound(&c->at) * fabs(c->q[i]) *
@@ -417,7 +417,7 @@ static double part_left(const Case *c, const double *x)
     const Contact *contact = contact_of(&c->system);
     double least = INFINITY;
     for (int i = 0; contact && i < c->system.nodes; i++)
-        if (contact_has_pair(contact, &c->system, i, 0))
+        if (contact_counts_pair(contact, &c->system, i, 0))
             least = fmin(least, exact_gap(&c->system, x, i, 0) /
                                     exact_gap(&c->system, c->x, i, 0));
     return contact
@@ -464,7 +464,7 @@ static void projection(Case *c, Random *random)
     int n = c->size;
     Sparse A;
     bool grown;
-    CHECK_OK(incremental_potential_extend(&iterate, &grown));
+    CHECK_OK(incremental_potential_extend_pattern(&iterate, &grown));
     CHECK_OK(incremental_potential_pattern(&c->system, &A));
     CHECK(incremental_potential_hessian(&iterate, PROJECTION_NONE, &A) == 0);
     dense_from_sparse(&A, plain);
