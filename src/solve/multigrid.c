@@ -321,10 +321,17 @@ static Status multigrid_test_iterate(Newton *newton, Status status)
         swap_iterates(newton);
         grid_write_state(&mg->grid, &newton->iterate);
     }
-    if (ends && newton->rounding.is_stiff)
-        record->change += turn_free_body(newton);
-    if (ends && status != STATUS_NOT_FINITE)
+    const double turned =
+        ends && newton->rounding.is_stiff ? turn_free_body(newton) : 0;
+    record->change += turned;
+    /* p_bound is known at the angle before the turn.  The bound does not hold
+     * after a turn that moves nodes further than this bound. */
+    bool overturns =
+        !newton->passes_test && 4 * sqrt(-turned / newton->rounding.min_mass) >
+                                    newton->tolerance * newton->settings.h;
+    if (ends && !overturns && status != STATUS_NOT_FINITE)
         return STATUS_OK;
+    stuck = stuck || overturns;
     bool hidden = small && !(mg->p_bound < mg->last_p_bound) &&
                   is_below_roundoff(newton, record->change);
     if (stuck || (hidden && mg->change_was_hidden)) {

@@ -177,7 +177,11 @@ int main(int argc, char **argv)
         else if (strcmp(argv[i], "--line") == 0 && i + 1 < argc)
             return run_one(argv[i + 1]);
         else
-            return fprintf(stderr, "stress: what is '%s'?\n", argv[i]), 2;
+            return fprintf(stderr,
+                           "stress: '%s' is none of: --seed S, --line LINE, "
+                           "--quick\n",
+                           argv[i]),
+                   2;
     }
     Tally sum = {0};
     printf("%-22s %7s %9s %8s %5s %9s %7s\n", "", "cases", "converged",
