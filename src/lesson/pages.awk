@@ -106,7 +106,7 @@ BEGIN {
     numbers["flips"] = "switch_flips"
     numbers["pause"] = "pause_step"
     of_next["nearer"] of_next["spring"]
-    split("numbers forces modes kinds cuts downhill curves first_step velocity eigenvalues",
+    split("numbers forces modes kinds cuts downhill curves first_step velocity",
           layer)
     for (i in layer)
         layers[layer[i]]

@@ -6,11 +6,10 @@
 enum { LINE_POINTS = 161 };
 
 /* The axis of alpha ends at AXIS_END times the first trial, or at PAGE_END
- * times beside the curve of the projected p.  The axis of E
- * reaches above 0 at most MAX_ABOVE times as far as the curves below, or
- * MAX_UPHILL times if p points uphill. */
+ * times beside the curve of the projected p.  The axis of E reaches above 0 at
+ * most MAX_ABOVE times as far as the curves below, MAX_UPHILL if p is uphill. */
 static const double AXIS_END = 1.42, PAGE_END = 1.1, MAX_ABOVE = 2.2,
-                    MAX_UPHILL = 10;
+                    MAX_UPHILL = 4;
 static const double WORD_SIZE = 0.88;  /* ems, size of the words above */
 static const double ROW_HEIGHT = 1.25; /* ems, height of a row of words */
 static const double WORDS_WIDTH = 28;  /* ems, room for all words in a row */
@@ -47,9 +46,8 @@ static void fill_curves(const Trace *trace, const Trace *other,
         if (!isnan(curves->exact[i]))
             high = fmax(high, curves->exact[i]);
     }
-    double depth = fmax(-low, 1e-300);
-    if (!(low < 0)) /* no curve falls: E at a tenth of the axis counts */
-        depth = fmax(fabs(curves->exact[LINE_POINTS / 10]), 1e-300);
+    /* If no curve falls, the height of the quadratic model counts. */
+    double depth = fmax(low < 0 ? -low : 0.5 * trace->slope, 1e-300);
     curves->low = -1.12 * depth;
     curves->high =
         trace->slope > 0

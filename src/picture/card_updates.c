@@ -159,14 +159,12 @@ double updates_needed_height(const FrameContent *content, double wide,
 
 void updates_draw(const Plot *card)
 {
-    /* A page about eigenvalues shows neither residuals nor step lengths. */
-    static const int order[3][CARD_COLUMNS] = {
-        {0, 1, 2, 4, 3}, {0, 1, 4, 5, 2, 3}, {0, 1, 4, 5, -1}};
+    static const int order[2][CARD_COLUMNS] = {{0, 1, 2, 4, 3},
+                                               {0, 1, 4, 5, 2, 3}};
     const Options *options = &card->simulation->options;
     bool raw = options->projection == PROJECTION_NONE;
-    bool eigenvalues = options->layers & LAYER_EIGENVALUES;
     if (card->pane->trace)
-        card_draw_table(card, &card_updates, order[eigenvalues ? 2 : raw]);
+        card_draw_table(card, &card_updates, order[raw]);
     else
         card_write_hint(card, text_undrawn);
 }

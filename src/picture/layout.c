@@ -27,7 +27,7 @@ static const double BOLD = 1.12; /* width of bold over normal letters */
 static const double PICTURE_PART = 0.45;
 /* A picture that would be narrower than this beside the main card, ems, stands
  * below the card and has the part PICTURE_BELOW of the stage's height. */
-static const double MIN_BESIDE = 17, PICTURE_BELOW = 0.56;
+static const double MIN_BESIDE = 17, PICTURE_BELOW = 0.53;
 /* A card below the picture has at most this part of the stage's height; a main
  * card is at least this many times as high as its min_height. */
 static const double CARD_BELOW = 0.65, MAIN_CARD_GROWTH = 1.3;

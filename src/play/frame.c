@@ -331,8 +331,13 @@ static void fill_own_options(const Player *player, LectureContent *lecture)
             continue;
         player_format_value(row[i], own, player_simulation(player), value,
                             sizeof value);
-        append(text, sizeof text, "%s%s = %s", before, option_label(row[i]),
-               value);
+        size_t comma = strcspn(value, ",");
+        if (player_simulation(player)->descent.scalar)
+            value[comma] = '\0'; /* y of the start is unused */
+        append(text, sizeof text,
+               value[comma] ? "%s%s = (%.*s)%s" : "%s%s = %.*s%s", before,
+               option_label(row[i]), (int)strcspn(value, " "), value,
+               value + strcspn(value, " "));
         before = ", ";
     }
     snprintf(lecture->own_title, sizeof lecture->own_title, "%s:", text);
