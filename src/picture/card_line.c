@@ -7,7 +7,7 @@ enum { LINE_POINTS = 161 };
 
 /* The axis of alpha ends at AXIS_END times the first trial, or at PAGE_END
  * times beside the curve of the projected p.  The axis of E reaches above 0 at
- * most MAX_ABOVE times as far as the curves below, MAX_UPHILL if p is uphill. */
+ * most MAX_ABOVE times as far as the curves below; MAX_UPHILL: p is uphill. */
 static const double AXIS_END = 1.42, PAGE_END = 1.1, MAX_ABOVE = 2.2,
                     MAX_UPHILL = 4;
 static const double WORD_SIZE = 0.88;  /* ems, size of the words above */
