@@ -43,7 +43,7 @@ int main(int argc, char **argv)
 {
     handle_signals();
     int code = program_begin(argc, argv, &window_sdl, &main_stop, &main_player);
-    if (code == PROGRAM_PLAYS)
+    if (code == EXIT_NONE)
         code = program_end(&main_player, player_run(&main_player));
     player_free(&main_player);
     return code;

@@ -9,7 +9,7 @@
 #include "simulation/options.h"
 
 /* Length of line_highlight: lines 1 to 8 of Algorithm 3; [0] is unused. */
-enum { LINES_WALKED = 9 };
+enum { PAGE_CODE_LINES = 9 };
 
 /* A page.  Texts are texts of live_values.h: live numbers stand in braces. */
 typedef struct LecturePage {
@@ -34,8 +34,8 @@ typedef struct LecturePage {
     const char *function; /* functions shown by K, separated by ',' */
     const char *const *code; /* code lines of `function`, then NULL */
     const char *highlight;   /* code lines with this text are highlighted */
-    /* [LINES_WALKED] text of the code lines that are highlighted at each line
-     * of Algorithm 3; NULL: `highlight` */
+    /* [PAGE_CODE_LINES] text of the code lines that are highlighted at each
+     * line of Algorithm 3; NULL: `highlight` */
     const char *const *line_highlight;
     const char *claim;       /* statement that a test checks */
     unsigned switch_flips;   /* bit s: switch s of the scene is turned over */

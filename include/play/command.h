@@ -24,21 +24,21 @@ typedef enum CommandKind {
 typedef struct Command {
     CommandKind kind;
     long number; /* index of a node, card, obstacle, row of options, ... */
-    double x, y; /* place, m; x also the numeric value of an option */
+    double x, y; /* position, m; x also the value of an option */
     char text[COMMAND_TEXT_SIZE]; /* name or value that is no number, or "" */
     bool joins_gesture; /* is a part of the present gesture: "& set" */
 } Command;
 
 /* The part of the window that gets the keys; a row can name several. */
 typedef enum KeyScope {
-    AT_RUN = 1,       /* no number, list, field, sheet, question is open */
-    AT_NUMBER = 2,    /* a number is selected */
-    AT_LIST = 4,      /* the list of pages or of numbers is open */
-    AT_FIELD = 8,     /* a text is typed: the field takes every key */
-    AT_SHEET = 16,    /* the sheet of scenes is open */
-    AT_QUESTION = 32, /* a page waits for a guess */
-    AT_PLAY = AT_RUN | AT_NUMBER | AT_LIST | AT_QUESTION,
-    AT_ANY = AT_PLAY | AT_SHEET
+    SCOPE_RUN = 1,       /* no number, list, field, sheet, question is open */
+    SCOPE_NUMBER = 2,    /* a number is selected */
+    SCOPE_LIST = 4,      /* the list of pages or of numbers is open */
+    SCOPE_FIELD = 8,     /* a text is typed: the field takes every key */
+    SCOPE_SHEET = 16,    /* the sheet of scenes is open */
+    SCOPE_QUESTION = 32, /* a page waits for a guess */
+    SCOPE_PLAY = SCOPE_RUN | SCOPE_NUMBER | SCOPE_LIST | SCOPE_QUESTION,
+    SCOPE_ANY = SCOPE_PLAY | SCOPE_SHEET
 } KeyScope;
 
 enum {
@@ -58,8 +58,8 @@ typedef struct CommandRow {
     const char *label; /* text in the list of keys; "": the keys are listed with
                           those of the row before; NULL: not listed */
     const char *args;  /* arguments: "N X Y", a whole number from 0 and two
-                           numbers; "OPTION VALUE"; a name; NULL: none */
-    KeyScope key_scope; /* places where the keys work; 0: AT_PLAY */
+                          numbers; "OPTION VALUE"; a name; NULL: none */
+    KeyScope key_scope; /* places where the keys work; 0: SCOPE_PLAY */
     const char *chips;  /* labels of its chip, by state: "pause|play" */
 } CommandRow;
 
@@ -100,7 +100,7 @@ typedef struct ScriptLine {
 
 typedef struct Script {
     ScriptLine *line;       /* [lines] */
-    size_t lines, capacity; /* number of lines; memory is reserved for size */
+    size_t lines, capacity; /* number of lines; room for lines */
     size_t next_line;       /* index of the next line to be obeyed */
 } Script;
 

@@ -12,33 +12,33 @@
 #include "base/status.h"
 
 enum {
-    OUTPUT_NAME = 4096 + 64,          /* bytes of a path */
-    OUTPUT_MESSAGE = OUTPUT_NAME + 64 /* bytes of a path and a reason */
+    PATH_BYTES = 4096 + 64,         /* bytes of a path */
+    MESSAGE_BYTES = PATH_BYTES + 64 /* bytes of a path and a reason */
 };
 
 /* A file that is written; zeroed: not open. */
 typedef struct Output {
     FILE *file;                  /* stream; NULL: the output is not open */
-    char name[OUTPUT_NAME];      /* name as given, for messages */
-    char part_name[OUTPUT_NAME]; /* NAME.part; "": the file has no such part */
-    char *message; /* [OUTPUT_MESSAGE] or NULL: "NAME: why" of a failure */
+    char name[PATH_BYTES];       /* name as given, for messages */
+    char part_name[PATH_BYTES];  /* NAME.part; "": the file has none */
+    char *message; /* [MESSAGE_BYTES] or NULL: "NAME: why" of a failure */
 } Output;
 
 /* Part of a file that output_close keeps. */
-typedef enum FileEnding {
-    KEEP_WHOLE,  /* the file gets its name and replaces an old one */
+typedef enum CloseAction {
+    KEEP_FILE,   /* the file gets its name and replaces an old one */
     KEEP_PART,   /* NAME.part stays */
     KEEP_NOTHING /* NAME.part is removed */
-} FileEnding;
+} CloseAction;
 
 /* Opens a file.  Returns OK, FILE_FAILED (message and errno say why). */
 Status output_open(const char *name, char *message, Output *output);
 
 /* Closes an open file.  Returns OK, or FILE_FAILED and leaves NAME.part. */
-Status output_close(Output *output, FileEnding keep);
+Status output_close(Output *output, CloseAction keep);
 
-/* Writes "NAME: why" into an empty message; why NULL stands for output_reason.
- * Returns the status. */
+/* Writes "NAME: why" into an empty message; why NULL stands for
+ * output_reason. Returns the status. */
 Status output_report(char *message, const char *name, Status status,
                      const char *why);
 
@@ -58,8 +58,8 @@ bool output_is_standard(const char *name);
 /* ---- tables -------------------------------------------------------------- */
 
 enum {
-    TABLE_COLUMNS = 32,  /* columns at most */
-    TABLE_NAME_SIZE = 16 /* bytes of the name of a column */
+    TABLE_MAX_COLUMNS = 32, /* columns at most */
+    TABLE_NAME_SIZE = 16    /* bytes of the name of a column */
 };
 
 /* A CSV file: a line of names, then a line for each row of numbers.  Numbers
@@ -70,7 +70,7 @@ typedef struct Table {
     struct {
         char name[TABLE_NAME_SIZE];
         char kind; /* 'w': whole number, 't': text, 0: number */
-    } column[TABLE_COLUMNS];
+    } column[TABLE_MAX_COLUMNS];
     /* Returns the text that a number stands for in a column of kind 't'. */
     const char *(*get_text)(const char *column, int number);
 } Table;

@@ -58,7 +58,7 @@ typedef struct StepOutcome {
     int updates;   /* number of Newton's updates in all substeps */
     Status status; /* OK, or the last other status of the substeps */
     double energy_change; /* change of E in the step, J s^2 */
-    double reach;         /* m, largest coordinate of run 0 */
+    double max_x;         /* m, largest coordinate of run 0 */
 } StepOutcome;
 
 /* A step that a pane has made. */
@@ -78,7 +78,7 @@ typedef struct Branch {
     long first_step;   /* step of entry 0 */
     long entries;      /* number of entries, at least 1 */
     long capacity;     /* entries that memory is reserved for */
-    int copies;        /* entries copied from below: 1, or 2 to repeat a step */
+    int copied;        /* entries copied from below; 2: repeats a step */
     long left_step; /* step that was shown when the user left the branch */
     long stride; /* every stride-th entry stores its state */
     int panes;
@@ -106,11 +106,11 @@ typedef struct PastPane {
 
 /* Stages of the work that leads to the step that is to be shown. */
 typedef enum WorkStage {
-    WORK_DONE,    /* the step is shown */
-    WORK_LOADS,   /* the panes load stored states */
-    WORK_REPEATS, /* known steps are made once more */
-    WORK_MAKES,   /* a new step is made; no pane has finished its part */
-    WORK_MADE     /* a pane has finished its part of the new step */
+    WORK_DONE,      /* the step is shown */
+    WORK_LOADING,   /* the panes load stored states */
+    WORK_REPEATING, /* known steps are made once more */
+    WORK_MAKING,    /* a new step is made; no pane has finished its part */
+    WORK_MADE       /* a pane has finished its part of the new step */
 } WorkStage;
 
 typedef struct Past {
@@ -121,13 +121,13 @@ typedef struct Past {
     PastPane pane[OPTIONS_MAX_PANES];
     bool stores_states;    /* states are stored: the user may go back */
     bool panes_fail_alone; /* a pane that fails ends alone; the others go on */
-    long written_to; /* last step with valid rows in the tables; -1: none */
-    long booked_to;  /* last step whose energies in the tables are valid */
+    long written_step;     /* last with valid rows in the tables; -1: none */
+    long booked_step;      /* last with valid energies in the tables */
     size_t used_bytes, max_bytes; /* memory of states, samples; its limit */
-    int line_pane;       /* pane in which E along p is drawn; -1: none */
+    int line_energy_pane; /* pane in which E along p is drawn; -1: none */
     WorkStage work_stage; /* stage of the work that leads to `aim_step` */
-    long aim_step;       /* step that is to be shown */
-    long load_step;      /* step to which WORK_LOADS brings the panes */
+    long goal_step;       /* step that is to be shown */
+    long load_step;       /* step to which WORK_LOADING brings the panes */
     bool samples_energy; /* samples E along p in each iteration of the aim */
     double end_time;     /* s, end of the new step */
     Status bad_status;   /* OK, or the last other status of the new step */
@@ -142,7 +142,7 @@ static inline bool past_is_working(const Past *past)
 /* Whether a new step is being made. */
 static inline bool past_makes_step(const Past *past)
 {
-    return past->work_stage >= WORK_MAKES;
+    return past->work_stage >= WORK_MAKING;
 }
 
 void past_create(bool stores_states, bool panes_fail_alone, Past *past);
@@ -170,7 +170,7 @@ Status past_edit(Past *past, const Command *edit, int pane, bool again,
 
 /* Sets aim_step, cut to 0 ... newest + 1; abandons the present work.
  *   again  the step is made once more, with samples of E in each iteration */
-void past_choose_step(Past *past, long step, bool again);
+void past_set_goal(Past *past, long step, bool again);
 
 /* Does a part of the work: makes a Newton iteration, or begins a step.  Returns
  * RUNNING while there is more work; OK or an unconverged status when the aim is

@@ -54,7 +54,7 @@ typedef enum AfterWork {
 
 /* How a pane shows the present step. */
 typedef struct PaneView {
-    int place; /* index in the trace of the step; -1: end of the step */
+    int position; /* index in StepTrace.position; -1: end of the step */
     double *ghost;         /* [2n] m, positions before an edit, or NULL */
     char ghost_label[256]; /* the edited setting, and the outcome before it */
 } PaneView;
@@ -64,12 +64,12 @@ typedef struct Playback {
     PlayMode mode;
     TimeUnit walk_unit; /* unit of "next" and "back" */
     AfterWork after_work;
-    TracePlace wanted_place; /* place to show after an edit; iterate -1: none */
+    TracePosition wanted_position; /* shown after an edit; iterate -1: none */
     int log_speed;           /* 2^log_speed steps a frame */
     double due_time;         /* s on the wall clock, time of the next step */
     double work_start; /* s on the wall clock; 0: there is no work */
     bool has_warned;   /* the run was stopped where a step did not converge */
-    bool has_told_gain; /* a rise of the total energy was reported */
+    bool reported_gain; /* a rise of the total energy was reported */
 } Playback;
 
 enum { QUEUE_MOST = 16 };
@@ -92,7 +92,7 @@ typedef struct Commands {
     int held_gesture;    /* gesture that drags join: last grab, push */
     Script journal;      /* commands of the session, with undo and redo */
     CommandKind leave_command; /* command that ends the program if repeated */
-    bool line_refused;         /* a line of the script was refused */
+    bool has_refused_line;     /* a line of the script was refused */
 } Commands;
 
 /* The guided tour, page by page. */
@@ -102,9 +102,9 @@ typedef struct Tour {
     char asked_question[LOOK_SIZE]; /* question of `revealed` as it was asked */
     char verdict[VALUE_SIZE];    /* verdict on the guess at the page, or "" */
     int guesses, right_guesses;  /* numbers of guesses so far */
-    bool obeys_page;             /* a page's commands are running */
-    Options own_options[OPTIONS_MAX_DRAWN]; /* page's options of each pane */
-    int own_panes;                          /* page's number of panes */
+    bool is_page_running;        /* a page's commands are running */
+    Options page_options[OPTIONS_MAX_DRAWN]; /* page's options of each pane */
+    int page_panes;                          /* page's number of panes */
 } Tour;
 
 enum { LABEL_SIZE = 64 }; /* bytes */
@@ -132,7 +132,7 @@ typedef struct Screen {
     const LecturePage *page;   /* page that camera and cards are set for */
     ColumnContent column;
     struct Sheet *sheet; /* open sheet of scenes, or NULL */
-    bool shows_strain;   /* the scene's choice to colour strain is reversed */
+    bool has_toggled_strain; /* strain colours differ from the scene's choice */
     bool is_bare;        /* the picture is shown without texts and cards */
     bool is_black;       /* a black screen is shown */
     unsigned toggled_cards; /* bit c: card c was opened or closed by the user */
@@ -146,20 +146,20 @@ typedef struct Mouse {
     double x, y;      /* pixels */
     bool has_position; /* x and y are known */
     CommandKind drag_command; /* COMMAND_NONE: no button is down */
-    int dragged; /* index of what is dragged; -1: edge of the square */
+    int dragged_id; /* index of the dragged part; -1: edge of the square */
     double drag_start[2];  /* pixels, start of the drag, or of its last pan */
     bool has_moved;        /* the mouse has moved farther than a click may */
     double grip_offset[2]; /* m, from the mouse to the dragged obstacle */
     bool repins_node;      /* the dragged node is pinned again after the drag */
-    bool was_wheel;  /* the last input was a turn of the wheel */
+    bool was_wheel_turn;   /* the last input was a turn of the wheel */
     int gesture;     /* id of the last key, click or turn of the wheel */
     Options start_options; /* values at the start of a drag of a number */
 } Mouse;
 
-/* The hands of the user: held, selected and typed things. */
+/* Objects that the user holds or has selected, and the typed text. */
 typedef struct Hands {
     Mouse mouse;
-    bool holding;     /* a node or an obstacle is held */
+    bool is_holding;  /* a node or an obstacle is held */
     long pulled_step; /* step at which the hand last moved what it holds */
     const OptionRow *selected; /* selected number, or NULL */
     uint64_t added_rows;       /* bit r: the user added option row r */
@@ -182,8 +182,8 @@ typedef struct Player {
     char message[768];        /* why a command was refused, or "" */
     char note[SENTENCE_SIZE]; /* message below the picture, or "" */
     bool is_warning;          /* the note is a warning */
-    bool must_explain; /* the mouse has moved to another thing since the note
-                     was written; a sentence about it replaces the note */
+    bool must_explain; /* the mouse has moved to another part since the note
+                          was written; a sentence about it replaces the note */
 } Player;
 
 /* Creates a player, which without a screen writes 100 frames to "frames".
@@ -246,7 +246,7 @@ void player_free(Player *player);
 /* ---- the program --------------------------------------------------------- */
 
 enum ExitCode {
-    PROGRAM_PLAYS = -1, /* no exit: the run begins */
+    EXIT_NONE = -1, /* no exit: the run begins */
     EXIT_FINE = 0,
     EXIT_FAILED = 1,     /* the run failed */
     EXIT_MISUSED = 2,    /* the command line or a line of the script is wrong */
@@ -263,7 +263,7 @@ int player_find_scene_word(const Player *player, int i);
  *   argv    in, ended by NULL; outlives the player
  *   stop    in, not 0 ends the run after this iteration; outlives the player
  *   player  out, before its first frame; free it in any case
- * Returns PROGRAM_PLAYS, or an exit code if there is no run. */
+ * Returns EXIT_NONE, or an exit code if there is no run. */
 int program_begin(int argc, char **argv, const Window *window,
                   const volatile sig_atomic_t *stop, Player *player);
 

@@ -35,7 +35,7 @@ Status film_open(const char *name, char *message, Film *film);
 Status film_add_frame(Film *film, const Canvas *canvas, int times);
 
 /* Ends a film, if any.  Returns OK, FILE_FAILED; a film needs a frame. */
-Status film_close(Film *film, FileEnding keep);
+Status film_close(Film *film, CloseAction keep);
 
 /* Whether a film was begun and not ended. */
 static inline bool film_is_open(const Film *film)
@@ -62,7 +62,7 @@ typedef struct Recording {
     Table table[RECORDING_TABLES];
     bool has_tables;              /* a table is open */
     bool uses_stdout;             /* a table goes to standard output */
-    char message[OUTPUT_MESSAGE]; /* the first failure, or "" */
+    char message[MESSAGE_BYTES];  /* the first failure, or "" */
 } Recording;
 
 /* Opens the frames, film and tables that the options ask for; makes the folder.
@@ -87,7 +87,7 @@ Status recording_write_iteration(Recording *recording,
                                  const NewtonRecord *record, int pane);
 
 /* Closes all files.  If one has failed, all keep their ".part". */
-Status recording_close(Recording *recording, FileEnding keep);
+Status recording_close(Recording *recording, CloseAction keep);
 
 /* Frees a recording; files that were not closed are removed. */
 void recording_free(Recording *recording);

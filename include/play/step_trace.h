@@ -9,9 +9,9 @@
 #define STEP_TRACE_BYTES ((size_t)64 << 20)
 
 /* E along p is drawn up to 3/2 of the first trial of the line search.  If E is
- * no polynomial it is sampled SAMPLE_PARTS times up to the first trial: the
+ * no polynomial it is sampled SAMPLE_INTERVALS times up to the first trial: the
  * samples are also at the trials first/2, first/4, ... */
-enum { SAMPLE_PARTS = 32, SAMPLE_COUNT = SAMPLE_PARTS * 3 / 2 + 1 };
+enum { SAMPLE_INTERVALS = 32, SAMPLE_COUNT = SAMPLE_INTERVALS * 3 / 2 + 1 };
 
 /* Records of Newton's iterations. */
 typedef struct Records {
@@ -38,11 +38,11 @@ typedef struct TraceIterate {
 /* Units in which a user goes through time. */
 typedef enum TimeUnit { UNIT_STEP, UNIT_UPDATE, UNIT_LINE, UNITS } TimeUnit;
 
-typedef struct TracePlace {
+typedef struct TracePosition {
     int iterate;      /* index of the iterate in StepTrace */
     StepLine at_line; /* line of Algorithm 3 */
     int trials; /* trials of the line search so far */
-} TracePlace;
+} TracePosition;
 
 typedef struct StepTrace {
     Trace start_trace; /* h and tolerance, which all places show */
@@ -55,8 +55,8 @@ typedef struct StepTrace {
     double *x_tilde;         /* [x_length] m, or NULL */
     double *end_x;     /* [x_length] m, x after the last iteration, or NULL */
     size_t used_bytes; /* memory of the iterates */
-    TracePlace *place; /* [place_count] in the order of the walk */
-    int place_count;   /* number of places; 0 if memory is missing */
+    TracePosition *position; /* [place_count] in the order of the walk */
+    int position_count;      /* number of places; 0 if memory is missing */
 } StepTrace;
 
 /* Begins the trace of a step.  E along p is sampled in each iteration (`all`,
@@ -86,7 +86,7 @@ int step_trace_walk(const StepTrace *trace, TimeUnit unit, int place, int way);
 
 /* Returns the index of the last place at an iterate whose line is at most
  * `line`; if there is no such place, that of the last place of the step. */
-int step_trace_find_place(const StepTrace *trace, int iterate, StepLine line);
+int step_trace_find_position(const StepTrace *trace, int i, StepLine line);
 
 /* Returns the index of the place where E was highest, if E exploded: E rose by
  * more than ten times its change in the whole step.  -1: E did not explode. */
@@ -95,4 +95,4 @@ int step_trace_find_peak(const StepTrace *trace);
 /* Fills what a picture shows at a place; place -1: after the step.  Pointers of
  * `shown` lead into the trace.  Returns positions to draw, [x_length] m; NULL:
  * the positions after the step. */
-const double *step_trace_fill(const StepTrace *trace, int place, Trace *shown);
+const double *step_trace_show(const StepTrace *trace, int place, Trace *shown);

@@ -31,8 +31,7 @@ Status body_update(Simulation *simulation, int run);
 Status create_square(Simulation *simulation);
 
 /* Checks that the integrator works with all terms of the body.  Most terms need
- * backward Euler.
- * Returns OK, or INVALID_INPUT with a message. */
+ * backward Euler.  Returns OK, or INVALID_INPUT with a message. */
 Status body_check_method(const Options *options, Message message);
 
 /* Checks that the body can start: obstacles have possible numbers, no body

@@ -12,7 +12,7 @@ typedef struct Prediction {
     bool has_guess;  /* the user has made a guess */
     long guess_step; /* steps of the simulation when the user guessed */
     double guess[2]; /* m, the guess */
-    double reached[2]; /* m, where the step does lead */
+    double outcome[2]; /* m, where the step does lead */
     double error;      /* m, `guess` to `reached`; in one variable along x */
 } Prediction;
 
@@ -28,18 +28,18 @@ typedef struct LocalModel {
 /* Evaluates a function of one unknown at x. */
 typedef LocalModel ScalarEnergy(const Simulation *simulation, double x);
 
-enum { DESCENT_MAX = 256 };
+enum { DESCENT_MAX_RECORDS = 256 };
 
 /* A minimisation that is shown iteration by iteration. */
 typedef struct Descent {
     int count;                        /* number of records */
-    NewtonRecord record[DESCENT_MAX]; /* records of the first iterations */
+    NewtonRecord record[DESCENT_MAX_RECORDS]; /* first iterations */
     double point[2];                  /* present iterate, m */
     double value;                     /* f or E at the iterate */
     double start_value;               /* E at the start of the search */
     double direction[2];              /* p at the iterate, m; 0: none */
     double slope;         /* gradient times p; negative is downhill */
-    bool by_gradient;     /* Algorithm 1, whose loop tests |g| */
+    bool tests_g;         /* Algorithm 1, whose loop tests |g|, not |p| */
     double residual; /* compared with the tolerance: |g|, or |p|/h in m/s */
     ScalarEnergy *scalar; /* function of one unknown; NULL: two unknowns */
 } Descent;

@@ -141,14 +141,14 @@ int names_count(NameTable names);
 
 /* When a changed option takes effect. */
 typedef enum ChangeEffect {
-    EFFECT_START, /* takes effect in a new run */
-    EFFECT_LIVE,  /* takes effect in the next step */
-    EFFECT_AGAIN  /* takes effect in the present step, made again */
+    EFFECT_NEW_RUN,   /* takes effect in a new run */
+    EFFECT_NEXT_STEP, /* takes effect in the next step */
+    EFFECT_REPEAT     /* takes effect in the present step, made again */
 } ChangeEffect;
 
 /* How the window shows an option and changes it by mouse, wheel and keys. */
 typedef struct OptionDisplay {
-    int place;        /* position in the window's row of numbers, from 1; 0: the
+    int position;     /* position in the window's row of numbers, from 1; 0: the
                          row has the option after the user has added it */
     int max_letters;  /* letters of the longest value */
     double increment; /* change by a notch; 0: a factor, or the next name */
@@ -167,7 +167,7 @@ typedef struct OptionRow {
     bool is_table;         /* OPTION_TEXT: the file is a CSV table */
     int count;             /* number of numbers in a value; 0: one */
     unsigned short_counts; /* bit n: the first n numbers are enough */
-    const double *omitted; /* [count] defaults for numbers that are left out */
+    const double *omitted_defaults; /* [count] defaults of omitted numbers */
     char separator;        /* separator of the numbers; 0: a comma */
     int max_times; /* most values of a repeated option; 0: the last counts */
     int count_slot;        /* max_times > 0: slot of the number of values */
@@ -175,7 +175,7 @@ typedef struct OptionRow {
     double low, high;      /* range, both ends included */
     const char *unit;      /* unit of the numbers, or "" if they have none */
     NameTable names;       /* OPTION_NAME: the values */
-    unsigned needs; /* bits of ScenePart: the scene must have one of them */
+    unsigned needed_parts; /* bits of ScenePart, one of which a scene needs */
     /* Returns why the option has no effect beside the others; NULL: it has one.
      * The function is NULL for options that always have one. */
     const char *(*idle_reason)(const Options *options);

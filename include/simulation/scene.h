@@ -26,14 +26,14 @@ typedef enum PictureKind {
 
 /* Parts that a scene has, as bits.  Options about missing parts are refused. */
 enum ScenePart {
-    HAS_MESH = 1,        /* a square: segments, side, density, stiffness */
-    HAS_TIME = 2,        /* motion in time, by an integrator */
-    HAS_START = 4,       /* a point to start from */
-    HAS_SPRINGS = 8,     /* springs: solver, projection of their Hessian */
-    HAS_MINIMUM = 16,    /* tolerance and line search */
-    HAS_ONE_NUMBER = 32, /* a start with one coordinate, x */
-    HAS_TIMESTEP = 64,   /* a time step h without an integrator */
-    HAS_BODY = 128,      /* a body: turn, at, velocity, gravity, pin */
+    HAS_MESH = 1,            /* a square: segments, side, density, stiffness */
+    HAS_TIME = 2,            /* motion in time, by an integrator */
+    HAS_START = 4,           /* a point to start from */
+    HAS_SPRINGS = 8,         /* springs: solver, projection of their Hessian */
+    HAS_MINIMUM = 16,        /* tolerance and line search */
+    HAS_ONE_COORDINATE = 32, /* a start with one coordinate, x */
+    HAS_TIMESTEP = 64,       /* a time step h without an integrator */
+    HAS_BODY = 128,          /* a body: turn, at, velocity, gravity, pin */
     HAS_SQUARE = HAS_MESH | HAS_TIME | HAS_SPRINGS | HAS_MINIMUM | HAS_BODY
 };
 

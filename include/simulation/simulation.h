@@ -19,7 +19,7 @@ typedef struct Ledger {
     double work;  /* J, work that the mouse and changed options have done */
     double last_balance; /* J, total energy minus work, after the last step */
     long gain_steps; /* number of steps with growth beyond the work */
-    double gained;   /* J, growth beyond the work, summed over gain_steps */
+    double gained_energy; /* J, growth beyond the work, in all gain_steps */
 } Ledger;
 
 struct Simulation {
@@ -39,7 +39,7 @@ struct Simulation {
     NewtonObserver observer; /* called after each Newton iteration, or NULL */
     void *user_data;         /* argument of observer */
     long steps;              /* steps so far */
-    long unconverged;        /* steps so far that did not converge */
+    long unconverged_steps;  /* steps so far that did not converge */
     int status_counts[STATUS_COUNT]; /* unconverged steps by their status */
     Status status;               /* status of the last step */
     bool is_over;                /* the scene has ended: a step does nothing */
@@ -118,8 +118,8 @@ bool simulation_is_at_rest(const Simulation *simulation);
 /* Returns Newton's counters, summed over the runs; explicit methods have 0. */
 NewtonCounters simulation_sum_counters(const Simulation *simulation);
 
-/* Returns when a changed option takes effect: row->effect, but EFFECT_START
- * without time (HAS_START keeps EFFECT_AGAIN) and for methods if runs > 1. */
+/* Returns when a changed option takes effect: row->effect, but EFFECT_NEW_RUN
+ * without time (HAS_START keeps EFFECT_REPEAT) and for methods if runs > 1. */
 ChangeEffect simulation_find_option_effect(const Simulation *simulation,
                                            const OptionRow *row);
 
@@ -132,9 +132,9 @@ Status simulation_check_clearance(const Simulation *simulation,
  * if there is room at the end, else the part up to the first body.
  *   number  of the obstacle: grounds first, then balls
  *   to      [2] m, in, the point */
-double simulation_find_free_way(const Simulation *simulation,
-                                const Options *options, int number,
-                                const double to[2]);
+double simulation_find_free_part(const Simulation *simulation,
+                                 const Options *options, int number,
+                                 const double to[2]);
 
 /* Whether the mouse can drag the nodes. */
 bool simulation_is_draggable(const Simulation *simulation);

@@ -27,14 +27,11 @@ Status cholesky_factor(Cholesky *cholesky);
 
 /* Solves A x = b with the last factor.  b [size] in, x [size] out; x may be b.
  * INDEFINITE refines the solution with A, which must still hold the values that
- * were factored.
- * Returns OK, NOT_FINITE (the result overflows), SINGULAR (only INDEFINITE: no
- * solution within 1e-8 of b). */
+ * were factored.  Returns OK, NOT_FINITE (the result overflows), SINGULAR (only
+ * INDEFINITE: no solution within 1e-8 of b). */
 Status cholesky_solve(Cholesky *cholesky, const double *b, double *x);
 
-/* Whether the last factor is that of A itself, and no pivot near 0 was
- * replaced.
- */
+/* Whether the last factor is that of A itself, without a replaced pivot. */
 bool cholesky_is_exact(const Cholesky *cholesky);
 
 /* Returns the number of negative pivots of the last factor, of kind INDEFINITE,

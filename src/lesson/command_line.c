@@ -85,8 +85,8 @@ static Status apply_numbers(const ArgLine *line, const ArgWord *word)
     double number[BODY_NUMBERS] = {0};
     double *times = &options->number[row->count_slot];
     int most = row->count ? row->count : 1, used = 0;
-    bool x_alone = row->needs == HAS_START && !strchr(word->text, ',') &&
-                   (options->scene->parts & HAS_ONE_NUMBER);
+    bool x_alone = row->needed_parts == HAS_START && !strchr(word->text, ',') &&
+                   (options->scene->parts & HAS_ONE_COORDINATE);
     int count = x_alone ? 1 : most;
     if (!option_read(row, count, word->text, number))
         return refuse_value(line, word, count);
@@ -144,14 +144,14 @@ static Status check_scene(const Options *options, const OptionRow *row,
                           Message message)
 {
     const Scene *scene = options->scene;
-    const char *missing = row->needs & HAS_MESH      ? "square"
-                          : row->needs == HAS_TIME   ? "time steps"
-                          : row->needs & HAS_TIME    ? "time step to choose"
-                          : row->needs & HAS_SPRINGS ? "springs"
-                          : row->needs & HAS_START   ? "start to choose"
-                          : row->needs & HAS_BODY    ? "body"
-                                                     : "minimum to find";
-    return !row->needs || (row->needs & scene->parts)
+    const char *missing = row->needed_parts & HAS_MESH    ? "square"
+                          : row->needed_parts == HAS_TIME ? "time steps"
+                          : row->needed_parts & HAS_TIME ? "time step to choose"
+                          : row->needed_parts & HAS_SPRINGS ? "springs"
+                          : row->needed_parts & HAS_START   ? "start to choose"
+                          : row->needed_parts & HAS_BODY    ? "body"
+                                                            : "minimum to find";
+    return !row->needed_parts || (row->needed_parts & scene->parts)
                ? STATUS_OK
                : refuse(message, "--%s: the scene '%s' has no %s", row->name,
                         scene->name, missing);
@@ -172,7 +172,8 @@ Status options_set(Options *options, const OptionRow *row, const char *text,
     else if (apply_option_word(&line, &word))
         return STATUS_INVALID_INPUT;
     /* The integrator, and a body that the option starts anew, must fit. */
-    bool is_start = row->effect == EFFECT_START && (row->needs & HAS_SQUARE) &&
+    bool is_start = row->effect == EFFECT_NEW_RUN &&
+                    (row->needed_parts & HAS_SQUARE) &&
                     (options->scene->parts & HAS_BODY);
     Status status = body_check_method(options, message);
     return status || !is_start ? status : body_check(options, message);
@@ -197,8 +198,8 @@ static Phrase hint_at_split_value(const ArgWord *before, const char *text)
 /* Refuses the part of a word before its '='.
  *   hint   in
  *   where  end of the message if there is no hint: where to look */
-static Status refuse_unknown(const ArgLine *line, const char *what,
-                             const char *word, Phrase hint, const char *where)
+static Status refuse_name(const ArgLine *line, const char *what,
+                          const char *word, Phrase hint, const char *where)
 {
     int length = (int)fmin(strcspn(word, "="), 60);
     return refuse(line->message, "%s '%.*s'%s", what, length, word,
@@ -221,13 +222,13 @@ static const OptionRow *read_option(const ArgLine *line, const char *word)
     if (instead)
         refuse(line->message, "--%s is gone: %s", name, instead);
     else if (!found)
-        refuse_unknown(line, "there is no option", word,
-                       isdigit((unsigned char)name[0])
-                           ? hint_at_split_value(before, name)
-                       : scene_find(name) || strcmp(name, "scene") == 0
-                           ? (Phrase){"; a scene has no dashes: elasto drop"}
-                           : suggest_name(name, "--", NAMES_OF(option_rows)),
-                       "; see elasto --help");
+        refuse_name(line, "there is no option", word,
+                    isdigit((unsigned char)name[0])
+                        ? hint_at_split_value(before, name)
+                    : scene_find(name) || strcmp(name, "scene") == 0
+                        ? (Phrase){"; a scene has no dashes: elasto drop"}
+                        : suggest_name(name, "--", NAMES_OF(option_rows)),
+                    "; see elasto --help");
     return found;
 }
 
@@ -266,12 +267,12 @@ static Status read_words(int argc, char **argv, ArgLine *line)
 /* Reads the words of a text without quotes, separated by blanks. */
 static Status split_words(const char *text, ArgLine *line)
 {
-    enum { MOST = 48 };
-    char *argv[MOST] = {""}, *rest;
+    enum { MAX_SPLIT_WORDS = 48 };
+    char *argv[MAX_SPLIT_WORDS] = {""}, *rest;
     int argc = 1;
     snprintf(line->copy, sizeof line->copy, "%s", text ? text : "");
-    for (char *word = strtok_r(line->copy, " ", &rest); word && argc < MOST;
-         word = strtok_r(NULL, " ", &rest))
+    for (char *word = strtok_r(line->copy, " ", &rest);
+         word && argc < MAX_SPLIT_WORDS; word = strtok_r(NULL, " ", &rest))
         argv[argc++] = word;
     return read_words(argc, argv, line);
 }
@@ -290,8 +291,8 @@ static Status refuse_scene(const ArgLine *line, const ArgWord *word)
         hint = (Phrase){"; an option begins with two signs '-'"};
     else if (!hint.text[0])
         hint = hint_at_split_value(word > line->word ? word - 1 : NULL, text);
-    return refuse_unknown(line, "there is no scene", text, hint,
-                          "; see elasto --list");
+    return refuse_name(line, "there is no scene", text, hint,
+                       "; see elasto --list");
 }
 
 /* Finds the scene or the page of a line.  Refuses a second scene, a scene
@@ -328,7 +329,7 @@ static Status check_words(ArgLine *line)
 }
 
 /* Fills the options with the defaults, changed by the scene or by the page. */
-static Status fill_defaults(ArgLine *line)
+static Status set_defaults(ArgLine *line)
 {
     Options *options = line->options;
     ArgLine own = {.options = options, .message = line->message};
@@ -350,7 +351,7 @@ static Status fill_defaults(ArgLine *line)
 }
 
 /* Picks this pane's value from each list; the last list changes fastest. */
-static Status pick_values(ArgLine *line, int pane)
+static Status select_values(ArgLine *line, int pane)
 {
     bool is_drawn = !find_arg(line, "headless") || find_arg(line, "frames") ||
                     find_arg(line, "film");
@@ -433,11 +434,11 @@ static Status apply_argument_line(ArgLine *line, int pane)
 {
     Options *options = line->options;
     *options = (Options){.panes = 1};
-    if (check_words(line) || fill_defaults(line) || pick_values(line, pane))
+    if (check_words(line) || set_defaults(line) || select_values(line, pane))
         return STATUS_INVALID_INPUT;
     for (int i = 0; i < line->words; i++) {
         const OptionRow *row = line->word[i].row;
-        if (row && options->page && row->needs)
+        if (row && options->page && row->needed_parts)
             return refuse(line->message,
                           "--%s: a page of --lecture has its own value; change "
                           "it in the window, or leave --lecture out",

@@ -251,7 +251,7 @@ static void add_newton_values(const Simulation *simulation, LiveValues *values)
         descent->count > 0 ? descent->record[0].x_before : descent->point;
     int updates = 0;
     memcpy(x, start, sizeof x);
-    while (updates < DESCENT_MAX &&
+    while (updates < DESCENT_MAX_RECORDS &&
            vector_length(evaluate_energy(simulation, x).g) >
                simulation->options.tolerance &&
            descent_direction(simulation, PROJECTION_NONE, x, p) != 0) {

@@ -4,7 +4,7 @@
 
 #include "picture/cards.h"
 
-_Static_assert((int)LINE_COUNT == LINES_WALKED,
+_Static_assert((int)LINE_COUNT == PAGE_CODE_LINES,
                "walk has a text for each line");
 
 const char *lecture_find_lit_text(const FrameContent *content)

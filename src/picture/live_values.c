@@ -93,12 +93,12 @@ static void add_setting_values(const Simulation *simulation, LiveValues *values)
     values_add_flag(values, explicit ? method->name : "", explicit);
     values_add_flag(values, "inside", time && method && !backward);
     values_add_flag(values, "one unknown", descent->scalar != NULL);
-    values_add_flag(values, "by gradient", descent->by_gradient);
-    values_add_flag(values, "Algorithm 3", !explicit && !descent->by_gradient);
+    values_add_flag(values, "by gradient", descent->tests_g);
+    values_add_flag(values, "Algorithm 3", !explicit && !descent->tests_g);
     bool whole = options->line_search == LINE_SEARCH_NONE;
-    bool search = descent->by_gradient ? descent->scalar && !whole : !explicit;
-    values_add_flag(values, "Algorithm 1", descent->by_gradient && !search);
-    bool map = descent->by_gradient && !search && !descent->scalar;
+    bool search = descent->tests_g ? descent->scalar && !whole : !explicit;
+    values_add_flag(values, "Algorithm 1", descent->tests_g && !search);
+    bool map = descent->tests_g && !search && !descent->scalar;
     values_add_flag(values, map ? "map" : "no map", true);
     values_add_flag(values, "search", search);
     values_add_flag(values, "raw", options->projection == PROJECTION_NONE);
@@ -160,9 +160,9 @@ static void add_trace_values(const Simulation *simulation, const Trace *trace,
     }
     if (known) {
         values_add(values, "residual", trace->residual);
-        values_add(
-            values, "p size",
-            simulation->descent.by_gradient ? NAN : trace->residual * trace->h);
+        values_add(values, "p size",
+                   simulation->descent.tests_g ? NAN
+                                               : trace->residual * trace->h);
         values_add_words(values, ">", above ? ">" : "\u2264");
         values_add_words(values, "above", above ? "above" : "not above");
         values_add_words(values, "given",

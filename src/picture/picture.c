@@ -229,7 +229,7 @@ static void draw_guess(const Plot *stage)
     if (!guess->has_guess || stage->content->is_bare)
         return;
     plot_to_pixel(stage, guess->guess, at);
-    plot_to_pixel(stage, guess->reached, came);
+    plot_to_pixel(stage, guess->outcome, came);
     if (simulation_find_point(stage->simulation, point) == 1) {
         canvas_line(canvas, at[0], box->y + box->height, at[0], box->y,
                     1.5 * unit, COLOUR_HAND);

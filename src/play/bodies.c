@@ -35,7 +35,7 @@ Status obey_hold(Player *player, const Command *command)
                             .x = place[0],
                             .y = place[1]};
     Status status = player_edit_step(player, &change, PAST_ALL, false);
-    player->hands.holding = player->hands.holding || !status;
+    player->hands.is_holding = player->hands.is_holding || !status;
     if (!status && player_is_stopped(player))
         player_note(player,
                     "paused: the hand %s as soon as time goes on (Space, N)",
@@ -75,7 +75,7 @@ Status obey_drag(Player *player, const Command *command)
 {
     if (!control_hand_holds(past_control(&player->past, player->active)))
         return player_refuse(player, "the hand holds nothing");
-    player->hands.holding = command->kind == COMMAND_DRAG;
+    player->hands.is_holding = command->kind == COMMAND_DRAG;
     player->hands.pulled_step = player->past.step;
     return player_edit_step(player, command, PAST_ALL, false);
 }

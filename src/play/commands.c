@@ -46,7 +46,7 @@ Command command_from_key(const char *key, bool repeats, KeyScope scope)
     Command command = {.kind = COMMAND_NONE};
     for (int i = COMMAND_KINDS - 1; i > 0 && !command.kind; i--) {
         const CommandRow *row = &command_rows[i];
-        unsigned listens = row->key_scope ? row->key_scope : AT_PLAY;
+        unsigned listens = row->key_scope ? row->key_scope : SCOPE_PLAY;
         if (!(listens & scope) || !row_has_key(row->keys, key))
             continue;
         if (repeats && !(row->flags & REPEATS))
@@ -278,7 +278,7 @@ Status script_write(const char *name, const char *line, const Script *script)
         command_format(&script->line[i].command, text, sizeof text);
         fprintf(output.file, "%ld %s\n", script->line[i].due_step, text);
     }
-    return output_close(&output, KEEP_WHOLE);
+    return output_close(&output, KEEP_FILE);
 }
 
 const Command *script_take_due_command(Script *script, long step, bool waits)

@@ -95,7 +95,7 @@ Status film_add_frame(Film *film, const Canvas *canvas, int times)
                                  "ffmpeg ended before the film did");
 }
 
-Status film_close(Film *film, FileEnding keep)
+Status film_close(Film *film, CloseAction keep)
 {
     Output *output = &film->output;
     struct stat info;

@@ -27,7 +27,7 @@ static void shorten_key(char key[VALUE_SIZE])
             snprintf(key, VALUE_SIZE, "%s", names[i][1]);
 }
 
-static void fill_help(FrameContent *content)
+static void build_key_list(FrameContent *content)
 {
     static const ListRow mouse[] = {
         {"drag", "pulls a node; paused: places it", false, false},
@@ -65,7 +65,7 @@ static void fill_help(FrameContent *content)
 
 /* Fills the row of numbers, and the sentence about the number under the mouse
  * or the selected one. */
-static void fill_settings(const Player *player, Frame *frame)
+static void build_settings_row(const Player *player, Frame *frame)
 {
     FrameContent *content = &frame->content;
     const WindowHit *mouse = &player->screen.view.mouse_hit;
@@ -102,7 +102,7 @@ static void fill_settings(const Player *player, Frame *frame)
 }
 
 /* Lists all numbers of the scene, and why some have no effect now. */
-static void fill_options(const Player *player, FrameContent *content)
+static void list_shown_options(const Player *player, FrameContent *content)
 {
     const OptionRow *all[OPTIONS_MAX_ROWS];
     const Options options = player_shown_options(player);
@@ -140,7 +140,7 @@ static void add_chip(Frame *frame, CommandKind kind, int state, bool lit)
     frame->chip_command[chips->count++] = kind;
 }
 
-static void fill_chips(const Player *player, Frame *frame)
+static void build_chip_row(const Player *player, Frame *frame)
 {
     const Simulation *simulation = player_simulation(player);
     const Options *options = player_active_options(player);
@@ -239,7 +239,7 @@ void player_write_label(const Player *player, int pane, char label[LABEL_SIZE])
         append(label, LABEL_SIZE, "; picture of step %ld", seen);
 }
 
-static void fill_pane(const Player *player, int p, Frame *frame)
+static void build_pane_content(const Player *player, int p, Frame *frame)
 {
     const PastPane *shown = &player->past.pane[p];
     const Simulation *simulation = &shown->simulation;
@@ -256,7 +256,8 @@ static void fill_pane(const Player *player, int p, Frame *frame)
         pane->label = frame->label[p];
     if (shown->has_trace && simulation_has_updates(simulation)) {
         pane->trace = &frame->trace[p];
-        pane->x = step_trace_fill(&shown->trace, view->place, &frame->trace[p]);
+        pane->x =
+            step_trace_show(&shown->trace, view->position, &frame->trace[p]);
     }
 }
 
@@ -271,7 +272,7 @@ static StepBar find_step_bar(const void *shown, long step)
 
 /* Writes the text of the time line, "step 12 of 40   t = 0.24 s", the state of
  * the run, and how to stop a long step. */
-static void fill_time_line(const Player *player, FrameContent *content)
+static void build_time_line(const Player *player, FrameContent *content)
 {
     const Past *past = &player->past;
     const char *turn = player_simulation(player)->scene->step_name;
@@ -317,7 +318,7 @@ static void fill_time_line(const Player *player, FrameContent *content)
 
 /* If the page is changed, writes a heading for Look with the page's own
  * options: "The page's own answer, with h = 1 s:". */
-static void fill_own_options(const Player *player, LectureContent *lecture)
+static void write_page_heading(const Player *player, LectureContent *lecture)
 {
     const OptionRow *row[OPTIONS_MAX_ROWS];
     char text[SENTENCE_SIZE] = "The page's own answer", value[VALUE_SIZE];
@@ -326,7 +327,7 @@ static void fill_own_options(const Player *player, LectureContent *lecture)
         return;
     int rows = player_list_options(player, true, row);
     for (int i = 0; i < rows; i++) {
-        const Options *own = player_find_own_options(player, row[i]);
+        const Options *own = player_find_page_options(player, row[i]);
         if (!own)
             continue;
         player_format_value(row[i], own, player_simulation(player), value,
@@ -343,7 +344,7 @@ static void fill_own_options(const Player *player, LectureContent *lecture)
     snprintf(lecture->own_title, sizeof lecture->own_title, "%s:", text);
 }
 
-static void fill_frame(const Player *player, Frame *frame)
+static void build_frame_content(const Player *player, Frame *frame)
 {
     const Past *past = &player->past;
     const Window *window = player->screen.window;
@@ -362,12 +363,13 @@ static void fill_frame(const Player *player, Frame *frame)
         content->panes = LAYOUT_PANES;
     content->active_pane = active < content->panes ? active : 0;
     for (int i = 0; i < content->panes; i++)
-        fill_pane(player, i, frame);
-    fill_time_line(player, content);
-    fill_settings(player, frame);
-    fill_chips(player, frame);
+        build_pane_content(player, i, frame);
+    build_time_line(player, content);
+    build_settings_row(player, frame);
+    build_chip_row(player, frame);
     const Control *control = past_control(past, active);
-    if (control_hand_holds(control) && player->view_of_pane[active].place < 0)
+    if (control_hand_holds(control) &&
+        player->view_of_pane[active].position < 0)
         content->hand = (HeldByHand){true,
                                      control->held_node,
                                      control->held_obstacle,
@@ -379,18 +381,18 @@ static void fill_frame(const Player *player, Frame *frame)
     content->title_bar.is_warning = player->is_warning;
     content->cards.enlarged = player->screen.enlarged_card;
     content->shows_strain =
-        player->screen.shows_strain !=
+        player->screen.has_toggled_strain !=
         (content->pane[0].simulation->scene->strain_colour_max > 0);
     content->is_bare = player->screen.is_bare;
     if (player->screen.column == COLUMN_KEYS)
-        fill_help(content);
+        build_key_list(content);
     if (player->screen.column == COLUMN_OPTIONS)
-        fill_options(player, content);
+        list_shown_options(player, content);
     if (!(player->must_explain && content->title_bar.sentence[0] &&
           !player->hands.is_typing))
         snprintf(content->title_bar.message, SENTENCE_SIZE, "%s", player->note);
     content->lecture.hides_answer = player_hides_answer(player);
-    fill_own_options(player, &content->lecture);
+    write_page_heading(player, &content->lecture);
     bool answered =
         content->pane[0].simulation->options.page == player->tour.revealed;
     content->lecture.asked = answered ? player->tour.asked_question : NULL;
@@ -403,7 +405,7 @@ static void fill_frame(const Player *player, Frame *frame)
     frame_add_lecture(player->screen.column, player->tour.last_page, content);
     content->cards.closed_cards ^= player->screen.toggled_cards;
     if (player->screen.sheet)
-        sheet_fill(player, content);
+        sheet_build_content(player, content);
     frame_fill_texts(content);
 }
 
@@ -424,9 +426,9 @@ static void update_hover(Player *player)
     view->hovered = frame_pick(content, &layout, mouse->x, mouse->y);
 }
 
-void player_fill_frame(Player *player)
+void player_build_frame(Player *player)
 {
-    fill_frame(player, &player->screen.frame);
+    build_frame_content(player, &player->screen.frame);
     update_hover(player);
 }
 
@@ -463,7 +465,7 @@ Paper *player_prepare_paper(Player *player)
 
 void player_paint_frame(Player *player, Paper *paper)
 {
-    player_fill_frame(player);
+    player_build_frame(player);
     if (player->screen.is_black)
         canvas_clear(&paper->canvas, 0xff000000u);
     else

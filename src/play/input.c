@@ -8,8 +8,8 @@
 #include "play/playing.h"
 
 enum {
-    CLICK_ROOM = 4,   /* pixels that the mouse may move during a click */
-    NOTCH_PIXELS = 24 /* pixels that a drag moves a number by one notch */
+    CLICK_TOLERANCE = 4, /* pixels that the mouse may move during a click */
+    NOTCH_PIXELS = 24    /* pixels that a drag moves a number by one notch */
 };
 
 static const double WHEEL_ZOOM = 1.15; /* zoom by a notch of the wheel */
@@ -19,7 +19,7 @@ typedef struct MouseTarget {
     Layout layout; /* layout of the last frame */
     WindowHit hit; /* part of the window under the mouse */
     int pane;
-    double place[2]; /* m, place of the mouse in the scene of this pane */
+    double point[2]; /* m, position of the mouse in the scene of this pane */
     Pick pick;       /* part of the scene under the mouse */
 } MouseTarget;
 
@@ -30,7 +30,7 @@ static MouseTarget find_mouse_target(Player *player)
     const FrameContent *content = &player->screen.frame.content;
     DragBounds *held = &player->screen.view.drag_bounds;
     if (player->screen.must_redraw) /* the frame can be of a discarded step */
-        player_fill_frame(player);
+        player_build_frame(player);
     MouseTarget target = {
         .layout = layout_create(content, paper ? paper->canvas.width : 1,
                                 paper ? paper->canvas.height : 1),
@@ -43,7 +43,7 @@ static MouseTarget find_mouse_target(Player *player)
         target.pane = pane;
     held->is_away = false;
     Camera camera = camera_of_pane(content, &target.layout, target.pane);
-    camera_to_world(&camera, mouse->x, mouse->y, target.place);
+    camera_to_world(&camera, mouse->x, mouse->y, target.point);
     target.pick = frame_pick(content, &target.layout, mouse->x, mouse->y);
     held->is_away = target.hit.zone != ZONE_STAGE;
     return target;
@@ -76,12 +76,12 @@ static KeyScope find_key_scope(const Player *player)
     bool number = player->hands.selected;
     bool list = player_shows_list(player);
     bool asks = player_hides_answer(player);
-    return player->hands.is_typing && (number || list || asks) ? AT_FIELD
-           : player->screen.sheet                              ? AT_SHEET
-           : number                                            ? AT_NUMBER
-           : list                                              ? AT_LIST
-           : asks                                              ? AT_QUESTION
-                                                               : AT_RUN;
+    return player->hands.is_typing && (number || list || asks) ? SCOPE_FIELD
+           : player->screen.sheet                              ? SCOPE_SHEET
+           : number                                            ? SCOPE_NUMBER
+           : list                                              ? SCOPE_LIST
+           : asks                                              ? SCOPE_QUESTION
+                                                               : SCOPE_RUN;
 }
 
 /* Opens the page, or adds the number, of a line of the open list.
@@ -103,7 +103,7 @@ static Status choose_list_line(Player *player, const char *line)
 
 /* Acts on the typed text: opens the page, adds or sets the number, or checks
  * the answer.  The field stays open if its text cannot be read. */
-static Status enter_typed(Player *player)
+static Status enter_text(Player *player)
 {
     const OptionRow *row = player->hands.selected;
     Status status;
@@ -135,12 +135,12 @@ static Status drag_number(Player *player, const MouseTarget *target)
 {
     const Mouse *mouse = &player->hands.mouse;
     const Options now = player_shown_options(player);
-    bool edge = mouse->dragged < 0;
+    bool edge = mouse->dragged_id < 0;
     const OptionRow *row =
         edge ? option_find("stretch") : player->hands.selected;
     double notches = (mouse->x - mouse->drag_start[0]) / NOTCH_PIXELS;
     double wanted =
-        fmax(rint(200 * fabs(target->place[0]) / now.side), 2) / 100;
+        fmax(rint(200 * fabs(target->point[0]) / now.side), 2) / 100;
     if (!row)
         return STATUS_OK;
     if (row->count > 1)
@@ -187,20 +187,20 @@ static Status begin_press(Player *player, const MouseTarget *target)
     Mouse *mouse = &player->hands.mouse;
     const LecturePage *page = player_active_options(player)->page;
     double point[2];
-    mouse->dragged = target->pick.index;
+    mouse->dragged_id = target->pick.index;
     player->screen.view.drag_bounds = frame_view_bounds(
         &player->screen.frame.content, &target->layout, target->pane);
     switch (target->pick.kind) {
     case PICK_OBSTACLE:
         mouse->drag_command = COMMAND_OBSTACLE;
-        simulation_find_obstacle(player_simulation(player), 0, mouse->dragged,
-                                 point);
-        mouse->grip_offset[0] = point[0] - target->place[0];
-        mouse->grip_offset[1] = point[1] - target->place[1];
+        simulation_find_obstacle(player_simulation(player), 0,
+                                 mouse->dragged_id, point);
+        mouse->grip_offset[0] = point[0] - target->point[0];
+        mouse->grip_offset[1] = point[1] - target->point[1];
         return STATUS_OK;
     case PICK_EDGE:
         mouse->drag_command = COMMAND_SET;
-        mouse->dragged = -1;
+        mouse->dragged_id = -1;
         return STATUS_OK;
     case PICK_HANDLE:
         mouse->drag_command = COMMAND_HANDLE;
@@ -213,13 +213,13 @@ static Status begin_press(Player *player, const MouseTarget *target)
         if (page_wants_click(page) && player_hides_answer(player))
             return obey_at(player, COMMAND_PREDICT, 0, target->pick.point);
         mouse->drag_command = COMMAND_START;
-        return obey_at(player, COMMAND_START, mouse->dragged,
+        return obey_at(player, COMMAND_START, mouse->dragged_id,
                        target->pick.point);
     default:
         if (target->pick.kind != PICK_NODE) /* a drag highlights only nodes */
             player->screen.view.hovered.kind = PICK_NONE;
-        mouse->dragged = target->pick.nearest_node;
-        mouse->drag_command = mouse->dragged < 0          ? COMMAND_PAN
+        mouse->dragged_id = target->pick.nearest_node;
+        mouse->drag_command = mouse->dragged_id < 0       ? COMMAND_PAN
                               : drag_places_nodes(player) ? COMMAND_PLACE
                                                           : COMMAND_GRAB;
         return STATUS_OK;
@@ -252,18 +252,18 @@ static Status add_ball(Player *player, const double at[2])
 static Status drag_obstacle(Player *player, const double at[2])
 {
     Past *past = &player->past;
-    int number = player->hands.mouse.dragged;
+    int number = player->hands.mouse.dragged_id;
     double part = 1, from[2];
-    if (player->hands.holding || !drag_places_nodes(player)) {
-        Status status = player->hands.holding
+    if (player->hands.is_holding || !drag_places_nodes(player)) {
+        Status status = player->hands.is_holding
                             ? STATUS_OK
                             : obey(player, COMMAND_PUSH, number);
         return status ? status : obey_at(player, COMMAND_DRAG, 0, at);
     }
     for (int p = 0; p < past_panes(past); p++) {
         const Options *options = &past_control(past, p)->options;
-        part = fmin(part, simulation_find_free_way(&past->pane[p].simulation,
-                                                   options, number, at));
+        part = fmin(part, simulation_find_free_part(&past->pane[p].simulation,
+                                                    options, number, at));
     }
     simulation_find_obstacle(player_simulation(player), 0, number, from);
     if (part == 0)
@@ -281,26 +281,26 @@ static Status continue_drag(Player *player)
     double dx = mouse->x - mouse->drag_start[0],
            dy = mouse->y - mouse->drag_start[1];
     Status status = STATUS_OK;
-    mouse->has_moved = mouse->has_moved || math_hypot(dx, dy) > CLICK_ROOM;
+    mouse->has_moved = mouse->has_moved || math_hypot(dx, dy) > CLICK_TOLERANCE;
     switch (mouse->has_moved ? mouse->drag_command : COMMAND_NONE) {
     case COMMAND_GRAB: /* a drag frees a pinned node */
-        if (!player->hands.holding) {
-            mouse->repins_node = simulation->system.pinned[mouse->dragged];
+        if (!player->hands.is_holding) {
+            mouse->repins_node = simulation->system.pinned[mouse->dragged_id];
             if (mouse->repins_node)
-                status = obey(player, COMMAND_PIN, mouse->dragged);
+                status = obey(player, COMMAND_PIN, mouse->dragged_id);
             if (!status)
-                status = obey(player, COMMAND_GRAB, mouse->dragged);
+                status = obey(player, COMMAND_GRAB, mouse->dragged_id);
         }
-        return status ? status : obey_at(player, COMMAND_DRAG, 0, target.place);
+        return status ? status : obey_at(player, COMMAND_DRAG, 0, target.point);
     case COMMAND_OBSTACLE:
-        target.place[0] += mouse->grip_offset[0];
-        target.place[1] += mouse->grip_offset[1];
-        return drag_obstacle(player, target.place);
+        target.point[0] += mouse->grip_offset[0];
+        target.point[1] += mouse->grip_offset[1];
+        return drag_obstacle(player, target.point);
     case COMMAND_PLACE:
     case COMMAND_START:
     case COMMAND_HANDLE:
-        return obey_at(player, mouse->drag_command, mouse->dragged,
-                       target.place);
+        return obey_at(player, mouse->drag_command, mouse->dragged_id,
+                       target.point);
     case COMMAND_SET:
         return drag_number(player, &target);
     case COMMAND_GOTO:
@@ -322,7 +322,7 @@ static Status continue_drag(Player *player)
 /* ---- events -------------------------------------------------------------- */
 
 /* Stores what is under the mouse; runs a cell of the envelope at once. */
-static Status note_hovered_thing(Player *player)
+static Status describe_hovered_object(Player *player)
 {
     View *view = &player->screen.view;
     MouseTarget target = find_mouse_target(player);
@@ -358,7 +358,7 @@ static Status press_number(Player *player, int index, int clicks)
         return obey(player, COMMAND_DEFAULT,
                     player->hands.selected - option_rows);
     mouse->drag_command = COMMAND_SET;
-    mouse->dragged = index;
+    mouse->dragged_id = index;
     mouse->start_options = player_shown_options(player);
     return STATUS_OK;
 }
@@ -394,7 +394,7 @@ static Status press_left_button(Player *player, const MouseTarget *target,
     case ZONE_LIST:
         index = frame_find_row(&player->screen.frame.content, &target->layout,
                                player->hands.mouse.x, player->hands.mouse.y);
-        if (find_key_scope(player) != AT_LIST || index < 0)
+        if (find_key_scope(player) != SCOPE_LIST || index < 0)
             return STATUS_OK;
         key = player->screen.frame.content.list.row[index].key;
         snprintf(line, sizeof line, "%.7s", key + (key[0] == '>'));
@@ -409,7 +409,7 @@ static Status press_left_button(Player *player, const MouseTarget *target,
             return status ? status : begin_press(player, target);
         return body && target->pick.nearest_node < 0 &&
                        target->pick.kind == PICK_NONE
-                   ? add_ball(player, target->place)
+                   ? add_ball(player, target->point)
                    : obey(player, COMMAND_FIT, 0);
     default:
         return STATUS_OK;
@@ -448,7 +448,7 @@ static Status release_button(Player *player)
     Mouse *mouse = &player->hands.mouse;
     const Simulation *simulation = player_simulation(player);
     CommandKind drag = mouse->drag_command;
-    int node = mouse->dragged;
+    int node = mouse->dragged_id;
     mouse->drag_command = COMMAND_NONE;
     player->screen.view.drag_bounds.is_held = false;
     if (!mouse->has_moved && (drag == COMMAND_GRAB || drag == COMMAND_PLACE) &&
@@ -456,7 +456,7 @@ static Status release_button(Player *player)
         player_note(player, "a drag moves node %d, a right click %s it", node,
                     simulation->system.pinned[node] ? "frees" : "pins");
     if ((drag == COMMAND_OBSTACLE || drag == COMMAND_GRAB) &&
-        player->hands.holding) {
+        player->hands.is_holding) {
         Command next = {.kind = COMMAND_RELEASE, .joins_gesture = true};
         player_enqueue(player, &next);
         next = (Command){
@@ -467,7 +467,7 @@ static Status release_button(Player *player)
     }
     if (drag == COMMAND_SET && mouse->has_moved)
         player_deselect(player); /* after a click the number stays selected */
-    if (drag == COMMAND_SET && !mouse->has_moved && mouse->dragged >= 0 &&
+    if (drag == COMMAND_SET && !mouse->has_moved && mouse->dragged_id >= 0 &&
         player->hands.selected && player->hands.selected->kind == OPTION_NAME)
         return change_number(player, player->hands.selected, 1);
     return STATUS_OK;
@@ -508,7 +508,7 @@ static Status obey_mouse(Player *player, const Input *input)
         return turn_wheel(player, input->wheel_notches);
     if (mouse->drag_command != COMMAND_NONE)
         return continue_drag(player);
-    return rests ? STATUS_OK : note_hovered_thing(player);
+    return rests ? STATUS_OK : describe_hovered_object(player);
 }
 
 /* A drag is one gesture.  Successive turns of the wheel are one, too. */
@@ -524,14 +524,15 @@ Status player_obey_input(Player *player, const Input *input)
         status = release_button(player); /* a second button ends the drag */
     if (!status)
         status = player_show_refusal(
-            player, player_obey_queue(player, press && player->hands.holding));
+            player,
+            player_obey_queue(player, press && player->hands.is_holding));
     if (status)
         return status;
     bool key = input->kind == INPUT_KEY && !input->is_repeat &&
                mouse->drag_command == COMMAND_NONE;
-    if (press || key || (wheel && !mouse->was_wheel))
+    if (press || key || (wheel && !mouse->was_wheel_turn))
         mouse->gesture = ++player->commands.gestures;
-    mouse->was_wheel = wheel;
+    mouse->was_wheel_turn = wheel;
     player->commands.gesture = mouse->gesture;
     switch (input->kind) {
     case INPUT_KEY:
@@ -545,7 +546,7 @@ Status player_obey_input(Player *player, const Input *input)
         }
         if (command.kind)
             status = player_obey(player, &command);
-        return !status && command.kind == COMMAND_ENTER ? enter_typed(player)
+        return !status && command.kind == COMMAND_ENTER ? enter_text(player)
                                                         : status;
     case INPUT_CLOSE:
         return obey(player, COMMAND_QUIT, 0);

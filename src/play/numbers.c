@@ -108,7 +108,7 @@ Status obey_set(Player *player, const Command *command)
     const char *idle = player_find_idle_reason(player, row);
     if (idle)
         return player_refuse(player, "%s", idle);
-    bool one = player->tour.obeys_page || player_panes_differ(player, row);
+    bool one = player->tour.is_page_running || player_panes_differ(player, row);
     int pane = one ? player->active : PAST_ALL;
     int panes = player_copy_options(player, options);
     double old = options[player->active].number[row->slot];
@@ -130,12 +130,12 @@ Status obey_set(Player *player, const Command *command)
     const State *state = past_entry(&player->past, 0, player->past.step)->state;
     bool is_set = state && state->is_set; /* not made by a step */
     bool again = (!is_set || player_active_pane(player)->has_failed) &&
-                 (row->effect == EFFECT_AGAIN ||
+                 (row->effect == EFFECT_REPEAT ||
                   (player_active_options(player)->law_name &&
                    player->past.step > 0 && player_is_stopped(player)) ||
                   (player->play.walk_unit != UNIT_STEP &&
-                   player->view_of_pane[player->active].place >= 0));
-    if (simulation_find_option_effect(simulation, row) == EFFECT_START)
+                   player->view_of_pane[player->active].position >= 0));
+    if (simulation_find_option_effect(simulation, row) == EFFECT_NEW_RUN)
         return player_restart_runs(player, options, panes, command);
     if (again && change.x != old)
         return player_repeat_step(player, &change, pane);

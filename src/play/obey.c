@@ -73,10 +73,10 @@ static Command resolve_key_command(const Player *player, const Command *asked)
 }
 
 /* Copies to the page's own options what a command of the page has set. */
-static void store_own_option(Player *player, const Command *command)
+static void store_page_option(Player *player, const Command *command)
 {
-    Options *own = &player->tour.own_options[player->active];
-    player->tour.own_panes = past_panes(&player->past);
+    Options *own = &player->tour.page_options[player->active];
+    player->tour.page_panes = past_panes(&player->past);
     if (command->kind == COMMAND_FLIP)
         own->flips = exhibit_find_flips(player_simulation(player));
     if (command->kind == COMMAND_SET)
@@ -88,7 +88,7 @@ Status player_obey_queue(Player *player, bool now)
 {
     const Past *past = &player->past;
     CommandQueue queue = player->commands.queue;
-    const bool obeys_page = player->tour.obeys_page;
+    const bool obeys_page = player->tour.is_page_running;
     Status status = STATUS_OK;
     int i = 0;
     player->commands.queue = (CommandQueue){.count = 0};
@@ -99,11 +99,11 @@ Status player_obey_queue(Player *player, bool now)
                      past->step <= player->hands.pulled_step;
         if (!now && (past_is_working(past) || pulls))
             break;
-        player->tour.obeys_page = obeys_page || queue.is_from_page;
+        player->tour.is_page_running = obeys_page || queue.is_from_page;
         status = player_obey(player, command);
-        if (player->tour.obeys_page && !status)
-            store_own_option(player, command);
-        player->tour.obeys_page = obeys_page;
+        if (player->tour.is_page_running && !status)
+            store_page_option(player, command);
+        player->tour.is_page_running = obeys_page;
     }
     if (!status && i == queue.count) {
         status = player_restore_pins(player, queue.pins);
@@ -126,7 +126,7 @@ Status player_obey_queue(Player *player, bool now)
 static Status abandon_step(Player *player)
 {
     int gesture = player->commands.gesture;
-    past_choose_step(&player->past, player->past.step, false);
+    past_set_goal(&player->past, player->past.step, false);
     player->play.after_work = AFTER_NOTHING;
     Status status =
         player_show_refusal(player, player_obey_queue(player, true));

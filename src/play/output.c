@@ -31,7 +31,7 @@ Status output_report(char *message, const char *name, Status status,
                      const char *why)
 {
     if (message && !message[0])
-        snprintf(message, OUTPUT_MESSAGE, "%s: %s", name,
+        snprintf(message, MESSAGE_BYTES, "%s: %s", name,
                  why ? why : output_reason(status));
     return status;
 }
@@ -55,14 +55,14 @@ Status output_open(const char *name, char *message, Output *output)
     else if (exists && !S_ISREG(info.st_mode))
         output->file = fopen(name, "wbe");
     else if (!exists || access(name, W_OK) == 0) { /* not read-only */
-        snprintf(output->part_name, OUTPUT_NAME, "%.4096s.part", name);
+        snprintf(output->part_name, PATH_BYTES, "%.4096s.part", name);
         output->file = fopen(output->part_name, "wbe");
     }
     return output->file ? STATUS_OK : output_report_failure(output, NULL);
 }
 
 /* Checks every call that can report a failed write. */
-Status output_close(Output *output, FileEnding keep)
+Status output_close(Output *output, CloseAction keep)
 {
     FILE *file = output->file;
     bool beside = output->part_name[0];
@@ -74,7 +74,7 @@ Status output_close(Output *output, FileEnding keep)
         whole = fclose(file) == 0 && whole;
     if (beside && keep == KEEP_NOTHING)
         remove(output->part_name);
-    else if (beside && keep == KEEP_WHOLE && whole)
+    else if (beside && keep == KEEP_FILE && whole)
         whole = rename(output->part_name, output->name) == 0;
     output->file = NULL;
     return whole ? STATUS_OK : output_report_failure(output, NULL);
@@ -88,7 +88,7 @@ void table_add_columns(Table *table, const char *names)
         snprintf(name, sizeof name, "%.*s", length, at);
         while (c < table->columns && strcmp(table->column[c].name, name) != 0)
             c++;
-        if (c == table->columns && c < TABLE_COLUMNS) {
+        if (c == table->columns && c < TABLE_MAX_COLUMNS) {
             memcpy(table->column[c].name, name, sizeof name);
             table->column[c].kind = at[length] == ':' ? at[length + 1] : '\0';
             table->columns++;

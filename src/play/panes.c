@@ -46,7 +46,7 @@ Status obey_add_pane(Player *player, const Command *command)
     if (player_simulation(player)->runs > 1)
         return player_refuse(player, "several runs are in this picture "
                                      "already: nothing goes beside it");
-    const IntegratorMethod *next = player->tour.obeys_page
+    const IntegratorMethod *next = player->tour.is_page_running
                                        ? player_simulation(player)->run->method
                                        : find_next_method(player, panes - 1);
     if (!next)
@@ -54,7 +54,7 @@ Status obey_add_pane(Player *player, const Command *command)
     const Command change = make_set_command(
         option_find("integrator"), (double)(next - integrator_methods));
     Status status = player_edit_step(player, command, PAST_ALL, false);
-    if (!status && !player->tour.obeys_page)
+    if (!status && !player->tour.is_page_running)
         status = player_edit_step(player, &change, panes, false);
     if (status)
         return status;

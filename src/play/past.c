@@ -91,8 +91,8 @@ long past_find_drawable_step(const Past *past, int pane, long step)
     const Entry *first = past_entry(past, pane, 1);
     if (!first)
         return step;
-    double most = PAST_EXPLODED * fmax(first->outcome.reach, 1e-300);
-    while (step > 0 && !(past_entry(past, pane, step)->outcome.reach <= most))
+    double most = PAST_EXPLODED * fmax(first->outcome.max_x, 1e-300);
+    while (step > 0 && !(past_entry(past, pane, step)->outcome.max_x <= most))
         step--;
     return step;
 }
@@ -274,7 +274,7 @@ static Branch *push_branch(Past *past, Branch wanted, const Command *edit)
             past->pane[p].step > branch->first_step)
             pane_leave_step(past, p);
     for (int p = 0; p < branch->panes && !branch->from_options; p++)
-        for (int i = 0; i < branch->copies; i++) {
+        for (int i = 0; i < branch->copied; i++) {
             Entry *to = &branch->entry[i * branch->panes + p];
             *to = *find_branch_entry(branch - 1, find_pane_below(branch, p),
                                      branch->first_step + i);
@@ -288,7 +288,7 @@ static Branch *push_branch(Past *past, Branch wanted, const Command *edit)
     if (past->branches > 0)
         branch[-1].left_step = past->step;
     past->current = past->branches++;
-    past->step = past->aim_step = branch->first_step;
+    past->step = past->goal_step = branch->first_step;
     return branch;
 }
 
@@ -338,7 +338,7 @@ static void pane_forget_step(PastPane *pane)
 {
     pane->has_trace = pane->has_failed = false;
     pane->substeps = 0;
-    pane->trace.place_count = pane->records.count = 0;
+    pane->trace.position_count = pane->records.count = 0;
     pane->records.is_incomplete = false;
 }
 
@@ -456,7 +456,7 @@ static void abandon_work(Past *past)
         if (!past_makes_step(past))
             continue;
         drop_state(past, find_entry(past, p, new));
-        if (present_branch(past)->entries >= present_branch(past)->copies)
+        if (present_branch(past)->entries >= present_branch(past)->copied)
             drop_entry(past, find_entry(past, p, new)); /* not a copy */
     }
     past->work_stage = WORK_DONE;
@@ -492,7 +492,7 @@ static Status end_failed_pane(Past *past, int p, Status why)
 }
 
 /* Ends the work after a failure, or only this pane if other panes can go on. */
-static Status pane_fail(Past *past, int p, Status status)
+static Status pane_record_failure(Past *past, int p, Status status)
 {
     PastPane *pane = &past->pane[p];
     if (past_makes_step(past) && past->panes_fail_alone &&
@@ -508,7 +508,7 @@ static Status pane_fail(Past *past, int p, Status status)
     }
     /* Some panes may have made the next step, so the state is not of `step`. */
     pane->has_state = false;
-    past->aim_step = past->step;
+    past->goal_step = past->step;
     return status;
 }
 
@@ -536,7 +536,7 @@ static Status pane_finish_step(Past *past, int p)
         store_state(past, p, false, to);
     if (!status)
         status = pane_set_step(past, p, step);
-    return status ? pane_fail(past, p, status) : STATUS_RUNNING;
+    return status ? pane_record_failure(past, p, status) : STATUS_RUNNING;
 }
 
 /* Acts on the status of an iteration: if it ended a step of the simulation,
@@ -553,14 +553,14 @@ static Status pane_end_iteration(Past *past, int p, Status status)
         step_trace_end(&pane->trace, &simulation->options);
     bool moved = simulation->steps > pane->start_steps;
     outcome->status = status ? status : outcome->status;
-    outcome->reach = 0;
+    outcome->max_x = 0;
     for (int i = 0; i < 2 * simulation->system.nodes; i++)
-        outcome->reach = fmax(outcome->reach, fabs(simulation->run[0].x[i]));
+        outcome->max_x = fmax(outcome->max_x, fabs(simulation->run[0].x[i]));
     for (int r = 0; r < simulation->runs && !simulation->scene->step; r++)
         if (simulation->run[r].newton)
             outcome->energy_change += simulation->run[r].newton->total_change;
     if (status && !moved && (is_out_of_memory(status) || !simulation->is_over))
-        return pane_fail(past, p, status);
+        return pane_record_failure(past, p, status);
     pane->has_trace = past->stores_states;
     pane->substeps += moved;
     if (past_makes_step(past) && status)
@@ -595,7 +595,7 @@ static Status pane_iterate(Past *past, int p)
         return end_failed_pane(past, p, to->outcome.status);
     if (past->stores_states)
         step_trace_begin(&pane->trace, &pane->simulation, past->samples_energy,
-                         p == past->line_pane);
+                         p == past->line_energy_pane);
     pane->start_steps = pane->simulation.steps;
     pane->is_iterating = true;
     return pane_end_iteration(past, p,
@@ -618,8 +618,8 @@ static Status begin_new_step(Past *past)
     }
     past->bad_status = STATUS_OK;
     if (reserve_entry(past, present_branch(past)))
-        return pane_fail(past, 0, STATUS_OUT_OF_MEMORY);
-    past->work_stage = WORK_MAKES;
+        return pane_record_failure(past, 0, STATUS_OUT_OF_MEMORY);
+    past->work_stage = WORK_MAKING;
     return STATUS_RUNNING;
 }
 
@@ -630,14 +630,14 @@ static Status end_past_work(Past *past)
     Status status = past_makes_step(past) ? past->bad_status : STATUS_OK;
     if (past->work_stage == WORK_MADE) {
         present_branch(past)->entries++;
-    } else if (past->work_stage == WORK_MAKES) {
-        past->aim_step = past_newest(past);
+    } else if (past->work_stage == WORK_MAKING) {
+        past->goal_step = past_newest(past);
         for (int p = 0; p < past_panes(past); p++)
-            past->pane[p].step = past->aim_step;
+            past->pane[p].step = past->goal_step;
         abandon_work(past);
     }
     past->work_stage = WORK_DONE;
-    past->step = past->aim_step;
+    past->step = past->goal_step;
     return status;
 }
 
@@ -646,21 +646,21 @@ Status past_do_work(Past *past)
     if (past->work_stage == WORK_DONE)
         return STATUS_OK;
     int panes = past_panes(past), pane = 0;
-    for (; past->work_stage == WORK_LOADS && pane < panes; pane++) {
+    for (; past->work_stage == WORK_LOADING && pane < panes; pane++) {
         Status status = pane_seek(past, pane, past->load_step);
         if (status)
-            return pane_fail(past, pane, status);
+            return pane_record_failure(past, pane, status);
     }
-    if (past->work_stage == WORK_LOADS)
-        past->work_stage = WORK_REPEATS;
+    if (past->work_stage == WORK_LOADING)
+        past->work_stage = WORK_REPEATING;
     /* First each pane repeats steps up to newest, then each makes the next. */
     long newest = past_newest(past);
-    long aim = past->aim_step,
+    long aim = past->goal_step,
          goal = past_makes_step(past) || aim < newest ? aim : newest;
     for (pane = 0; pane < panes; pane++)
         if (past->pane[pane].is_iterating || past->pane[pane].step < goal)
             return pane_iterate(past, pane);
-    return goal < past->aim_step ? begin_new_step(past) : end_past_work(past);
+    return goal < past->goal_step ? begin_new_step(past) : end_past_work(past);
 }
 
 Status past_finish_work(Past *past)
@@ -672,36 +672,36 @@ Status past_finish_work(Past *past)
 }
 
 /* Whether the trace of `aim_step` is missing and is quick to make. */
-static bool can_trace_aim(const Past *past)
+static bool can_trace_goal(const Past *past)
 {
-    enum { SHORT = 400000 }; /* limit of nodes times updates */
+    enum { SHORT_STEP_WORK = 400000 }; /* limit of nodes times updates */
     long work = 0;
     for (int p = 0; p < past_panes(past); p++) {
         const PastPane *pane = &past->pane[p];
         const Simulation *simulation = &pane->simulation;
-        const Entry *entry = past_entry(past, p, past->aim_step);
-        long behind = past->aim_step - pane->step;
+        const Entry *entry = past_entry(past, p, past->goal_step);
+        long behind = past->goal_step - pane->step;
         bool is_known = pane->has_state &&
                         (behind == 1 || (behind == 0 && pane->has_trace));
         if (!is_known && simulation->run[0].newton && entry->substeps > 0 &&
             simulation_is_draggable(simulation))
             work += simulation->system.nodes * (1 + entry->outcome.updates);
     }
-    return 0 < work && work < SHORT;
+    return 0 < work && work < SHORT_STEP_WORK;
 }
 
-void past_choose_step(Past *past, long step, bool again)
+void past_set_goal(Past *past, long step, bool again)
 {
     abandon_work(past);
     long newest = past_newest(past);
-    past->aim_step = step < 0 ? 0 : step > newest ? newest + 1 : step;
-    past->load_step = past->aim_step < newest ? past->aim_step : newest;
-    past->work_stage = WORK_LOADS;
+    past->goal_step = step < 0 ? 0 : step > newest ? newest + 1 : step;
+    past->load_step = past->goal_step < newest ? past->goal_step : newest;
+    past->work_stage = WORK_LOADING;
     past->samples_energy = again;
-    if (past->aim_step == 0 || past->aim_step > newest ||
-        !past->stores_states || !(again || can_trace_aim(past)))
+    if (past->goal_step == 0 || past->goal_step > newest ||
+        !past->stores_states || !(again || can_trace_goal(past)))
         return;
-    past->load_step = past->aim_step - 1;
+    past->load_step = past->goal_step - 1;
     for (int p = 0; p < past_panes(past); p++)
         step_trace_clear(&past->pane[p].trace);
     leave_steps_of_panes(past);
@@ -713,16 +713,16 @@ void past_choose_step(Past *past, long step, bool again)
  * step and, if the state has changed, all rows of this step. */
 static void invalidate_tables(Past *past, long step, bool changed)
 {
-    if (past->written_to > step - changed)
-        past->written_to = step - changed;
-    if (past->booked_to > step - 1)
-        past->booked_to = step - 1;
+    if (past->written_step > step - changed)
+        past->written_step = step - changed;
+    if (past->booked_step > step - 1)
+        past->booked_step = step - 1;
 }
 
 /* Brings the simulations of all panes to the step that is shown. */
 static Status finish_shown_step(Past *past)
 {
-    past_choose_step(past, past->step, false);
+    past_set_goal(past, past->step, false);
     return past_finish_work(past);
 }
 
@@ -750,7 +750,7 @@ Status past_begin_runs(Past *past, const Options *options, int panes,
         step_trace_clear(&pane->trace);
     }
     if (status && past->current >= 0)
-        past_choose_step(past, past->step, false);
+        past_set_goal(past, past->step, false);
     if (status)
         return status;
     Branch *branch = push_branch(past, wanted, edit);
@@ -857,7 +857,7 @@ Status past_edit(Past *past, const Command *edit, int pane, bool again,
                  edit_sets_state(edit) == edit_sets_state(&branch->edit) &&
                  (!edit_sets_state(edit) || branch->entries == 1);
     const Branch wanted = {.first_step = past->step - again,
-                           .copies = 1 + again,
+                           .copied = 1 + again,
                            .panes = panes,
                            .gesture = gesture};
     if (joins) /* the edit replaces undone branches */
@@ -896,7 +896,7 @@ const Command *past_undo(Past *past, int way)
     present_branch(past)->left_step = past->step;
     past->current = to;
     past->step = present_branch(past)->left_step;
-    past_choose_step(past, past->step, false);
+    past_set_goal(past, past->step, false);
     return &past->branch[high].edit;
 }
 
@@ -905,10 +905,10 @@ void past_create(bool stores_states, bool panes_fail_alone, Past *past)
     *past = (Past){.current = -1,
                    .stores_states = stores_states,
                    .panes_fail_alone = panes_fail_alone,
-                   .written_to = -1,
-                   .booked_to = -1,
+                   .written_step = -1,
+                   .booked_step = -1,
                    .max_bytes = PAST_BYTES,
-                   .line_pane = -1};
+                   .line_energy_pane = -1};
 }
 
 void past_free(Past *past)

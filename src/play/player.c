@@ -77,7 +77,7 @@ static Status obey_script(Player *player)
             print_line(stderr, "script: step %ld: '%s': %s", player->past.step,
                        line, player->message);
             player->message[0] = '\0';
-            player->commands.line_refused = true;
+            player->commands.has_refused_line = true;
             status = STATUS_OK;
         }
     }
@@ -229,7 +229,7 @@ Status player_create(const Options *options, char *const *words,
         player->screen.window || options->script || options->page;
     options = player->setup.options;
     if (options->page)
-        player_store_own_options(player, options);
+        player_store_page_options(player, options);
     if (options->paused || (player->setup.asks_guess && options->steps < 0 &&
                             (options->page || options->scene->starts_paused)))
         player->play.mode = MODE_PAUSE;
@@ -269,9 +269,9 @@ Status player_finish(Player *player, Status status)
         Status rest = player_write_remaining(player);
         status = status ? status : rest;
     }
-    FileEnding keep = player->past.written_to < 0 ? KEEP_NOTHING
-                      : status                    ? KEEP_PART
-                                                  : KEEP_WHOLE;
+    CloseAction keep = player->past.written_step < 0 ? KEEP_NOTHING
+                       : status                      ? KEEP_PART
+                                                     : KEEP_FILE;
     close_window(player);
     Status closed = recording_close(&player->recording, keep);
     return status ? status : closed;

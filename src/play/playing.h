@@ -31,8 +31,8 @@ int player_list_options(const Player *player, bool all,
 
 /* Returns the page's own options of the first pane in which this option has
  * another value now, or NULL. */
-const Options *player_find_own_options(const Player *player,
-                                       const OptionRow *row);
+const Options *player_find_page_options(const Player *player,
+                                        const OptionRow *row);
 
 /* Whether options or switches of the page were changed, or a handle moved. */
 bool player_has_changed_page(const Player *player);
@@ -99,7 +99,7 @@ Status player_enqueue_lines(Player *player, const char *lines);
 
 /* Makes steps of the scenes on the sheet, for a part of the time of a frame. */
 void sheet_advance(Player *player);
-void sheet_fill(const Player *player, FrameContent *content);
+void sheet_build_content(const Player *player, FrameContent *content);
 void sheet_close(Player *player);
 
 /* ---- steps.c ------------------------------------------------------------- */
@@ -145,7 +145,7 @@ Status player_restore_pins(Player *player, const Control *before);
 Status player_enqueue_page(Player *player);
 
 /* Stores the options with which a page begins as the page's own. */
-void player_store_own_options(Player *player, const Options *options);
+void player_store_page_options(Player *player, const Options *options);
 
 /* Whether the page in the window waits for a guess. */
 bool player_hides_answer(const Player *player);
@@ -166,7 +166,7 @@ Status player_enqueue_notches(Player *player, const OptionRow *row,
 /* ---- frame.c ------------------------------------------------------------- */
 
 /* Fills player->screen.frame, and finds what is now under the mouse. */
-void player_fill_frame(Player *player);
+void player_build_frame(Player *player);
 
 /* Returns the paper in the present size, and creates it if need be.  NULL: the
  * player does not draw, or memory is missing. */

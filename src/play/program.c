@@ -19,7 +19,7 @@
     (print_line(stderr, "elasto: " format, __VA_ARGS__), (int)(code))
 
 /* Whether the reader of standard output has closed it, as head(1) does. */
-static bool reader_is_gone(void)
+static bool pipe_is_closed(void)
 {
     struct pollfd out = {.fd = STDOUT_FILENO};
     return poll(&out, 1, 0) == 1 && out.revents & (POLLERR | POLLHUP);
@@ -31,13 +31,13 @@ static int check_standard_output(void)
 {
     if (!ferror(stdout) && fflush(stdout) == 0)
         return EXIT_FINE;
-    return reader_is_gone() ? EXIT_FAILED
+    return pipe_is_closed() ? EXIT_FAILED
                             : print_error(EXIT_FAILED, "standard output: %s",
                                           output_reason(STATUS_FILE_FAILED));
 }
 
 /* Prints the answer to --help, --version, --lecture --list or --list.  Returns
- * the exit code, or PROGRAM_PLAYS without such an option. */
+ * the exit code, or EXIT_NONE without such an option. */
 static int print_help_or_list(const Options *options)
 {
     errno = 0;
@@ -46,7 +46,7 @@ static int print_help_or_list(const Options *options)
     else if (options->version)
         puts("elasto " ELASTO_VERSION);
     else if (!options->list)
-        return PROGRAM_PLAYS;
+        return EXIT_NONE;
     else if (options->page)
         for (int i = 0; lecture_pages[i].name; i++)
             printf("%2d %-12s %s\n", i + 1, lecture_pages[i].name,
@@ -78,7 +78,7 @@ static int report_failure(const Player *player, Status status)
     int panes = past_panes(&player->past), p = 0;
     char pane[32] = "";
     if (status == STATUS_FILE_FAILED && player->recording.uses_stdout &&
-        reader_is_gone())
+        pipe_is_closed())
         return code;
     if (!message[0])
         message = player->recording.message;
@@ -140,7 +140,7 @@ static void print_energy_gain(FILE *file, const Simulation *simulation)
     double gained = 0;
     for (int r = 0; r < simulation->runs; r++) {
         steps += simulation->ledger[r].gain_steps;
-        gained += simulation->ledger[r].gained;
+        gained += simulation->ledger[r].gained_energy;
     }
     if (steps > 0)
         print_quantity(
@@ -174,7 +174,7 @@ static void print_summary(FILE *file, const Player *player)
                            simulation_energies(simulation, 0).total);
             print_energy_gain(file, simulation);
         }
-        fprintf(file, "steps not converged %ld", simulation->unconverged);
+        fprintf(file, "steps not converged %ld", simulation->unconverged_steps);
         for (int i = 0; i < STATUS_COUNT; i++)
             if (simulation->status_counts[i] > 0)
                 fprintf(file, "\n  %-17s %d", status_name((Status)i),
@@ -228,11 +228,11 @@ int program_end(Player *player, Status status)
         print_summary(player->recording.uses_stdout ? stderr : stdout, player);
     print_old_frames(&player->recording);
     int code = check_standard_output();
-    if (code == EXIT_FINE && player->commands.line_refused)
+    if (code == EXIT_FINE && player->commands.has_refused_line)
         return EXIT_MISUSED;
     for (int i = 0; i < past_panes(&player->past) && code == EXIT_FINE; i++) {
         const Simulation *simulation = &player->past.pane[i].simulation;
-        if (simulation->unconverged > 0 ||
+        if (simulation->unconverged_steps > 0 ||
             (simulation->is_over && simulation->status))
             return EXIT_UNCONVERGED;
     }
@@ -266,7 +266,7 @@ static Status check_file_names(const Options *options, Message message)
 }
 
 /* Warns that after --state springs begin whole and the ceiling at its start. */
-static void warn_of_fresh_terms(const Options *options)
+static void warn_of_reset_terms(const Options *options)
 {
     const Scene *scene = options->scene;
     bool moves = options->ceiling[1] != 0 ||
@@ -285,7 +285,7 @@ int program_begin(int argc, char **argv, const Window *window,
                   const volatile sig_atomic_t *stop, Player *player)
 {
     Options options[OPTIONS_MAX_PANES] = {{.panes = 1}};
-    char message[OUTPUT_MESSAGE] = "";
+    char message[MESSAGE_BYTES] = "";
     memset(player, 0, sizeof *player);
     if (argc == 3 && strcmp(argv[1], "--help") == 0 &&
         strcmp(argv[2], "commands") == 0) {
@@ -302,11 +302,11 @@ int program_begin(int argc, char **argv, const Window *window,
                                status_text(status));
     }
     int code = print_help_or_list(options);
-    if (code != PROGRAM_PLAYS)
+    if (code != EXIT_NONE)
         return code;
     if (check_file_names(options, MESSAGE(message)))
         return print_error(EXIT_MISUSED, "%s", message);
-    warn_of_fresh_terms(options);
+    warn_of_reset_terms(options);
     Status status = player_create(options, argv, window, stop, player);
-    return status ? program_end(player, status) : PROGRAM_PLAYS;
+    return status ? program_end(player, status) : EXIT_NONE;
 }

@@ -58,7 +58,7 @@ static void add_energies(Table *table, const RunAtStep *at)
 {
     const Energies energies =
         simulation_energies(at->simulation, at->run_index);
-    double row[TABLE_COLUMNS] = {at->step, at->time};
+    double row[TABLE_MAX_COLUMNS] = {at->step, at->time};
     for (int c = 2; c < table->columns; c++)
         for (int r = 0; r < energies.rows; r++)
             if (strcmp(energies.row[r].name, table->column[c].name) == 0)
@@ -128,7 +128,7 @@ Status png_file_write(const char *name, char *message, const Canvas *canvas)
         return status;
     status = png_write(output.file, canvas);
     if (!status)
-        return output_close(&output, KEEP_WHOLE);
+        return output_close(&output, KEEP_FILE);
     output_report(message, name, status, NULL);
     output_close(&output, KEEP_PART);
     return status;
@@ -196,7 +196,7 @@ Status recording_write_frame(Recording *recording, const Canvas *canvas,
                              long step, int times)
 {
     Film *film = &recording->film;
-    char name[OUTPUT_NAME];
+    char name[PATH_BYTES];
     Status status =
         film_is_open(film) ? film_add_frame(film, canvas, times) : STATUS_OK;
     if (status || !recording->folder)
@@ -251,7 +251,7 @@ Status recording_write_iteration(Recording *recording, const NewtonRecord *at,
 }
 
 /* Flushes all tables before the first file gets its name. */
-Status recording_close(Recording *recording, FileEnding keep)
+Status recording_close(Recording *recording, CloseAction keep)
 {
     bool failed = recording->message[0];
     for (int t = 0; t < RECORDING_TABLES; t++) {

@@ -6,11 +6,11 @@
 
 #include "play/playing.h"
 
-enum { NOTE_LINE = 100 }; /* bytes, longest command line that the note shows */
+enum { NOTED_LINE_BYTES = 100 }; /* longest command line of a note */
 
 /* Finds a name that no file has: elasto_SCENE_000012.png, ..._2.png, ... */
-static void find_free_name(const Player *player, const char *end, char *name,
-                           size_t size)
+static void find_free_file_name(const Player *player, const char *end,
+                                char *name, size_t size)
 {
     char number[16] = "";
     for (int i = 2; i < 100000; i++) {
@@ -30,7 +30,7 @@ Status obey_shot(Player *player, const Command *command)
     Paper *paper = player_prepare_paper(player);
     Status status = paper ? STATUS_OK : STATUS_OUT_OF_MEMORY;
     player->screen.draws_frames = draws;
-    find_free_name(player, ".png", name, sizeof name);
+    find_free_file_name(player, ".png", name, sizeof name);
     if (paper) {
         player_paint_frame(player, paper);
         status = png_file_write(name, NULL, &paper->canvas);
@@ -44,15 +44,15 @@ Status obey_shot(Player *player, const Command *command)
 
 Status obey_film(Player *player, const Command *command)
 {
-    char name[80], message[OUTPUT_MESSAGE] = "";
+    char name[80], message[MESSAGE_BYTES] = "";
     Film *film = &player->recording.film;
     bool ends = film_is_open(film);
     if (!player->screen.draws_frames)
         return player_refuse(player, "nothing is drawn that could be filmed");
-    find_free_name(player, ".mp4", name, sizeof name);
+    find_free_file_name(player, ".mp4", name, sizeof name);
     film->output.message = message;
     Status status =
-        ends ? film_close(film, KEEP_WHOLE) : film_open(name, message, film);
+        ends ? film_close(film, KEEP_FILE) : film_open(name, message, film);
     film->output.message = player->recording.message;
     player->screen.drawn_step = -1; /* the film begins with the present frame */
     if (status)
@@ -86,7 +86,7 @@ int player_find_scene_word(const Player *player, int i)
 }
 
 /* Writes a word for a shell, in quotes if it needs them. */
-static void put_word(FILE *file, const char *word)
+static void write_shell_word(FILE *file, const char *word)
 {
     static const char plain[] = "%+,-./0123456789:=@_"
                                 "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
@@ -112,7 +112,7 @@ static char *write_command_line(const Player *player, const char *script)
         return NULL;
     fputs("elasto", file);
     for (int i = 0; (i = player_find_scene_word(player, i + 1));)
-        put_word(file, player->setup.arguments[i]);
+        write_shell_word(file, player->setup.arguments[i]);
     if (script)
         fprintf(file, " --script %s", script);
     else
@@ -147,7 +147,7 @@ Status obey_hash(Player *player, const Command *command)
 {
     char name[80], hash[64];
     bool commands = player->commands.journal.lines > 0;
-    find_free_name(player, ".script", name, sizeof name);
+    find_free_file_name(player, ".script", name, sizeof name);
     char *line = write_command_line(player, commands ? name : NULL);
     Status status = line ? STATUS_OK : STATUS_OUT_OF_MEMORY;
     if (!status && commands)
@@ -157,7 +157,7 @@ Status obey_hash(Player *player, const Command *command)
     if (status) {
         player_note(player, "%s: no script: %s", hash, output_reason(status));
     } else {
-        bool fits = strlen(line) <= NOTE_LINE;
+        bool fits = strlen(line) <= NOTED_LINE_BYTES;
         const char *where = commands ? name : "the terminal";
         player_note(player, "%s: %s%s", hash, fits ? "" : "its line is in ",
                     fits ? line : where);

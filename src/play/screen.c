@@ -23,7 +23,7 @@ Status obey_screen(Player *player, const Command *command)
     else if (kind == COMMAND_SLOWER)
         player->play.log_speed -= player->play.log_speed > SPEED_LEAST;
     else if (kind == COMMAND_COLOURS)
-        player->screen.shows_strain = !player->screen.shows_strain;
+        player->screen.has_toggled_strain = !player->screen.has_toggled_strain;
     else if (kind == COMMAND_BARE)
         player->screen.is_bare = !player->screen.is_bare;
     else if (kind == COMMAND_BLANK)
@@ -105,7 +105,7 @@ Status obey_camera(Player *player, const Command *command)
         *lens = LENS_FITS;
     if (command->kind == COMMAND_FIT || !paper)
         return STATUS_OK;
-    player_fill_frame(player);
+    player_build_frame(player);
     Layout layout =
         layout_create(content, paper->canvas.width, paper->canvas.height);
     Camera camera = camera_of_pane(content, &layout, player->active);
@@ -125,7 +125,7 @@ Status obey_card(Player *player, const Command *command)
 {
     int card = (int)command->number;
     const CardSets *sets = &player->screen.frame.content.cards;
-    player_fill_frame(player);
+    player_build_frame(player);
     bool closed = sets->closed_cards >> card & 1;
     if (sets->hidden_cards >> card & 1)
         return player_refuse(player, "this card is not shown here");
@@ -150,7 +150,7 @@ Status obey_choose(Player *player, const Command *command)
     int way = up || strcmp(key, "Left") == 0 ? -1 : 1, i = *chosen + way;
     if (!paper)
         return STATUS_OK;
-    player_fill_frame(player);
+    player_build_frame(player);
     Layout layout =
         layout_create(content, paper->canvas.width, paper->canvas.height);
     const Box *cell = layout.cell, *now = &cell[*chosen];

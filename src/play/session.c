@@ -46,7 +46,7 @@ int player_copy_options(const Player *player,
 
 bool player_has_number(const Player *player, const OptionRow *row)
 {
-    return (row->needs & player_active_options(player)->scene->parts) &&
+    return (row->needed_parts & player_active_options(player)->scene->parts) &&
            row->kind != OPTION_SWITCH && row->kind != OPTION_TEXT;
 }
 
@@ -66,12 +66,12 @@ int player_list_options(const Player *player, bool all,
     return all || count < LAYOUT_SETTINGS ? count : LAYOUT_SETTINGS - 1;
 }
 
-const Options *player_find_own_options(const Player *player,
-                                       const OptionRow *row)
+const Options *player_find_page_options(const Player *player,
+                                        const OptionRow *row)
 {
     const Past *past = &player->past;
-    const Options *own = player->tour.own_options;
-    int panes = (int)fmin(player->tour.own_panes, past_panes(past));
+    const Options *own = player->tour.page_options;
+    int panes = (int)fmin(player->tour.page_panes, past_panes(past));
     for (int p = 0; p < panes; p++)
         if (!option_is_equal(row, &own[p], &past_control(past, p)->options))
             return &own[p];
@@ -81,7 +81,7 @@ const Options *player_find_own_options(const Player *player,
 bool player_has_changed_page(const Player *player)
 {
     const OptionRow *row[OPTIONS_MAX_ROWS];
-    const Options *own = player->tour.own_options;
+    const Options *own = player->tour.page_options;
     const Past *past = &player->past;
     const LecturePage *page = past_control(past, 0)->options.page;
     /* After undo the window may show another page than the one opened last. */
@@ -93,7 +93,7 @@ bool player_has_changed_page(const Player *player)
         is_changed |= past->branch[b].edit.kind == COMMAND_HANDLE;
     int rows = player_list_options(player, true, row);
     for (int i = 0; i < rows && !is_changed; i++)
-        is_changed = player_find_own_options(player, row[i]);
+        is_changed = player_find_page_options(player, row[i]);
     return is_changed;
 }
 
@@ -155,14 +155,15 @@ void player_sample_line_energy(Player *player)
                                            player->screen.toggled_cards);
     Past *past = &player->past;
     const PastPane *pane = player_active_pane(player);
-    past->line_pane = is_drawn ? player->active : -1;
-    bool lacks = is_drawn && pane->has_trace && !past_is_working(past) &&
-                 step_trace_lacks_samples(
-                     &pane->trace, player->view_of_pane[player->active].place);
+    past->line_energy_pane = is_drawn ? player->active : -1;
+    bool lacks =
+        is_drawn && pane->has_trace && !past_is_working(past) &&
+        step_trace_lacks_samples(&pane->trace,
+                                 player->view_of_pane[player->active].position);
     for (int p = 0; p < past_panes(past); p++)
         lacks = lacks && !past->pane[p].has_failed;
     if (lacks)
-        past_choose_step(past, past->step, true);
+        past_set_goal(past, past->step, true);
 }
 
 int player_initial_speed(const Player *player, const Options *options)
@@ -193,7 +194,7 @@ void player_format_value(const OptionRow *row, const Options *options,
 {
     char value[COMMAND_TEXT_SIZE], unit[16];
     option_write_unit(row, unit, sizeof unit);
-    if (strcmp(row->name, "tolerance") == 0 && simulation->descent.by_gradient)
+    if (strcmp(row->name, "tolerance") == 0 && simulation->descent.tests_g)
         snprintf(unit, sizeof unit, "%s", /* unit of the gradient's norm */
                  simulation->scene->picture == PICTURE_CURVE ? "" : "kg m");
     option_write_short(row, options, value, sizeof value);

@@ -94,7 +94,7 @@ void sheet_advance(Player *player)
     player->screen.must_redraw = true;
 }
 
-void sheet_fill(const Player *player, FrameContent *content)
+void sheet_build_content(const Player *player, FrameContent *content)
 {
     const Sheet *sheet = player->screen.sheet;
     content->sheet.cells = sheet->cells;

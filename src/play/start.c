@@ -135,18 +135,18 @@ Status player_enqueue_page(Player *player)
     return player_enqueue_lines(player, page ? page->on_open : NULL);
 }
 
-void player_store_own_options(Player *player, const Options *options)
+void player_store_page_options(Player *player, const Options *options)
 {
     for (int p = 0; p < OPTIONS_MAX_DRAWN; p++)
-        player->tour.own_options[p] = *options;
-    player->tour.own_panes = 1;
+        player->tour.page_options[p] = *options;
+    player->tour.page_panes = 1;
 }
 
 bool player_hides_answer(const Player *player)
 {
     const LecturePage *page = player_active_options(player)->page;
     return page && page->question && player->tour.revealed != page &&
-           player->setup.asks_guess && !player->tour.obeys_page;
+           player->setup.asks_guess && !player->tour.is_page_running;
 }
 
 /* A guess may be wrong by 2.5 percent, since it is calculated on paper. */
@@ -207,7 +207,7 @@ Status obey_page(Player *player, const Command *command)
     Status status = player_find_defaults(player, "", page, &options);
     if (status)
         return status;
-    player_store_own_options(player, &options);
+    player_store_page_options(player, &options);
     status = player_begin_runs(player, &options, 1, command);
     player->play.log_speed = player_initial_speed(player, &options);
     player->tour.last_page = page;
@@ -237,7 +237,7 @@ Status obey_predict(Player *player, const Command *command)
     if (!player_hides_answer(player))
         return STATUS_OK;
     double way =
-        math_hypot(guess->reached[0] - at[0], guess->reached[1] - at[1]);
+        math_hypot(guess->outcome[0] - at[0], guess->outcome[1] - at[1]);
     bool right = guess->error <= 0.1 * way;
     Status status = player_reveal_answer(player, NULL);
     player->tour.guesses++;

@@ -6,7 +6,7 @@
 #include <string.h>
 
 /* From this number of trials on, the walk shows only the last trial. */
-enum { TRIALS_WALKED = 12 };
+enum { MAX_TRIALS = 12 };
 
 bool records_reserve(Records *records, int count)
 {
@@ -34,7 +34,7 @@ void step_trace_clear(StepTrace *trace)
     free(trace->x_tilde);
     free(trace->end_x);
     trace->x_tilde = trace->end_x = NULL;
-    trace->records.count = trace->place_count = 0;
+    trace->records.count = trace->position_count = 0;
     trace->used_bytes = 0;
 }
 
@@ -43,7 +43,7 @@ void step_trace_free(StepTrace *trace)
     step_trace_clear(trace);
     free(trace->iterate);
     free(trace->records.record);
-    free(trace->place);
+    free(trace->position);
     *trace = (StepTrace){0};
 }
 
@@ -75,13 +75,13 @@ static void store_line_energy(StepTrace *trace, const Iterate *at)
     iterate->has_samples = along.has_remainder && samples;
     for (int i = 0; i < SAMPLE_COUNT && iterate->has_samples; i++)
         iterate->energy_samples[i] = line_energy_difference(
-            &along, i * iterate->first_trial / SAMPLE_PARTS);
+            &along, i * iterate->first_trial / SAMPLE_INTERVALS);
 }
 
 bool step_trace_lacks_samples(const StepTrace *trace, int place)
 {
     int last = trace->records.count - 1;
-    int i = place < 0 ? last : trace->place[place].iterate;
+    int i = place < 0 ? last : trace->position[place].iterate;
     if (last < 0)
         return false;
     const TraceIterate *iterate = &trace->iterate[i < last ? i : last];
@@ -90,14 +90,14 @@ bool step_trace_lacks_samples(const StepTrace *trace, int place)
 
 /* Returns E(x + alpha p) - E(x): the polynomial, or samples joined by lines;
  * without samples, NaN except at the step length that was taken. */
-static double evaluate_round_energy(const void *function, double alpha)
+static double evaluate_iterate_energy(const void *function, double alpha)
 {
     const TraceIterate *iterate = function;
     if (!iterate->has_remainder)
         return quartic_value(&iterate->polynomial, alpha);
     if (!iterate->has_samples && alpha == iterate->alpha)
         return iterate->energy_change;
-    double place = alpha / iterate->first_trial * SAMPLE_PARTS;
+    double place = alpha / iterate->first_trial * SAMPLE_INTERVALS;
     if (!iterate->has_samples || !(place >= 0 && place <= SAMPLE_COUNT - 1))
         return NAN;
     const double *value = iterate->energy_samples + (int)place;
@@ -181,48 +181,49 @@ void step_trace_add_iterate(StepTrace *trace, const Newton *newton,
         trace->x_tilde[i] += newton->iterate.E.x_n[i];
 }
 
-static void append_place(StepTrace *trace, int iterate, StepLine line,
-                         int trials)
+static void append_position(StepTrace *trace, int iterate, StepLine line,
+                            int trials)
 {
-    trace->place[trace->place_count++] = (TracePlace){iterate, line, trials};
+    trace->position[trace->position_count++] =
+        (TracePosition){iterate, line, trials};
 }
 
 void step_trace_end(StepTrace *trace, const Options *options)
 {
     int count = trace->records.count;
-    TracePlace *place =
-        realloc(trace->place,
-                ((size_t)count + 1) * (TRIALS_WALKED + 8) * sizeof *place);
-    trace->place_count = 0;
+    TracePosition *place =
+        realloc(trace->position,
+                ((size_t)count + 1) * (MAX_TRIALS + 8) * sizeof *place);
+    trace->position_count = 0;
     if (!place)
         return;
-    trace->place = place;
-    append_place(trace, 0, LINE_START, 0);
+    trace->position = place;
+    append_position(trace, 0, LINE_START, 0);
     for (int i = 0; i < count; i++) {
         const NewtonRecord *record = &trace->records.record[i];
         bool searches = options->line_search != LINE_SEARCH_NONE;
         bool fails = record->alpha == 0, passes = record->status == STATUS_OK;
         int trials = record->trials;
-        append_place(trace, i, LINE_DO, 0);
+        append_position(trace, i, LINE_DO, 0);
         if (options->projection != PROJECTION_NONE)
-            append_place(trace, i, LINE_PROJECT, 0);
-        append_place(trace, i, LINE_SOLVE, 0);
-        for (int t = 1; searches && t < trials && trials < TRIALS_WALKED; t++)
-            append_place(trace, i, LINE_SEARCH, t);
+            append_position(trace, i, LINE_PROJECT, 0);
+        append_position(trace, i, LINE_SOLVE, 0);
+        for (int t = 1; searches && t < trials && trials < MAX_TRIALS; t++)
+            append_position(trace, i, LINE_SEARCH, t);
         if (searches || fails)
-            append_place(trace, i, LINE_SEARCH, trials);
+            append_position(trace, i, LINE_SEARCH, trials);
         if (!fails)
-            append_place(trace, i, LINE_UPDATE, trials);
+            append_position(trace, i, LINE_UPDATE, trials);
         if (!fails || passes)
-            append_place(trace, i, LINE_TEST, trials);
+            append_position(trace, i, LINE_TEST, trials);
     }
-    append_place(trace, count, LINE_END, 0);
+    append_position(trace, count, LINE_END, 0);
 }
 
 int step_trace_walk(const StepTrace *trace, TimeUnit unit, int place, int way)
 {
-    for (int i = place + way; 0 <= i && i < trace->place_count; i += way) {
-        StepLine line = trace->place[i].at_line;
+    for (int i = place + way; 0 <= i && i < trace->position_count; i += way) {
+        StepLine line = trace->position[i].at_line;
         if (unit == UNIT_LINE || line == LINE_START || line == LINE_TEST ||
             line == LINE_END)
             return i;
@@ -230,20 +231,20 @@ int step_trace_walk(const StepTrace *trace, TimeUnit unit, int place, int way)
     return place;
 }
 
-int step_trace_find_place(const StepTrace *trace, int iterate, StepLine line)
+int step_trace_find_position(const StepTrace *trace, int iterate, StepLine line)
 {
-    for (int i = trace->place_count - 1; i >= 0; i--)
-        if (trace->place[i].iterate == iterate &&
-            trace->place[i].at_line <= line)
+    for (int i = trace->position_count - 1; i >= 0; i--)
+        if (trace->position[i].iterate == iterate &&
+            trace->position[i].at_line <= line)
             return i;
-    return trace->place_count - 1;
+    return trace->position_count - 1;
 }
 
 /* The rounding error of `sum` is some units in the last place of the highest E,
  * far less than a tenth of E, the limit for a peak. */
 int step_trace_find_peak(const StepTrace *trace)
 {
-    enum { FAR = 10 };
+    enum { EXPLOSION_FACTOR = 10 };
     double sum = 0, rise = 0;
     int iterate = -1;
     for (int i = 0; i < trace->records.count; i++) {
@@ -253,12 +254,12 @@ int step_trace_find_peak(const StepTrace *trace)
             iterate = i;
         }
     }
-    bool far = iterate >= 0 && rise > FAR * fabs(sum);
-    return far ? step_trace_find_place(trace, iterate, LINE_UPDATE) : -1;
+    bool far = iterate >= 0 && rise > EXPLOSION_FACTOR * fabs(sum);
+    return far ? step_trace_find_position(trace, iterate, LINE_UPDATE) : -1;
 }
 
 /* Fills the values that the lines up to a place have computed at x^i. */
-static void fill_iterate_values(const StepTrace *trace, const TracePlace *at,
+static void show_iterate_values(const StepTrace *trace, const TracePosition *at,
                                 Trace *shown)
 {
     const TraceIterate *iterate = &trace->iterate[at->iterate];
@@ -278,24 +279,24 @@ static void fill_iterate_values(const StepTrace *trace, const TracePlace *at,
     shown->first_alpha = iterate->first_trial;
     if (!iterate->p)
         return;
-    shown->energy_difference = evaluate_round_energy;
+    shown->energy_difference = evaluate_iterate_energy;
     shown->difference_data = iterate;
 }
 
-const double *step_trace_fill(const StepTrace *trace, int place, Trace *shown)
+const double *step_trace_show(const StepTrace *trace, int place, Trace *shown)
 {
     int count = trace->records.count;
     const NewtonRecord *row = trace->records.record;
     const NewtonRecord *last = count > 0 ? row + count - 1 : row;
-    bool over = place < 0 || place >= trace->place_count;
+    bool over = place < 0 || place >= trace->position_count;
     bool given_up = count > 0 && last->status != STATUS_OK &&
                     last->status != STATUS_RUNNING;
-    const TracePlace at =
-        over ? (TracePlace){count, LINE_END, 0} : trace->place[place];
+    const TracePosition at =
+        over ? (TracePosition){count, LINE_END, 0} : trace->position[place];
     bool end = at.at_line == LINE_END;
-    TracePlace source = at;
+    TracePosition source = at;
     if (end && count > 0) /* the end shows the values of the last iterate */
-        source = (TracePlace){count - 1, LINE_END, last->trials};
+        source = (TracePosition){count - 1, LINE_END, last->trials};
     *shown = trace->start_trace;
     shown->at_line = over ? LINE_NONE : at.at_line;
     shown->iteration = source.iterate;
@@ -304,7 +305,7 @@ const double *step_trace_fill(const StepTrace *trace, int place, Trace *shown)
     shown->x_n = count > 0 ? trace->iterate[0].x : NULL;
     shown->x_tilde = trace->x_tilde;
     if (at.at_line != LINE_START && source.iterate < count)
-        fill_iterate_values(trace, &source, shown);
+        show_iterate_values(trace, &source, shown);
     shown->given_up =
         given_up &&
         (end || (at.at_line == LINE_SEARCH && at.iterate == count - 1 &&

@@ -37,7 +37,8 @@ static Status record_step(Player *player)
     const Simulation *simulation[OPTIONS_MAX_PANES];
     int panes = past_panes(past);
     long step = past->step;
-    bool due = step == past->booked_to + 1, again = step <= past->written_to;
+    bool due = step == past->booked_step + 1,
+         again = step <= past->written_step;
     for (int p = 0; p < panes; p++) {
         const PastPane *pane = &past->pane[p];
         simulation[p] = &pane->simulation;
@@ -48,9 +49,9 @@ static Status record_step(Player *player)
         return STATUS_OK;
     Status status =
         step > 0 && !again ? record_iterations(player, step) : STATUS_OK;
-    past->booked_to = step;
+    past->booked_step = step;
     if (!again)
-        past->written_to = step;
+        past->written_step = step;
     return status ? status
                   : recording_write_states(&player->recording, again,
                                            simulation, panes, step);
@@ -64,20 +65,20 @@ Status player_write_remaining(Player *player)
     bool failed = false, again = true;
     for (int p = 0; p < past_panes(past); p++)
         failed = failed || past->pane[p].has_failed;
-    if (failed && shown == past->written_to)
+    if (failed && shown == past->written_step)
         status = record_iterations(player, shown + 1);
     if (!past->stores_states || !player->recording.has_tables)
         return status;
-    while (past->booked_to < past_newest(past) && !status &&
+    while (past->booked_step < past_newest(past) && !status &&
            !*player->setup.stop_signal) {
-        long next = past->booked_to + 1;
-        past_choose_step(past, next, again);
+        long next = past->booked_step + 1;
+        past_set_goal(past, next, again);
         status = past_finish_work(past);
         if (!status_is_failure(status))
             status = record_step(player);
-        again = past->booked_to < next;
+        again = past->booked_step < next;
     }
-    past_choose_step(past, shown, false);
+    past_set_goal(past, shown, false);
     past_finish_work(past);
     return status;
 }
@@ -88,7 +89,7 @@ Status player_write_remaining(Player *player)
 static void leave_algorithm_lines(Player *player)
 {
     for (int p = 0; p < OPTIONS_MAX_PANES; p++)
-        player->view_of_pane[p].place = -1;
+        player->view_of_pane[p].position = -1;
 }
 
 void player_reset_view(Player *player)
@@ -105,7 +106,7 @@ void player_reset_view(Player *player)
 
 static void drop_hand_and_queue(Player *player)
 {
-    player->hands.holding = false;
+    player->hands.is_holding = false;
     player->commands.queue.count = 0;
 }
 
@@ -156,7 +157,7 @@ Status player_begin_runs(Player *player, const Options *options, int count,
     player_reset_view(player);
     player->play.mode = player_is_stopped(player) ? MODE_PAUSE : MODE_RUN;
     player->screen.drawn_step = -1;
-    player->play.has_warned = player->play.has_told_gain = false;
+    player->play.has_warned = player->play.reported_gain = false;
     drop_hand_and_queue(player);
     update_after_edit(player);
     return record_step(player);
@@ -202,17 +203,17 @@ static void report_energy_gain(Player *player)
     const Past *past = &player->past;
     if (player->setup.options[0].steps >= 0 || !player->setup.is_attended)
         return;
-    for (int p = 0; p < past_panes(past) && !player->play.has_told_gain; p++) {
+    for (int p = 0; p < past_panes(past) && !player->play.reported_gain; p++) {
         const Simulation *simulation = &past->pane[p].simulation;
-        for (int r = 0; r < simulation->runs && !player->play.has_told_gain;
+        for (int r = 0; r < simulation->runs && !player->play.reported_gain;
              r++) {
-            player->play.has_told_gain = simulation->ledger[r].gain_steps > 0;
-            if (player->play.has_told_gain)
+            player->play.reported_gain = simulation->ledger[r].gain_steps > 0;
+            if (player->play.reported_gain)
                 player_note(player,
                             "step %ld: the total energy has risen by %.3g J "
                             "without work; a long step of backward Euler can "
                             "do that",
-                            past->step, simulation->ledger[r].gained);
+                            past->step, simulation->ledger[r].gained_energy);
         }
     }
 }
@@ -266,21 +267,22 @@ static void enter_line_walk(Player *player, AfterWork after)
         const StepTrace *trace = &player->past.pane[p].trace;
         Trace shown;
         double far = 0;
-        int place = trace->place_count <= 2     ? -1 /* no update */
+        int place = trace->position_count <= 2  ? -1 /* no update */
                     : after == AFTER_SHOW_FIRST ? 0
-                    : after == AFTER_SHOW_LAST  ? trace->place_count - 1
+                    : after == AFTER_SHOW_LAST  ? trace->position_count - 1
                                                 : step_trace_find_peak(trace);
         if (place < 0)
             continue;
         player->play.mode = MODE_PAUSE;
-        player->view_of_pane[p].place = place;
-        const double *x = step_trace_fill(trace, place, &shown);
+        player->view_of_pane[p].position = place;
+        const double *x = step_trace_show(trace, place, &shown);
         if (after != AFTER_SHOW_END)
             continue;
         for (int i = 0; x && i < trace->x_length; i++)
             far = fmax(far, fabs(x[i]));
         player_note(player, "update %d of %d: nodes are %.4g m away; N goes on",
-                    trace->place[place].iterate + 1, trace->records.count, far);
+                    trace->position[place].iterate + 1, trace->records.count,
+                    far);
         player->is_warning = true;
     }
 }
@@ -291,7 +293,7 @@ static bool walk_lines(Player *player, int way)
     bool moved = false;
     for (int p = 0; p < past_panes(&player->past); p++) {
         const StepTrace *trace = &player->past.pane[p].trace;
-        int *place = &player->view_of_pane[p].place;
+        int *place = &player->view_of_pane[p].position;
         if (*place < 0)
             continue;
         int next = step_trace_walk(trace, player->play.walk_unit, *place, way);
@@ -330,12 +332,12 @@ static void compare_outcomes(Player *player)
 {
     const Past *past = &player->past;
     const StepTrace *trace = &player_active_pane(player)->trace;
-    const TracePlace *at = &player->play.wanted_place;
+    const TracePosition *at = &player->play.wanted_position;
     char has[256];
-    if (at->iterate >= 0 && trace->place_count > 2) {
+    if (at->iterate >= 0 && trace->position_count > 2) {
         player->play.mode = MODE_PAUSE;
-        player->view_of_pane[player->active].place =
-            step_trace_find_place(trace, at->iterate, at->at_line);
+        player->view_of_pane[player->active].position =
+            step_trace_find_position(trace, at->iterate, at->at_line);
     }
     describe_outcome(player,
                      &option_rows[past->branch[past->current].edit.number], has,
@@ -354,12 +356,12 @@ Status player_repeat_step(Player *player, const Command *change, int pane)
     size_t bytes = 2 * (size_t)simulation->system.nodes * sizeof(double);
     bool failed = active->has_failed;
     long step = past->step + failed;
-    player->play.wanted_place = (TracePlace){.iterate = -1};
-    if (view->place >= 0 && player->play.walk_unit != UNIT_STEP)
-        player->play.wanted_place = active->trace.place[view->place];
+    player->play.wanted_position = (TracePosition){.iterate = -1};
+    if (view->position >= 0 && player->play.walk_unit != UNIT_STEP)
+        player->play.wanted_position = active->trace.position[view->position];
     player_reset_view(player);
     describe_outcome(player, row, view->ghost_label, sizeof view->ghost_label);
-    if (row->effect == EFFECT_AGAIN && !failed && !simulation->scene->step)
+    if (row->effect == EFFECT_REPEAT && !failed && !simulation->scene->step)
         view->ghost = malloc(bytes);
     if (view->ghost)
         memcpy(view->ghost, simulation->run[0].x, bytes);
@@ -367,7 +369,7 @@ Status player_repeat_step(Player *player, const Command *change, int pane)
     if (status)
         return status;
     player->screen.drawn_step = -1;
-    past_choose_step(past, step, player->play.wanted_place.iterate >= 0);
+    past_set_goal(past, step, player->play.wanted_position.iterate >= 0);
     player->play.after_work = AFTER_COMPARE;
     return STATUS_OK;
 }
@@ -445,7 +447,7 @@ static Status release_old_hand(Player *player)
     const Command release = {.kind = COMMAND_RELEASE};
     int gesture = player->commands.gesture;
     if (!control_hand_holds(past_control(&player->past, 0)) ||
-        player->hands.holding)
+        player->hands.is_holding)
         return STATUS_OK;
     player->commands.gesture = ++player->commands.gestures;
     Status status = player_edit_step(player, &release, PAST_ALL, false);
@@ -465,8 +467,8 @@ Status player_seek(Player *player, long step, AfterWork after)
     if (status)
         return status;
     player_reset_view(player);
-    past_choose_step(past, step,
-                     after == AFTER_SHOW_FIRST || after == AFTER_SHOW_LAST);
+    past_set_goal(past, step,
+                  after == AFTER_SHOW_FIRST || after == AFTER_SHOW_LAST);
     player->play.after_work = after;
     return STATUS_OK;
 }
@@ -491,7 +493,7 @@ Status obey_next(Player *player, const Command *command)
     if (after == AFTER_SHOW_FIRST && walk_lines(player, 1))
         return STATUS_OK;
     if (after == AFTER_SHOW_END &&
-        player->view_of_pane[player->active].place >= 0) {
+        player->view_of_pane[player->active].position >= 0) {
         leave_algorithm_lines(player); /* to the end of the step */
         return STATUS_OK;
     }
@@ -516,12 +518,12 @@ Status obey_back(Player *player, const Command *command)
         player_note(player, "this is step 0: nothing was before it");
     if (player->play.walk_unit == UNIT_STEP || !panes_use_newton(player))
         return player_seek(player, step - 1, AFTER_NOTHING);
-    if (player->view_of_pane[player->active].place < 0 && step > 0) {
+    if (player->view_of_pane[player->active].position < 0 && step > 0) {
         if (!player_active_pane(player)->has_trace)
             return player_seek(player, step, AFTER_SHOW_LAST);
         enter_line_walk(player, AFTER_SHOW_LAST);
     }
-    if (player->view_of_pane[player->active].place >= 0 &&
+    if (player->view_of_pane[player->active].position >= 0 &&
         walk_lines(player, -1))
         return STATUS_OK;
     return player_seek(player, step - 1, AFTER_SHOW_LAST);

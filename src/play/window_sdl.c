@@ -246,7 +246,7 @@ static Input sdl_read_input(void)
  * it sends itself an event of a second connection. */
 static void sdl_wait_for_input(int milliseconds)
 {
-    enum { PAUSE = 8 }; /* ms */
+    enum { PAUSE = 8 }; /* ms, between two looks for an event */
     for (; milliseconds > 0; milliseconds -= PAUSE) {
         SDL_PumpEvents();
         if (SDL_HasEvents(SDL_FIRSTEVENT, SDL_LASTEVENT))

@@ -50,21 +50,21 @@ static Status page_show(const Canvas *canvas)
     return page_show_card(canvas, -1);
 }
 
-enum { INPUTS = 256 };
+enum { INPUT_QUEUE_SIZE = 256 };
 
 /* Queue of the inputs that were not read yet. */
-static Input inputs[INPUTS];
+static Input inputs[INPUT_QUEUE_SIZE];
 static int first_input, input_count;
 
 /* Appends an input; a movement replaces a movement before it. */
 static void queue_input(const Input *input)
 {
-    int last = (first_input + input_count - 1) % INPUTS;
+    int last = (first_input + input_count - 1) % INPUT_QUEUE_SIZE;
     if (input_count > 0 && input->kind == INPUT_MOVE &&
         inputs[last].kind == INPUT_MOVE)
         inputs[last] = *input;
-    else if (input_count < INPUTS)
-        inputs[(first_input + input_count++) % INPUTS] = *input;
+    else if (input_count < INPUT_QUEUE_SIZE)
+        inputs[(first_input + input_count++) % INPUT_QUEUE_SIZE] = *input;
 }
 
 EMSCRIPTEN_KEEPALIVE void web_key(const char *key, int repeats)
@@ -89,7 +89,7 @@ static Input page_read_input(void)
     if (input_count == 0)
         return input;
     input = inputs[first_input];
-    first_input = (first_input + 1) % INPUTS;
+    first_input = (first_input + 1) % INPUT_QUEUE_SIZE;
     input_count--;
     return input;
 }

@@ -187,9 +187,8 @@ static Status evaluate_iterate(Simulation *simulation, Status status)
     if (descent->scalar)
         descent->point[1] = run->x[1] = E.energy;
     descent->slope = newton_direction(&E, descent->scalar, p);
-    descent->residual = descent->by_gradient
-                            ? math_hypot(E.g[0], E.g[1])
-                            : (fabs(p[0]) + fabs(p[1])) / run->h;
+    descent->residual = descent->tests_g ? math_hypot(E.g[0], E.g[1])
+                                         : (fabs(p[0]) + fabs(p[1])) / run->h;
     double start = descent->start_value, limit = start + 1e-12 * fabs(start);
     bool passed = descent->residual <= simulation->options.tolerance;
     if (status == STATUS_RUNNING && passed)
@@ -209,9 +208,9 @@ static void choose_stopping_test(Simulation *simulation)
     Descent *descent = &simulation->descent;
     bool plain = descent->scalar || (options->projection == PROJECTION_NONE &&
                                      options->line_search == LINE_SEARCH_NONE);
-    if (plain != descent->by_gradient)
+    if (plain != descent->tests_g)
         descent->count = 0; /* the residuals so far are not comparable */
-    descent->by_gradient = plain;
+    descent->tests_g = plain;
 }
 
 void descent_find_direction(Simulation *simulation)
@@ -259,7 +258,7 @@ Status step_descent(Simulation *simulation)
         x[i] += record.alpha * p[i];
     record.status = evaluate_iterate(simulation, status);
     memcpy(record.x_after, x, sizeof record.x_after);
-    if (descent->count < DESCENT_MAX)
+    if (descent->count < DESCENT_MAX_RECORDS)
         descent->record[descent->count++] = record;
     if (simulation->observer)
         simulation->observer(simulation->user_data, &record);
@@ -269,7 +268,7 @@ Status step_descent(Simulation *simulation)
 void descent_restart(Simulation *simulation)
 {
     simulation->descent.count = 0;
-    simulation->steps = simulation->unconverged = 0;
+    simulation->steps = simulation->unconverged_steps = 0;
     descent_find_direction(simulation);
 }
 

@@ -83,7 +83,7 @@ const Scene scenes[] = {
      HAS_TIME, "--timestep 0.02", .create = create_circle},
     {"overshoot", "Overshooting",
      "Newton's full steps overshoot; a line search tames them", PICTURE_CURVE,
-     HAS_START | HAS_ONE_NUMBER | HAS_MINIMUM,
+     HAS_START | HAS_ONE_COORDINATE | HAS_MINIMUM,
      "--start 2 --tolerance 1e-10 --line-search none", create_overshoot,
      .step_name = "iteration", .starts_paused = true, .step = step_descent,
      .restart = descent_restart, .handle_kinds = "x"},
@@ -198,7 +198,7 @@ const Scene scenes[] = {
      .starts_paused = true, .handle_kinds = "xv", .only_by_name = true},
     {"tangent", "Newton in one dimension",
      "Newton in one dimension: tangents of g, parabolas of E", PICTURE_TANGENT,
-     HAS_START | HAS_MINIMUM | HAS_ONE_NUMBER | HAS_TIMESTEP,
+     HAS_START | HAS_MINIMUM | HAS_ONE_COORDINATE | HAS_TIMESTEP,
      "--start 2.5 --tolerance 1e-10 --line-search none --timestep 0.3",
      create_tangent, .step_name = "iteration", .step = step_descent,
      .restart = descent_restart, .handle_kinds = "xt", .only_by_name = true},
@@ -242,6 +242,6 @@ void scene_predict(Simulation *simulation, double x, double y)
         .has_guess = true,
         .guess_step = simulation->steps,
         .guess = {x, y},
-        .reached = {end[0], end[1]},
+        .outcome = {end[0], end[1]},
         .error = math_hypot(end[0] - x, count == 1 ? 0 : end[1] - y)};
 }

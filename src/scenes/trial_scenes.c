@@ -65,14 +65,14 @@ static double find_frequency_bound(const System *system, const double *x)
 static Status advance_exactly(TimeIntegrator *run, double H, double *from,
                               double *to)
 {
-    enum { COLUMNS = 6 };
+    enum { EXTRAPOLATIONS = 6 };
     size_t both = 2 * run->x_length, bytes = both * sizeof *to;
     Status status = STATUS_OK;
     memcpy(from, run->x, bytes); /* x and v are one array */
     memcpy(to, run->x, bytes);
-    for (int j = 1; j <= COLUMNS && !status; j++) {
+    for (int j = 1; j <= EXTRAPOLATIONS && !status; j++) {
         double weight = 1;
-        for (int i = 1; i <= COLUMNS; i++)
+        for (int i = 1; i <= EXTRAPOLATIONS; i++)
             weight *= i == j ? 1 : (double)(j * j) / (j * j - i * i);
         memcpy(run->x, from, bytes);
         run->memory_h = 0;

@@ -414,8 +414,8 @@ static void name_obstacle(const Options *options, int number, char *name,
 
 /* Refuses an obstacle whose gap to a body, m, is not above 0.  A gap of NaN
  * means that a ball is inside the body. */
-static Status refuse_place(const Options *options, int number, double gap,
-                           Message message)
+static Status refuse_obstacle_position(const Options *options, int number,
+                                       double gap, Message message)
 {
     bool square = options->bodies <= 1 && options->scene->body.aspect == 0;
     const char *body = square ? "the square" : "a body";
@@ -451,8 +451,8 @@ static Status check_gaps_and_cells(const Options *options, const System *system,
             if (element->s > (own ? min_gap : 0))
                 continue;
             return kind == &contact_energy
-                       ? refuse_place(options, element->partner, element->s,
-                                      message)
+                       ? refuse_obstacle_position(options, element->partner,
+                                                  element->s, message)
                        : refuse(message,
                                 "the cell at node %d would be turned over at "
                                 "the start: its area would be %.3g of that at "
@@ -463,8 +463,8 @@ static Status check_gaps_and_cells(const Options *options, const System *system,
     for (int k = 0; k < options->balls; k++)
         if (square_mesh_find_cell(&shape, x, options->ball[k], 0,
                                   shape.cells) >= 0)
-            return refuse_place(options, (int)options->grounds + k, NAN,
-                                message);
+            return refuse_obstacle_position(options, (int)options->grounds + k,
+                                            NAN, message);
     return STATUS_OK;
 }
 
@@ -525,11 +525,11 @@ Status simulation_check_clearance(const Simulation *simulation,
     return check_clearance(simulation, options, 0, -1, message);
 }
 
-double simulation_find_free_way(const Simulation *simulation,
-                                const Options *options, int number,
-                                const double to[2])
+double simulation_find_free_part(const Simulation *simulation,
+                                 const Options *options, int number,
+                                 const double to[2])
 {
-    enum { HALVINGS = 20 };
+    enum { MAX_HALVINGS = 20 };
     static const double MIN_GAP = 0.999; /* gap to a body over d_hat */
     static const double MIN_PART = 1.0 / 64; /* part of the way, least step */
     Options moved = *options;
@@ -541,7 +541,7 @@ double simulation_find_free_way(const Simulation *simulation,
     double step = 0.5, length = math_hypot(to[0] - from[0], to[1] - from[1]);
     if (number >= options->grounds) /* half a radius, to cross no body */
         step = fmin(fmax(0.5 * at[2] / length, MIN_PART), step);
-    for (int i = 0; i < HALVINGS;) {
+    for (int i = 0; i < MAX_HALVINGS;) {
         for (int c = 0; c < 2; c++)
             at[c] = from[c] + (free + step) * (to[c] - from[c]);
         if (free + step < 1 && !check_clearance(simulation, &moved, MIN_GAP,

@@ -93,7 +93,7 @@ void control_release(const Control *control)
 
 /* Stores the energy that each run has dissipated so far.
  *   out  [runs] J */
-static void copy_dissipated_energy(const Simulation *simulation, double *out)
+static void store_dissipated_energy(const Simulation *simulation, double *out)
 {
     for (int r = 0; r < simulation->runs; r++)
         out[r] = simulation_energies(simulation, r).dissipated;
@@ -214,7 +214,7 @@ Status control_apply(Simulation *simulation, const Control *control)
 {
     System *system = &simulation->system;
     double dissipated[SIMULATION_MAX_RUNS];
-    copy_dissipated_energy(simulation, dissipated);
+    store_dissipated_energy(simulation, dissipated);
     Status status = apply_options(simulation, &control->options);
     /* A node stops when it is pinned and when its pin is taken away. */
     for (int i = 0; i < system->nodes; i++) {
@@ -243,7 +243,7 @@ Status simulation_place_node(Simulation *simulation, int node, double x,
         !isfinite(y))
         return STATUS_INVALID_INPUT;
     double dissipated[SIMULATION_MAX_RUNS];
-    copy_dissipated_energy(simulation, dissipated);
+    store_dissipated_energy(simulation, dissipated);
     memcpy(before, run->x, run->x_length * sizeof *before);
     run->x[2 * node] = x;
     run->x[2 * node + 1] = y;

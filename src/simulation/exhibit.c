@@ -26,7 +26,7 @@ void exhibit_drag_handle(Simulation *simulation, int handle, double x, double y)
     TimeIntegrator *run = simulation->run;
     double *start = simulation->exhibit.exact_start; /* x and v */
     char kind = scene->handle_kinds[handle];
-    const double to[2] = {x, scene->parts & HAS_ONE_NUMBER ? 0 : y};
+    const double to[2] = {x, scene->parts & HAS_ONE_COORDINATE ? 0 : y};
     if (!isfinite(to[0]) || !isfinite(to[1]))
         return;
     simulation->prediction = (Prediction){0};

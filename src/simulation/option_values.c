@@ -91,7 +91,7 @@ bool option_read(const OptionRow *row, int count, const char *text,
     for (char *comma; count == 1 && (comma = strchr(copy, ','));)
         *comma = '.';
     if (given < count && row->short_counts >> given & 1) {
-        memcpy(number, row->omitted, (size_t)count * sizeof *number);
+        memcpy(number, row->omitted_defaults, (size_t)count * sizeof *number);
         count = given;
     }
     for (int i = 0; i < count; i++) {
@@ -118,7 +118,7 @@ void option_write_short(const OptionRow *row, const Options *options,
                         char *text, size_t size)
 {
     /* Most digits of a number, most letters of several numbers. */
-    enum { MOST_DIGITS = 6, MOST_LETTERS = 20 };
+    enum { MAX_DIGITS = 6, MAX_LETTERS = 20 };
     int count = row->count > 1 ? row->count : 1, times = 1;
     if (row->max_times)
         times = (int)options->number[row->count_slot];
@@ -129,12 +129,12 @@ void option_write_short(const OptionRow *row, const Options *options,
     else if (row->kind == OPTION_NAME)
         option_write(row, *value, text, size);
     else
-        for (int digits = MOST_DIGITS; digits > 1; digits--) {
+        for (int digits = MAX_DIGITS; digits > 1; digits--) {
             size_t used = 0;
             for (int i = 0; i < count && used < size; i++)
                 used += (size_t)snprintf(text + used, size - used, "%s%.*g",
                                          i ? "," : "", digits, value[i]);
-            if (count == 1 || used <= MOST_LETTERS)
+            if (count == 1 || used <= MAX_LETTERS)
                 break;
         }
 }

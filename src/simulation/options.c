@@ -107,12 +107,12 @@ REASON(why_nothing_drawn,
 /* Macros for the rest of a row: parts that the scene must have, repetitions,
  * the label of an option with lists of values.  SHOWN puts the option into the
  * window's row of numbers: place, length of the values, increment. */
-#define NEEDS(what)             .needs = HAS_##what
+#define NEEDS(what)             .needed_parts = HAS_##what
 #define TIMES(n, field)         .max_times = n, .count_slot = OPTION_SLOT(field)
-#define FEWER(bits, others)     .short_counts = bits, .omitted = others
+#define FEWER(bits, others)     .short_counts = bits, .omitted_defaults = others
 #define LIST(text)              .label = text
-#define LIVE                    .effect = EFFECT_LIVE
-#define AGAIN                   .effect = EFFECT_AGAIN
+#define LIVE                    .effect = EFFECT_NEXT_STEP
+#define AGAIN                   .effect = EFFECT_REPEAT
 #define TERM(kind)              .term = &(kind)
 #define IDLE(why)               .idle_reason = why
 #define SHOWN(n, longest, adds) .display = {n, longest, adds}
@@ -234,7 +234,7 @@ const OptionRow option_rows[] = {
 
     {SECTION("time step and solver:")},
     {NUMBER(timestep, "H", "time step h", "s", 0.004, 1e-30, 1e30),
-     .needs = HAS_TIME | HAS_TIMESTEP, LIST("h"), LIVE, SHOWN(1, 8, 0)},
+     .needed_parts = HAS_TIME | HAS_TIMESTEP, LIST("h"), LIVE, SHOWN(1, 8, 0)},
     {NAME("integrator", integrator, "I", "time integrator", -1,
           integrator_methods),
      NEEDS(TIME), LIST("method"), LIVE, SHOWN(8, 16, 0)},
@@ -391,8 +391,8 @@ int options_list_visible(const Options *options,
     int count = 0;
     for (int place = 1; place < OPTIONS_MAX_ROWS; place++)
         for (const OptionRow *row = option_rows; row->name; row++)
-            if (row->display.place == place &&
-                (row->needs & options->scene->parts) &&
+            if (row->display.position == place &&
+                (row->needed_parts & options->scene->parts) &&
                 !(row->idle_reason && row->idle_reason(options)) &&
                 (row->kind == OPTION_NAME || row->display.increment > 0 ||
                  options->number[row->slot] > 0))

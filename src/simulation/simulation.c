@@ -84,7 +84,7 @@ static Status finish_step(Simulation *simulation, Status status)
         guess->guess_step + 1) /* a guess counts for one step */
         *guess = (Prediction){0};
     if (status) {
-        simulation->unconverged++;
+        simulation->unconverged_steps++;
         simulation->status_counts[status]++;
     }
     return status;
@@ -106,7 +106,7 @@ static void book_energy_gain(Simulation *simulation)
     if (!backward_euler || !(gained > 1e-8 * abs_sum))
         return;
     ledger->gain_steps++;
-    ledger->gained += gained;
+    ledger->gained_energy += gained;
 }
 
 /* Each run steps in turn.  Returns their last status that is not OK. */
@@ -169,11 +169,11 @@ ChangeEffect simulation_find_option_effect(const Simulation *simulation,
                                            const OptionRow *row)
 {
     unsigned needs = simulation->scene->parts;
-    bool update = (needs & HAS_START) && row->effect == EFFECT_AGAIN;
+    bool update = (needs & HAS_START) && row->effect == EFFECT_REPEAT;
     bool other_methods =
         simulation->runs > 1 && row->slot == OPTION_SLOT(integrator);
     if (!(needs & HAS_TIME) ? !update : other_methods)
-        return EFFECT_START;
+        return EFFECT_NEW_RUN;
     return row->effect;
 }
 
@@ -267,7 +267,7 @@ bool simulation_projects_springs(const Simulation *simulation)
 /* ---- the fastest small oscillation: M q'' = -H q ------------------------ */
 
 /* Iterations of the power method; capacity of arrays of a mode. */
-enum { ITERATIONS = 1200, ROOM = 2 * SIMULATION_MODE_NODES };
+enum { MODE_ITERATIONS = 1200, MODE_COORDINATES = 2 * SIMULATION_MODE_NODES };
 
 double simulation_find_fastest_mode(const Simulation *simulation,
                                     const double *x, double *mode)
@@ -276,18 +276,18 @@ double simulation_find_fastest_mode(const Simulation *simulation,
     EvalPoint at = make_eval_point(system, NULL, NULL, x);
     double omega2 = NAN;
     int n = 2 * system->nodes;
-    if (n > ROOM)
+    if (n > MODE_COORDINATES)
         return NAN;
     /* A vector without symmetry contains every mode. */
     for (int i = 0; i < n; i++)
         mode[i] = sin(1 + i + 0.1 * i * i);
-    for (int k = 0; k < ITERATIONS; k++) {
+    for (int k = 0; k < MODE_ITERATIONS; k++) {
         double length2 = 0;
         for (int i = 0; i < n; i++)
             length2 += mode[i] * mode[i];
         for (int i = 0; i < n; i++)
             mode[i] /= sqrt(length2);
-        double image[ROOM] = {0}; /* M^-1 H mode, 1/s^2 */
+        double image[MODE_COORDINATES] = {0}; /* M^-1 H mode, 1/s^2 */
         for (const TermKind *kind; (kind = eval_point_next_term(&at));)
             if (kind->hessian)
                 kind->hessian(&at, PROJECTION_NONE, NULL, mode, image);
@@ -297,7 +297,7 @@ double simulation_find_fastest_mode(const Simulation *simulation,
         omega2 = 0;
         for (int i = 0; i < n; i++)
             omega2 += mode[i] * image[i];
-        for (int i = 0; i < n && k + 1 < ITERATIONS; i++)
+        for (int i = 0; i < n && k + 1 < MODE_ITERATIONS; i++)
             mode[i] = image[i];
     }
     return omega2 > 0 ? sqrt(omega2) : NAN;

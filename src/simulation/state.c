@@ -71,7 +71,7 @@ static void visit_exhibit(Cursor *cursor, Simulation *simulation)
 static void visit_state(Cursor *cursor, Simulation *simulation)
 {
     VISIT(simulation->steps);
-    VISIT(simulation->unconverged);
+    VISIT(simulation->unconverged_steps);
     VISIT(simulation->ledger);
     VISIT(simulation->status_counts);
     VISIT(simulation->status);

@@ -33,7 +33,7 @@ static Session *session = &sessions[0]; /* session that the page shows */
 static bool plays;                      /* the page shows a session */
 
 /* Begins the program with the words of a command line, each on a line of its
- * own.  Returns PROGRAM_PLAYS, or the exit code if nothing new is shown. */
+ * own.  Returns EXIT_NONE, or the exit code if nothing new is shown. */
 EMSCRIPTEN_KEEPALIVE int web_begin(const char *words)
 {
     Session *next = &sessions[plays && session == &sessions[0]];
@@ -45,7 +45,7 @@ EMSCRIPTEN_KEEPALIVE int web_begin(const char *words)
     next->word[count] = NULL;
     int code =
         program_begin(count, next->word, &window_web, &never, &next->player);
-    if (code != PROGRAM_PLAYS) {
+    if (code != EXIT_NONE) {
         player_free(&next->player);
         return code;
     }
@@ -223,7 +223,7 @@ EMSCRIPTEN_KEEPALIVE void web_print_hide_answer(void)
 {
     session->player.setup.asks_guess = true;
     session->player.tour.revealed = NULL;
-    player_fill_frame(&session->player);
+    player_build_frame(&session->player);
 }
 
 /* ---- the loop ----------------------------------------------------------- */

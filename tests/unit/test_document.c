@@ -10,7 +10,7 @@ static char text[DOCUMENT_SIZE];
 
 static void write_document(void)
 {
-    player_fill_frame(&player);
+    player_build_frame(&player);
     document_write(&player, text);
 }
 

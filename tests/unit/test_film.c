@@ -40,7 +40,7 @@ static uint32_t pixel(int frame, int x, int y)
     return inside ? 0xff0020c0u + 0x060000u * (uint32_t)i : 0xffffffffu;
 }
 
-static char message[OUTPUT_MESSAGE];
+static char message[MESSAGE_BYTES];
 
 static Film open_film(const char *name)
 {
@@ -62,7 +62,7 @@ static void make_film(const char *name, int frames)
     }
     CHECK(film.frames == frames);
     CHECK(access(name, F_OK) != 0); /* not before it is whole */
-    CHECK_OK(film_close(&film, KEEP_WHOLE));
+    CHECK_OK(film_close(&film, KEEP_FILE));
     canvas_free(&canvas);
 }
 
@@ -162,7 +162,7 @@ TEST(sizes_may_change)
         CHECK_OK(film_add_frame(&film, &canvas, 1));
         canvas_free(&canvas);
     }
-    CHECK_OK(film_close(&film, KEEP_WHOLE));
+    CHECK_OK(film_close(&film, KEEP_FILE));
     assert_int_equal(read_film("sizes.apng", 20, 30, bytes, 3), 3);
     for (int i = 0; i < 3 * 30; i++) /* rows */
         for (int k = 0; k < 3 * 20; k++)
@@ -183,7 +183,7 @@ TEST(ffmpeg_dies_by_its_own)
         status = film_add_frame(&film, &canvas, 1);
     CHECK_STATUS(status, STATUS_FILE_FAILED);
     CHECK(strstr(message, "dead.mp4: ffmpeg ended"));
-    CHECK_STATUS(film_close(&film, KEEP_WHOLE), STATUS_FILE_FAILED);
+    CHECK_STATUS(film_close(&film, KEEP_FILE), STATUS_FILE_FAILED);
     CHECK(access("dead.mp4", F_OK) != 0);
     rmdir("dead.mp4.part");
     canvas_free(&canvas);

@@ -31,7 +31,7 @@ static void begin_past(const char *line)
 /* Shows this step, also a new one. */
 static uint64_t show(long step)
 {
-    past_choose_step(&past, step, false);
+    past_set_goal(&past, step, false);
     Status status = past_finish_work(&past);
     CHECK(!status || status_is_unconverged(status));
     CHECK(past.step == step);
@@ -133,7 +133,7 @@ TEST(a_pane_that_has_ended_comes_back)
         CHECK_OK(past_begin_runs(&past, options, 2, 0, &restart));
         past.max_bytes = few ? 5 * past.used_bytes : PAST_BYTES;
         for (long step = 0; step <= STEPS; step++) {
-            past_choose_step(&past, step, false);
+            past_set_goal(&past, step, false);
             CHECK((past_finish_work(&past) == STATUS_NOT_FINITE) ==
                   (step == 12));
             CHECK(!few || hash[step] == hash_now());
@@ -205,14 +205,14 @@ TEST(commands_are_written_as_they_are_read)
 /* No key asks for two things at once. */
 TEST(keys_are_given_once)
 {
-    CHECK(command_from_key("R", true, AT_RUN).kind == COMMAND_NONE);
+    CHECK(command_from_key("R", true, SCOPE_RUN).kind == COMMAND_NONE);
     for (int kind = 1; kind < COMMAND_TYPE_ANSWER; kind++) {
         const char *all = command_rows[kind].keys;
         for (; all && *all; all += *all == '|') {
             char key[16];
             size_t length = strcspn(all, "|");
             snprintf(key, sizeof key, "%.*s", (int)length, all);
-            CHECK((int)command_from_key(key, false, AT_RUN).kind == kind);
+            CHECK((int)command_from_key(key, false, SCOPE_RUN).kind == kind);
             all += length;
         }
     }
@@ -262,7 +262,7 @@ static bool jerked_step(bool descends)
     double v[MAX_SIZE * 3], high = energies.total - energies.work;
     long before = past.step;
     memcpy(v, run->v, (size_t)size * sizeof *v);
-    past_choose_step(&past, before + 1, false);
+    past_set_goal(&past, before + 1, false);
     Status status = past_finish_work(&past);
     if (status && !status_is_unconverged(status)) {
         CHECK(!run->newton && status == STATUS_NOT_FINITE);

@@ -19,14 +19,14 @@ TEST(the_curve_goes_through_the_step)
         begin(lines[i]);
         for (int step = 0; step < 90; step++) {
             /* with all lines of the step */
-            past_choose_step(&player.past, step + 1, true);
+            past_set_goal(&player.past, step + 1, true);
             Status status = past_finish_work(&player.past);
             CHECK(!status || status_is_unconverged(status));
             const StepTrace *kept = &past_pane(0)->trace;
-            for (int place = 0; place < kept->place_count; place++) {
+            for (int place = 0; place < kept->position_count; place++) {
                 Trace trace;
-                step_trace_fill(kept, place, &trace);
-                int iterate = kept->place[place].iterate;
+                step_trace_show(kept, place, &trace);
+                int iterate = kept->position[place].iterate;
                 if (trace.at_line != LINE_UPDATE)
                     continue;
                 seen++;
@@ -39,7 +39,7 @@ TEST(the_curve_goes_through_the_step)
                                                         record->alpha);
                 rough += kept->iterate[iterate].has_remainder;
                 if (kept->iterate[iterate].has_remainder &&
-                    record->alpha < trace.first_alpha / SAMPLE_PARTS)
+                    record->alpha < trace.first_alpha / SAMPLE_INTERVALS)
                     continue; /* between two kept values */
                 CHECK_NEAR(change, record->change,
                            1e-7 * fabs(record->slope) * record->alpha);
@@ -48,7 +48,7 @@ TEST(the_curve_goes_through_the_step)
         CHECK(seen > 60 && (i == 3 || (rough > 0) == (i > 0)));
         Trace whole;
         const StepTrace *kept = &past_pane(0)->trace;
-        step_trace_fill(kept, -1, &whole);
+        step_trace_show(kept, -1, &whole);
         CHECK(whole.residual > 0);
         end();
     }

@@ -22,7 +22,7 @@ static double heap_before;  /* bytes, as the session began */
 static char home[PATH_MAX]; /* where the tests began */
 static char folder[] = "/tmp/elasto-session-XXXXXX";
 
-/* What the window shows, as player_fill_frame filled it last. */
+/* What the window shows, as player_build_frame filled it last. */
 static const FrameContent *const content = &player.screen.frame.content;
 
 static Layout layout_now(void)
@@ -51,7 +51,7 @@ static uint64_t hash_box(const Canvas *canvas, Box box)
 /* Where the nodes of the active pane are drawn. */
 static uint64_t shape_shown(void)
 {
-    player_fill_frame(&player);
+    player_build_frame(&player);
     const Pane *pane = active_pane(content);
     const int nodes = pane->simulation->system.nodes;
     return hash_bytes(STATE_HASH_SEED, pane_positions(pane),
@@ -112,7 +112,7 @@ static void write_window(void)
 {
     written[0] = listed[0] = '\0';
     text_count = 0;
-    player_fill_frame(&player);
+    player_build_frame(&player);
     column = layout_now().column;
     CHECK_STATUS(player_draw(&player), STATUS_OK);
 }
@@ -157,7 +157,7 @@ static double scale_before;
 
 static double scale_now(void)
 {
-    player_fill_frame(&player);
+    player_build_frame(&player);
     Layout layout = layout_now();
     return camera_of_pane(content, &layout, 0).scale[0];
 }
@@ -216,7 +216,7 @@ static void press_letter(char letter)
 
 static const Setting *number_shown(const char *name, int *place)
 {
-    player_fill_frame(&player);
+    player_build_frame(&player);
     for (int i = 0; i < content->settings.count; i++)
         if (strcmp(content->settings.item[i].name, name) == 0 ||
             strcmp(name, "first") == 0) {
@@ -285,7 +285,7 @@ static void point_at(const char *place)
 {
     double x, y;
     int i = 0;
-    player_fill_frame(&player);
+    player_build_frame(&player);
     Layout layout = layout_now();
     if (sscanf(place, "%lf %lf", &x, &y) == 2) {
         mouse[0] += x;
@@ -404,7 +404,7 @@ static void replay(const char *line)
     begin_script(script, paused);
     open_player = true;
     player_run(&player); /* some scenes have steps that do not converge */
-    CHECK(player_hash(&player) == hash && !player.commands.line_refused);
+    CHECK(player_hash(&player) == hash && !player.commands.has_refused_line);
 }
 
 /* The rows of the last step. */
@@ -438,7 +438,7 @@ static void check_picture(const char *name)
     char file[PATH_MAX + 64];
     Canvas frame[2];
     snprintf(file, sizeof file, "%s/tests/data/%s.png", home, name);
-    player_fill_frame(&player);
+    player_build_frame(&player);
     paint_frames(frame);
     if (getenv("PICTURES"))
         CHECK_OK(png_file_write(file, NULL, &frame[0]));
@@ -584,7 +584,7 @@ static void record_facts(const char *line)
     static char before[sizeof facts], head[160];
     const Energies ledger = simulation_energies(player_simulation(&player), 0);
     memcpy(before, facts, sizeof before);
-    player_fill_frame(&player);
+    player_build_frame(&player);
     collect_facts();
     for (int i = 0; i < ledger.rows; i++)
         fact("%s %.9g", ledger.row[i].name, ledger.row[i].value);
@@ -749,7 +749,7 @@ static void look(const char *line)
 {
     static char copy[sizeof facts];
     bool found = false;
-    player_fill_frame(&player);
+    player_build_frame(&player);
     collect_facts();
     memcpy(copy, facts, sizeof copy);
     for (char *at = strtok(copy, "\n"); at && !found; at = strtok(NULL, "\n")) {
@@ -883,7 +883,7 @@ static double find_flattest(const Simulation *simulation)
 /* J, energy that a run has gained without work, and in how many steps. */
 static double find_gained(const Simulation *simulation)
 {
-    return simulation->ledger[0].gained;
+    return simulation->ledger[0].gained_energy;
 }
 
 static double count_gains(const Simulation *simulation)
@@ -960,7 +960,7 @@ static double find_grown(const Simulation *simulation)
 /* Steps of the run that did not converge. */
 static double count_unconverged(const Simulation *simulation)
 {
-    return (double)simulation->unconverged;
+    return (double)simulation->unconverged_steps;
 }
 
 /* What all steps of the run have taken. */
@@ -1065,7 +1065,7 @@ static void check_value(const char *line)
     char name[64];
     const char *digits = strrchr(line, ' ') + 1;
     snprintf(name, sizeof name, "%.*s", (int)(digits - line) - 1, line);
-    player_fill_frame(&player);
+    player_build_frame(&player);
     double number = find_number(name);
     if (!has_digits(number, digits))
         fail_msg("%s is %.12g at step %ld, not %s", name, number,
@@ -1280,7 +1280,7 @@ static void grips_go_where_they_are_dragged(void **unused)
              i++, grips++) {
             char line[80];
             double at[SCENE_MAX_HANDLES][2];
-            bool flat = scene->parts & HAS_ONE_NUMBER; /* x alone counts */
+            bool flat = scene->parts & HAS_ONE_COORDINATE; /* x alone counts */
             snprintf(line, sizeof line, "begin %s --paused", scene->name);
             session_line(line);
             snprintf(line, sizeof line, "press grip %d", i);
@@ -1302,7 +1302,7 @@ static void grips_go_where_they_are_dragged(void **unused)
 static uint64_t all_but(int place)
 {
     uint64_t hash = seen("state") + (uint64_t)player.past.step;
-    player_fill_frame(&player);
+    player_build_frame(&player);
     for (int i = 0; i < content->settings.count; i++)
         if (i != place)
             hash = hash_bytes(hash, content->settings.item[i].value,

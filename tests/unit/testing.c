@@ -280,7 +280,7 @@ uint64_t hash_with_ledger(const Simulation *simulation, uint64_t hash)
         hash = hash_number(hash, ledger.work);
         for (int i = 0; i < ledger.rows; i++)
             hash = hash_number(hash, ledger.row[i].value);
-        hash = hash_number(hash, simulation->ledger[r].gained);
+        hash = hash_number(hash, simulation->ledger[r].gained_energy);
     }
     return hash;
 }
