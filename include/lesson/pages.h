@@ -21,7 +21,7 @@ typedef struct LecturePage {
     const char *formula;  /* text: large formulas, one on a line, or NULL */
     const char *command_line; /* scene and settings, as on the command line */
     const char *cards;    /* names of the open cards, separated by blanks */
-    const char *look_text; /* text: the answer, and what to look at */
+    const char *answer_text; /* text: the answer, and what to look at */
     const char *try;       /* text: what to change, and what will happen */
     const char *question;  /* text: the question before the answer, or NULL */
     const char *answer;   /* live value that is the right number; "click": the

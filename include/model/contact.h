@@ -23,17 +23,17 @@ enum { MOTION_MAX_PHASES = 4 };
 
 /* Prescribed motion of an obstacle: phases of constant velocity, then rest. */
 typedef struct Motion {
-    int phases;
+    int phases;                          /* number of phases */
     double phase_end[MOTION_MAX_PHASES]; /* s, end of the phase */
     double v[MOTION_MAX_PHASES][2];      /* m/s, velocity in the phase */
 } Motion;
 
 typedef struct Obstacle {
-    ObstacleKind kind;
+    ObstacleKind kind; /* wall or ball */
     double o[2];   /* m, point of a wall's surface, centre of a fixed ball */
     double n[2];   /* outward unit normal of a wall; not used for balls */
     double radius; /* m, R > 0; not used for walls */
-    Motion motion;
+    Motion motion; /* prescribed motion */
     double v[2];         /* m/s, velocity in the present step */
     double friction;     /* coefficient of friction mu >= 0 */
     int node;            /* node at the centre of the free ball; -1: fixed */
@@ -82,10 +82,10 @@ typedef struct Push {
 
 typedef struct Contact {
     Barrier barrier;
-    int obstacles;
+    int obstacles; /* number of obstacles */
     Obstacle obstacle[CONTACT_MAX_OBSTACLES];
     int free_ball; /* number of the ball whose centre is a node; -1: none */
-    Push hand;
+    Push hand;     /* obstacle held by a hand */
 } Contact;
 
 /* The sum of W over all pairs of a node and an obstacle; data: Contact.  The

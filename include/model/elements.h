@@ -54,7 +54,7 @@ static inline void element_get_vectors(const Element *element, const double *x,
 /* Triangles of equal rest area, for a term with a triangle as element; the
  * data of the term begin with this struct. */
 typedef struct Triangles {
-    int count;
+    int count;      /* number of triangles */
     double area;    /* m^2, A0 of each triangle at rest */
     double inverse_J0; /* 1/m^2, 1/(2 A0), where J is 2 A0 at rest */
     int (*node)[3]; /* [count] nodes a, b, c of each triangle, anticlockwise */

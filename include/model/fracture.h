@@ -15,7 +15,7 @@
 /* A spring that is stretched beyond its strength. */
 typedef struct Overload {
     double load; /* strain divided by strength, > 1 */
-    int spring;
+    int spring;  /* number of the spring */
 } Overload;
 
 typedef struct Fracture {

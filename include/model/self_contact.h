@@ -25,7 +25,7 @@
 
 /* A point and an edge with a block of the matrix. */
 typedef struct SelfPair {
-    int node, edge;
+    int node, edge; /* numbers of the node and of the edge's spring */
 } SelfPair;
 
 typedef struct SelfContact {

@@ -36,7 +36,7 @@ struct System {
     int segments;     /* segments a side if the system is one square; else 0 */
     unsigned version; /* rises with every change of numbers or terms */
     unsigned pattern_version; /* rises when the Hessian's pattern changes */
-    int terms;
+    int terms;                /* number of terms */
     Term term[SYSTEM_MAX_TERMS]; /* terms in the order of TermKind.rank */
     /* Energy lost by column, to a NULL name.  A loss outlives its term. */
     EnergyLoss losses[SYSTEM_MAX_TERMS];

@@ -16,7 +16,7 @@ enum { CANVAS_MAX_SIZE = 16384 }; /* pixels a side */
 
 /* A rectangle in pixels. */
 typedef struct Box {
-    int x, y, width, height;
+    int x, y, width, height; /* pixels, from the upper left corner */
 } Box;
 
 /* Converts a coordinate to an int, towards 0. A coordinate that is too large

@@ -13,7 +13,7 @@
 
 enum {
     SENTENCE_SIZE = 224, /* bytes of a sentence */
-    LOOK_SIZE = 1536,    /* bytes of the answer of a page */
+    ANSWER_SIZE = 1536,  /* bytes of the answer of a page */
     VALUE_SIZE = 32      /* bytes of a setting's value */
 };
 
@@ -35,7 +35,7 @@ typedef enum StepLine {
 /* The minimisation of a step, or a descent, up to the present line of the
  * algorithm.  The present update is known from LINE_PROJECT on. */
 typedef struct Trace {
-    StepLine at_line;
+    StepLine at_line;           /* present line of Algorithm 3 */
     double h, tolerance;        /* s, m/s, settings of the step */
     int records;                /* number of records */
     const NewtonRecord *record; /* [records] records of the iterations */
@@ -43,7 +43,7 @@ typedef struct Trace {
     const double *x;            /* [2n] m, present iterate x^i */
     const double *p;            /* [2n] m, NULL before LINE_SOLVE */
     double residual;            /* |p|/h, m/s */
-    bool given_up;              /* the step has ended without convergence */
+    bool has_failed;            /* the step has ended without convergence */
     double slope;               /* grad E . p, J s^2 */
     int projected;              /* number of projected blocks; < 0: unknown */
     const double *x_n;          /* [2n] m, x^n; or NULL */
@@ -55,23 +55,23 @@ typedef struct Trace {
     bool is_accepted;            /* the last trial was accepted */
 } Trace;
 
-enum { VALUES_MOST = 160, VALUES_RUNS = 3 };
+enum { MAX_VALUES = 160, VALUES_RUNS = 3 };
 
 /* A value that texts use by its name (live_values.h). */
 typedef struct LiveValue {
-    const char *name;
+    const char *name; /* name in texts: "residual" */
     int run;          /* run 1, 2 or 3 that has the value; 0: all runs */
     const char *text; /* NULL: the value is a number or a point */
-    double value[2];
+    double value[2];  /* number, or coordinates of a point */
     bool is_point; /* value is a point, written as "(1, 0.5)" */
 } LiveValue;
 
 /* The values of a pane. */
 typedef struct LiveValues {
-    int count;
+    int count; /* number of values */
     int run; /* run of the values that are added next; 0: all runs */
     Colour colour[VALUES_RUNS + 1]; /* colours of runs; [0]: of other lines */
-    LiveValue entry[VALUES_MOST];
+    LiveValue value[MAX_VALUES];
 } LiveValues;
 
 /* ---- the stage ---------------------------------------------------------- */
@@ -113,7 +113,7 @@ typedef struct Pane {
     const Trace *trace;      /* trace of the time step, or NULL */
     const char *label;       /* differences from other panes, "h 0.01, k 5" */
     Status failure;          /* failure of the shown step, or STATUS_OK */
-    /* frame_fill_values fills values, descent and shown_trace. */
+    /* frame_compute_values fills values, descent and shown_trace. */
     LiveValues values;
     DescentTrace descent;
     const Trace *shown_trace; /* trace, or else descent.trace, or NULL */
@@ -126,7 +126,7 @@ typedef enum PickKind {
     PICK_SPRING,   /* Pick.index: number of the spring */
     PICK_OBSTACLE, /* Pick.index: number of the obstacle, grounds first */
     PICK_EDGE,     /* Pick.index: 0 left, 1 right edge of the square */
-    PICK_PLACE,    /* any place on a map or curve that takes clicks */
+    PICK_POINT,    /* any place on a map or curve that takes clicks */
     PICK_HANDLE,   /* Pick.index: number of a handle, which can be dragged */
     PICK_SWITCH,   /* Pick.index: number of a switch of the scene */
     PICK_CELL      /* Pick.index: row * ENVELOPE_COLUMNS + column of a cell */
@@ -134,7 +134,7 @@ typedef enum PickKind {
 
 typedef struct Pick {
     PickKind kind;
-    int pane, index;
+    int pane, index;  /* number of the pane, number of the part */
     int nearest_node; /* nearest node within 3/4 of a spacing; -1: none */
     double point[2];  /* m, position of the mouse in the world */
 } Pick;
@@ -142,8 +142,8 @@ typedef struct Pick {
 /* Bounds of a pane's view while the mouse drags a thing: the view stands still,
  * so that the thing stays under the mouse. */
 typedef struct DragBounds {
-    bool is_held; /* during a drag */
-    bool is_away; /* the mouse has left the stage: the view is free for now */
+    bool is_dragging; /* during a drag */
+    bool has_left; /* the mouse has left the stage: the view is free for now */
     int pane;
     double bounds[4]; /* left, bottom, right, top, m */
 } DragBounds;
@@ -180,20 +180,20 @@ typedef struct Setting {
 } Setting;
 
 typedef struct SettingsRow {
-    int count;
+    int count; /* number of settings */
     Setting item[LAYOUT_SETTINGS];
 } SettingsRow;
 
 /* The bar of a step in the time line, as high as the step has updates. */
 typedef struct StepBar {
-    int updates;
-    bool unconverged;
+    int updates; /* Newton updates of the step */
+    bool is_unconverged;
 } StepBar;
 
 typedef struct TimeLine {
     long steps;  /* number of known steps */
     long step;   /* the step on the stage, 0 ... steps */
-    bool paused; /* the run is paused */
+    bool is_paused; /* the run is paused */
     /* Returns the bar of a step 1 ... steps.  NULL: no bars are drawn. */
     StepBar (*get_bar)(const void *bar_data, long step);
     const void *bar_data;      /* first argument of get_bar */
@@ -203,11 +203,11 @@ typedef struct TimeLine {
 /* A key and what it does now. */
 typedef struct Chip {
     char key[VALUE_SIZE], label[VALUE_SIZE]; /* "Space", "play" */
-    bool highlighted;                        /* is the key to press next */
+    bool is_highlighted;                     /* is the key to press next */
 } Chip;
 
 typedef struct ChipRow {
-    int count;
+    int count; /* number of chips */
     Chip chip[LAYOUT_CHIPS];
 } ChipRow;
 
@@ -237,20 +237,20 @@ typedef struct ListRow {
 } ListRow;
 
 typedef struct List {
-    int rows;
+    int rows; /* number of rows */
     ListRow row[LAYOUT_ROWS];
 } List;
 
 /* A scene in the overview of scenes. */
 typedef struct SheetCell {
-    const char *name;
+    const char *name;             /* name of the scene */
     const char *heading;          /* heading above the cell, or NULL */
     const Simulation *simulation; /* NULL: the scene is not ready yet */
 } SheetCell;
 
 /* The overview of scenes; without cells the overview is closed. */
 typedef struct SheetContent {
-    int cells;
+    int cells; /* number of cells */
     SheetCell cell[LAYOUT_CELLS];
 } SheetContent;
 
@@ -258,35 +258,35 @@ typedef struct SheetContent {
 typedef struct LectureContent {
     const LecturePage *page;    /* NULL outside of the lecture */
     bool hides_answer;          /* the page waits for the user's guess */
-    const char *asked; /* text: the question, after the answer as it was asked;
-                          NULL: this run asks none */
+    const char *question; /* text: the question, after the answer as it was
+                             asked; NULL: this run asks none */
     const char *verdict;        /* verdict on the guess at this page, or NULL */
     int guesses, right_guesses; /* numbers of guesses and of right guesses */
-    char own_title[SENTENCE_SIZE]; /* heading of answers that hold for the
-                                page's own options; "": no option is changed */
-    char look_text[LOOK_SIZE];     /* text: the answer of the page */
+    char condition[SENTENCE_SIZE]; /* heading of answers that hold for the
+                                      page's options; "": none is changed */
+    char answer_text[ANSWER_SIZE]; /* text: the answer of the page */
 } LectureContent;
 
 /* ---- all of it ----------------------------------------------------------- */
 
 /* The node or obstacle that the mouse or a script holds in the active pane. */
-typedef struct HeldByHand {
+typedef struct HandGrip {
     bool is_held;     /* the hand holds a node or an obstacle */
     int node;         /* node that the hand pulls; -1: none */
     int obstacle;     /* obstacle that the hand pushes; -1: none */
     double target[2]; /* m, place to which the hand pulls or pushes */
-} HeldByHand;
+} HandGrip;
 
 typedef struct FrameContent {
     int panes;       /* number of panes, 1 ... LAYOUT_PANES */
     int active_pane; /* index of the pane whose numbers the cards show */
     Pane pane[LAYOUT_PANES];
     const View *view;
-    HeldByHand hand;   /* hand of the mouse or of a script */
+    HandGrip hand;     /* hand of the mouse or of a script */
     bool shows_strain; /* springs are coloured by strain */
     bool is_bare;      /* shows pictures without words */
-    bool in_page;      /* shows the stage alone, as on the web page */
-    bool in_document;  /* the web page has switches, texts and cards */
+    bool is_stage_only; /* shows the stage alone, as on the web page */
+    bool has_document;  /* the web page has switches, texts and cards */
     struct Text *text; /* fonts; NULL: widths of texts are estimated */
     double min_em;     /* pixels, least size of an em; 0: the usual minimum */
     TitleBar title_bar;
@@ -349,18 +349,18 @@ long frame_find_step(const FrameContent *content, const Layout *layout,
 /* If the simulation shows a page of the lecture, adds the page's topic and the
  * cards that are covered before the guess.  If the column shows a list (of
  * pages, or of the formulas' letters), fills it.  Must come before
- * frame_fill_texts.
+ * frame_expand_texts.
  *   column  in, contents that the user chose; COLUMN_CODE exists only on a page
  *   left    in, page that was last open, which the list marks; or NULL */
 void frame_add_lecture(ColumnContent column, const struct LecturePage *left,
                        FrameContent *content);
 
 /* Fills the values of all panes. */
-void frame_fill_values(FrameContent *content);
+void frame_compute_values(FrameContent *content);
 
 /* Fills the values of all panes, then topic, sentence, method and state of the
  * active pane where they are empty.  Must come last before drawing. */
-void frame_fill_texts(FrameContent *content);
+void frame_expand_texts(FrameContent *content);
 
 /* Returns the live value with this name in the active pane; NaN: unknown. */
 double frame_find_number(FrameContent *content, const char *name);

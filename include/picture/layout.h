@@ -36,7 +36,7 @@ typedef struct Layout {
     int width, height; /* pixels of the window */
     double em;         /* pixels of an em, the size of plain text */
     Box title_bar, stage, column, settings_row, time_line, chip_row;
-    int panes, cards, settings, chips;
+    int panes, cards, settings, chips; /* numbers of boxes */
     bool has_list;          /* the column shows code or a list, not cards */
     Box pane[LAYOUT_PANES]; /* the panes of the stage */
     Box card[LAYOUT_CARDS]; /* the cards; a main card is on the stage */
@@ -44,13 +44,13 @@ typedef struct Layout {
     Box chip[LAYOUT_CHIPS]; /* a chip that does not fit has no width */
     int chips_left_out;     /* number of chips that do not fit */
     Box bars;               /* bars of the steps, inside the time line */
-    int cells;
+    int cells;              /* number of cells of the overview */
     Box cell[LAYOUT_CELLS]; /* scene's square and name, without its heading */
 } Layout;
 
 typedef enum Zone {
     ZONE_NONE,
-    ZONE_STRIP,
+    ZONE_TITLE,
     ZONE_STAGE,      /* index: number of the pane */
     ZONE_CARD,       /* index: number of the card */
     ZONE_CARD_CLOSE, /* the cross of a card; index: number of the card */
@@ -63,8 +63,8 @@ typedef enum Zone {
 } Zone;
 
 typedef struct WindowHit {
-    Zone zone;
-    int index;
+    Zone zone;       /* zone of the window */
+    int index;       /* number of the part of the zone */
     double pixel[2]; /* pixels, position of the mouse */
 } WindowHit;
 

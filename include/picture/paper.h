@@ -6,7 +6,7 @@
 
 #include "picture/text.h"
 
-enum { PAPER_WORDS = 64 };
+enum { MAX_WORD_BOXES = 64 };
 
 typedef struct Paper {
     Canvas canvas;
@@ -14,8 +14,8 @@ typedef struct Paper {
     double em;         /* pixels */
     double unit;       /* pixels, 1/14 em */
     double min_letter; /* ems, least size of letters except scripts */
-    Box word_boxes[PAPER_WORDS]; /* boxes of labels and of words on panels */
-    int word_count; /* boxes so far; the newest PAPER_WORDS remain */
+    Box word_boxes[MAX_WORD_BOXES]; /* boxes of labels and of words on panels */
+    int word_count; /* boxes so far; the newest MAX_WORD_BOXES remain */
 } Paper;
 
 /* Creates white paper of this size in pixels.  The caller frees it, also after

@@ -9,11 +9,11 @@
 
 typedef struct Plot Plot; /* drawing area with its coordinates (plot.h) */
 
-enum { CARD_COLUMNS = 9, CARD_CELL = 160 };
+enum { CARD_COLUMNS = 9, CARD_CELL = 160 }; /* most columns; bytes of a cell */
 
 /* A row of a card's table or legend. */
 typedef struct CardTableRow {
-    int columns;
+    int columns;                        /* number of columns */
     Colour colour;                      /* colour of the first cell */
     char cell[CARD_COLUMNS][CARD_CELL]; /* markup; "": not known yet */
 } CardTableRow;
@@ -30,7 +30,7 @@ typedef struct Card {
     double weight;           /* weight with which the card shares free height */
     bool half_width;         /* may stand in one half of a wide column */
     bool halves_on_page;     /* may stand in one half on a page */
-    bool starts_closed;
+    bool starts_closed;      /* shows only its title at first */
     bool needs_line_energy; /* draws E along p (cards_need_line_energy) */
     bool below_picture;     /* as main card, stands below the picture */
     bool beside_picture;    /* as main card, stands beside the picture */
@@ -40,7 +40,7 @@ typedef struct Card {
     const char *column_heads; /* text: the heads of the table, with | between */
     /* Fills row 1, 2, ... below the heads; returns false after the last row,
      * and for row 0 if the table is empty.  NULL: the card has no table. */
-    bool (*fill_row)(const FrameContent *content, int row, CardTableRow *cells);
+    bool (*make_row)(const FrameContent *content, int row, CardTableRow *cells);
     const char *legend; /* text: the legend of the graph, or NULL */
     /* Fills a row of a legend with values: a name and a value.  Returns false
      * after the last row.  NULL: the graph has no such legend. */
@@ -61,7 +61,7 @@ typedef struct Picture {
     /* Finds the part of the world to show: left, bottom, right, top, m.  The
      * stage has no camera yet.  NULL: default_bounds. */
     void (*bounds)(const Plot *stage, double bounds[4]);
-    double default_bounds[4];
+    double default_bounds[4]; /* m, left, bottom, right, top */
     void (*draw)(Plot *stage);
     /* Adds the live values that the picture's texts use; may be NULL. */
     void (*add_values)(const Simulation *simulation, LiveValues *values);

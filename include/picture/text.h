@@ -44,7 +44,7 @@ double text_line_height(double size);
 /* Extent of a line in pixels, above and below the baseline, at least that of a
  * line of words.  The width is a whole number. */
 typedef struct TextExtent {
-    double width, ascent, descent;
+    double width, ascent, descent; /* pixels */
 } TextExtent;
 TextExtent text_extent(Text *text, const TextStyle *style, const char *markup);
 
@@ -74,7 +74,7 @@ typedef struct Glyph {
     uint64_t key;  /* face, size and letter as one number; 0: a free slot */
     int left, top; /* pixels from the pen on the baseline to the mask */
     int advance;   /* pixels to the next letter */
-    int width, height;
+    int width, height; /* pixels of the mask */
     uint8_t *mask; /* [height width] coverage; NULL: no pixel is covered */
 } Glyph;
 

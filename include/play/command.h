@@ -93,7 +93,7 @@ bool command_replaces(const Command *command, const Command *before);
  * A command with & is undone together with the command of the line before.  A
  * line waits for its step, unless the run is paused or at its end. */
 typedef struct ScriptLine {
-    long due_step;
+    long due_step; /* step at which it is obeyed */
     Command command;
     int gesture; /* id of the command's gesture; 0: not known */
 } ScriptLine;

@@ -66,7 +66,7 @@ enum {
  * have 17 digits: a reader gets the same double. */
 typedef struct Table {
     Output output;
-    int columns;
+    int columns; /* number of columns */
     struct {
         char name[TABLE_NAME_SIZE];
         char kind; /* 'w': whole number, 't': text, 0: number */

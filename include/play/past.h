@@ -49,7 +49,7 @@ typedef struct State {
 /* A point of the plots over time. */
 typedef struct EnergySample {
     double time; /* s */
-    int rows;
+    int rows;    /* number of energies */
     Energy row[HISTORY_SERIES]; /* [rows] energies of the plots */
 } EnergySample;
 
@@ -81,7 +81,7 @@ typedef struct Branch {
     int copied;        /* entries copied from below; 2: repeats a step */
     long left_step; /* step that was shown when the user left the branch */
     long stride; /* every stride-th entry stores its state */
-    int panes;
+    int panes;   /* number of panes */
     Entry *entry; /* [capacity][panes]; entry `entries` is being made */
     int gesture;  /* id; edits of one gesture share a branch; 0: none */
     Command edit; /* edit that began the branch */

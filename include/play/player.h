@@ -78,7 +78,7 @@ enum { QUEUE_MOST = 16 };
  * the parts of a command, and drags while a step is made. */
 typedef struct CommandQueue {
     Command command[QUEUE_MOST];
-    int count;
+    int count;           /* number of commands */
     bool is_from_page;   /* the commands belong to a page */
     const Control *pins; /* pins to be set at the end of the queue, or NULL */
     char note[SENTENCE_SIZE]; /* message at the end of the queue, or "" */
@@ -99,7 +99,7 @@ typedef struct Commands {
 typedef struct Tour {
     const LecturePage *last_page; /* page that was last open, or NULL */
     const LecturePage *revealed; /* page whose answer is shown, or NULL */
-    char asked_question[LOOK_SIZE]; /* question of `revealed` as it was asked */
+    char asked_question[ANSWER_SIZE]; /* question of that page, as asked */
     char verdict[VALUE_SIZE];    /* verdict on the guess at the page, or "" */
     int guesses, right_guesses;  /* numbers of guesses so far */
     bool is_page_running;        /* a page's commands are running */
@@ -158,7 +158,7 @@ typedef struct Mouse {
 
 /* Objects that the user holds or has selected, and the typed text. */
 typedef struct Hands {
-    Mouse mouse;
+    Mouse mouse;      /* mouse and its drag */
     bool is_holding;  /* a node or an obstacle is held */
     long pulled_step; /* step at which the hand last moved what it holds */
     const OptionRow *selected; /* selected number, or NULL */

@@ -16,7 +16,7 @@ enum { SAMPLE_INTERVALS = 32, SAMPLE_COUNT = SAMPLE_INTERVALS * 3 / 2 + 1 };
 /* Records of Newton's iterations. */
 typedef struct Records {
     NewtonRecord *record; /* [count] */
-    int count, capacity;
+    int count, capacity;  /* number of records; room for records */
     bool is_incomplete; /* memory was missing for a record */
 } Records;
 

@@ -46,7 +46,7 @@ Status create_spring(Simulation *simulation);
  *   backward    v' = v + h a(x') x' = x + h v' */
 typedef struct MassStep {
     /* Position, velocity, acceleration, SI units, before and after the step. */
-    double x[2], v[2], a[2], new_x[2], new_v[2], new_a[2];
+    double x[2], v[2], a[2], new_x[2], new_v[2], new_a[2]; /* m, m/s, m/s^2 */
     bool moves_by_old_v; /* x' = x + h v (forward Euler) */
 } MassStep;
 
@@ -68,7 +68,7 @@ typedef struct SpringValues {
     double eigenvalue_across; /* eigenvalue of P's Hessian across d, J/m^2 */
     double root_energy;       /* J, P_root, the energy in |d| - l instead */
     /* J/m^2, eigenvalues of P_root's Hessian; the second is -inf at d = 0 */
-    double root_along, root_across;
+    double root_along, root_across; /* its eigenvalues, J/m^2 */
 } SpringValues;
 
 /* Evaluates a spring; d [2] m, l2 m^2, k J/m^2. */

@@ -13,7 +13,7 @@ typedef struct Control {
     int held_node;     /* node that the mouse holds; -1: none */
     int held_obstacle; /* obstacle that the mouse holds; -1: none */
     double target[2];  /* m, place to which the hand pulls or pushes */
-    int nodes;
+    int nodes;         /* number of nodes */
     unsigned char pinned[]; /* [nodes] 1: pinned, 0: free */
 } Control;
 

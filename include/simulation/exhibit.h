@@ -21,7 +21,7 @@ typedef struct Prediction {
 /* Value, gradient and Hessian (xx, xy, yy) of E or f at a point, in J s^2 and
  * m.  A function of one unknown uses g[0] and H[0]; the other numbers are 0. */
 typedef struct LocalModel {
-    double energy, g[2], H[3];
+    double energy, g[2], H[3]; /* E; gradient; Hessian xx, xy, yy */
     int projected; /* number of springs whose Hessian was projected */
 } LocalModel;
 
@@ -110,9 +110,9 @@ typedef struct Exhibit {
     double x_tilde[2];     /* m, x_tilde; in one unknown [0] alone counts */
     unsigned switches;     /* bit s: part s of E is on (LandscapePart); for
                               switches of kinds of springs, kind s is off */
-    DialCurve dial;
-    Race race;
-    EnvelopeMap envelope;
+    DialCurve dial;        /* minimisers of scene `dial` */
+    Race race;             /* runs of scene `race` */
+    EnvelopeMap envelope;  /* runs of scene `envelope` */
 } Exhibit;
 
 /* Lists the points that can be dragged, m.  Returns how many there are. */

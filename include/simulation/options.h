@@ -65,15 +65,15 @@ typedef struct Options {
             double bodies; /* number of rows of body that are used */
             double body[SQUARE_MESH_MAX_BODIES][BODY_NUMBERS];
             /* m, m/s, m: height, velocity, lowest height; velocity 0: none */
-            double ceiling[3];
+            double ceiling[3]; /* values of --ceiling */
             double barrier[2]; /* d_hat, m; kappa, J/m^2; 0: side/100, 4 k */
             double friction, slip_speed, cells, self_contact;
             double self_friction; /* between bodies; -1: equal to `friction` */
             double material;      /* 0: springs, 1: triangles */
-            double young, poisson;
+            double young, poisson;         /* values of --young, --poisson */
             double yield, hardening, tear; /* 0: no spring yields or breaks */
-            double damping;
-            double timestep, tolerance;
+            double damping;                /* value of --damping */
+            double timestep, tolerance;    /* values of the options */
             double integrator;  /* row of integrator_methods; -1: not chosen */
             double solver;      /* enum Solver */
             double projection;  /* enum Projection */
@@ -85,7 +85,7 @@ typedef struct Options {
             double paused, fullscreen, headless, quiet, big;
             double help, version, list; /* print a text and exit */
         };
-        double number[OPTIONS_NUMBERS];
+        double number[OPTIONS_NUMBERS]; /* numbers of all options */
     };
     const struct Scene *scene;
     const struct LecturePage *page; /* page of the tour, or NULL */
@@ -122,7 +122,7 @@ typedef enum OptionKind {
 
 /* The names of a table whose rows begin with a name; NULL ends the table. */
 typedef struct NameTable {
-    const void *rows;
+    const void *rows; /* rows of the table, which begin with a name */
     size_t row_size; /* bytes of a row of the table */
 } NameTable;
 

@@ -42,8 +42,8 @@ enum { SCENE_MAX_HANDLES = 4, SCENE_MAX_SWITCHES = 4 };
 
 /* A part of the picture that can be switched off. */
 typedef struct Switch {
-    const char *label;
-    bool is_on;
+    const char *label; /* text beside the switch */
+    bool is_on;        /* the switch is on */
 } Switch;
 
 /* Properties of a scene's body for which there is no option. */

@@ -68,10 +68,10 @@ typedef struct Energy {
 enum { ENERGY_ROWS = 2 * SYSTEM_MAX_TERMS + 5 };
 
 typedef struct Energies {
-    double kinetic, gravity, total;
+    double kinetic, gravity, total; /* J */
     double work;       /* work of walls, pins and hand */
     double dissipated; /* energy that the integrator took out; < 0: added */
-    int rows;
+    int rows;          /* number of energies */
     Energy row[ENERGY_ROWS]; /* energies in the order of the plots' legend */
 } Energies;
 

@@ -88,7 +88,7 @@ static inline double quartic_value(const Quartic *quartic, double alpha)
 /* E(x + alpha p) - E(x): an exact polynomial, plus the remainders of the terms
  * that are no polynomials. */
 typedef struct LineEnergy {
-    Quartic polynomial;
+    Quartic polynomial; /* polynomial part of E along p */
     const Iterate *iterate;
     bool has_remainder; /* has terms with a line_remainder (term.h) */
 } LineEnergy;

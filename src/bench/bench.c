@@ -326,7 +326,7 @@ static Status measure_steps(bool quick)
 static const struct {
     const char *name, *sentence;
     Status (*run)(bool quick);
-    const char *columns;
+    const char *columns; /* heading of the table */
 } tables[] = {
     {"work", "error against run time of all methods", measure_work,
      "case,segments,integrator,solver,order,steps,tolerance_m_s,run_time_s,"

@@ -96,7 +96,7 @@ typedef struct Task {
     int index; /* TASK_..., index in student[] */
     const char *name;
     Function *truth;
-    ResultKind kind;
+    ResultKind kind;           /* kind of the result */
     const char *case_names[5]; /* name of each case for messages, then NULL */
     int steps; /* number of calls of step_forward; only the first has a table */
     unsigned needed_tasks; /* bits of the tasks that this task calls */
@@ -318,7 +318,7 @@ static const Task tasks[] = {
      {""},
      20,
      2 * BIT(step_forward) - 1}};
-enum { CHECKS = sizeof tasks / sizeof *tasks };
+enum { TASKS = sizeof tasks / sizeof *tasks };
 
 /* Returns the name of number i of a result, for messages. */
 static const char *describe_number(ResultKind kind, int i)
@@ -383,7 +383,7 @@ static const char *find_mistake(const Task *task, int case_number,
 static const char *find_multiple(const double *yours, const double *truth)
 {
     static const struct {
-        double factor;
+        double factor; /* factor on the right result */
         const char *sentence;
     } multiples[] = {
         {0, "all numbers are 0: is it written yet? (In C 1/2 is 0, not 0.5.)"},
@@ -471,7 +471,7 @@ static void read_reason(FILE *errors)
         report("%s", reason);
 }
 
-enum { SECONDS = 4 }; /* a function that runs longer counts as endless */
+enum { MAX_SECONDS = 4 }; /* a function that runs longer counts as endless */
 
 /* Runs one check in its own process.  The fault is then in `shared`. */
 static void run_check(const Task *task)
@@ -483,7 +483,7 @@ static void run_check(const Task *task)
     if (child < 0)
         FAIL(1, "cannot run a check: %s\n", strerror(errno));
     if (child == 0) {
-        alarm(SECONDS);
+        alarm(MAX_SECONDS);
         check_task(task, fileno(errors));
         shared->finished = true;
         _exit(0);
@@ -511,7 +511,7 @@ int main(int argc, char **argv)
                   MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     if (shared == MAP_FAILED)
         FAIL(1, "not enough memory\n");
-    for (int t = 0; t < CHECKS; t++) {
+    for (int t = 0; t < TASKS; t++) {
         unsigned missing = tasks[t].needed_tasks & failed;
         if (missing) { /* the lowest bit is that of the first task */
             shared->case_name[0] = '\0';
@@ -532,7 +532,7 @@ int main(int argc, char **argv)
         fflush(out);
     }
     if (argc == 2)
-        fprintf(out, "%d of %d are right\n%s%s", right, CHECKS, argv[1],
+        fprintf(out, "%d of %d are right\n%s%s", right, TASKS, argv[1],
                 *argv[1] ? "\n" : "");
     else
         fprintf(out, "\"%s\",%d,\"%s\"\n", argv[2], right,

@@ -26,7 +26,7 @@ enum { MAX_WORDS = 256 };
 typedef struct ArgLine {
     Options *options; /* out */
     Message message;  /* out, the first mistake */
-    int words;
+    int words;        /* number of words */
     ArgWord word[MAX_WORDS];
     char copy[512]; /* texts of the words, if they stand in one text */
 } ArgLine;

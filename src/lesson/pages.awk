@@ -79,7 +79,7 @@ function end_page(    i)
         if (page && !(needed[i] in had))
             fail(page, "the page has no " needed[i])
     for (i in below)
-        print "." (i == "look" ? "look_text" : i) " = " below[i] ","
+        print "." (i == "look" ? "answer_text" : i) " = " below[i] ","
     split("", below)
     if (page)
         print "},"

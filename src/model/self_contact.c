@@ -255,7 +255,7 @@ static bool pair_hessian(const EvalPoint *at, const Element *element,
 
 /* A quadratic along a line, by its coefficients. */
 typedef struct Quadratic {
-    double degree0, degree1, degree2;
+    double degree0, degree1, degree2; /* coefficients */
 } Quadratic;
 
 /* Returns the change of top^2/l along the line, less its part of degree 1,

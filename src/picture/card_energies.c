@@ -26,14 +26,14 @@ static const double ROW_HEIGHT = 1.2;   /* ems, for each of curves 5 to 7 */
 typedef struct Curve {
     const Simulation *simulation;
     const History *history;
-    int series;
+    int series;    /* index of the curve's quantity */
     bool is_total; /* is a total energy */
     Colour colour;
     const char *name;
 } Curve;
 
 typedef struct Curves {
-    int count;
+    int count; /* number of curves */
     Curve curve[HISTORY_SERIES];
     int omitted;  /* number of curves for which the card has no room */
     double t_max; /* s, time of the pane that has come farthest */
@@ -277,7 +277,7 @@ void energies_draw(const Plot *card)
     Plot rest = *card;
     double last;
     int room = card->box.height - paper_pixels(card->paper, MIN_PLOT);
-    bool has_legend = !card->content->in_document;
+    bool has_legend = !card->content->has_document;
     bool named = card->content->panes <= 1 ||
                  write_legend(card, &all, true, false) <= room;
     while (has_legend && all.count > 1 &&

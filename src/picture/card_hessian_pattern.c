@@ -4,7 +4,7 @@
 #include "picture/cards.h"
 
 /* Blocks: zero; non-zero in the factor alone; non-zero in the Hessian, too. */
-enum { NOTHING, FILL, ENTRY };
+enum { NO_ENTRY, FILL_IN, OWN_ENTRY };
 
 /* Returns the row of a node: the node's number in natural order, else the
  * node's place in the elimination order. */
@@ -26,7 +26,7 @@ static unsigned char *compute_matrix_pattern(const System *system, bool natural,
     for (int s = 0; block && s < springs; s++) {
         size_t i = (size_t)matrix_row(system, system->e[2 * s], natural);
         size_t j = (size_t)matrix_row(system, system->e[2 * s + 1], natural);
-        block[i < j ? i * n + j : j * n + i] = ENTRY;
+        block[i < j ? i * n + j : j * n + i] = OWN_ENTRY;
         block[i * n + i]++;
         block[j * n + j]++;
     }
@@ -36,7 +36,7 @@ static unsigned char *compute_matrix_pattern(const System *system, bool natural,
             parent++;
         for (size_t i = parent + 1; i < n; i++)
             if (block[j * n + i] && !block[parent * n + i])
-                block[parent * n + i] = FILL;
+                block[parent * n + i] = FILL_IN;
     }
     return block;
 }
@@ -71,14 +71,14 @@ static void draw_pattern(const Plot *card, Box square, bool natural,
     for (int j = 0; block && j < n; j++)
         for (int i = j; i < n; i++) {
             int at = block[(size_t)j * (size_t)n + i];
-            int what = i == j ? ENTRY : at;
+            int what = i == j ? OWN_ENTRY : at;
             Colour blue = colour_mix(0xffc0c8ffu, COLOUR_X,
                                      writes ? (i == j ? at : 1) / 8.0 : 1);
-            if (what == ENTRY)
+            if (what == OWN_ENTRY)
                 canvas_fill(canvas, find_block_box(square, n, j, i, 1), blue);
-            if (what != NOTHING)
+            if (what != NO_ENTRY)
                 canvas_fill(canvas, find_block_box(square, n, i, j, 1),
-                            what == ENTRY ? blue : 0xffe0a060u);
+                            what == OWN_ENTRY ? blue : 0xffe0a060u);
         }
     for (int k = 0; block && k < 4 && lit >= 0 && lit < system->springs; k++) {
         const int *e = system->e + 2 * lit;
@@ -102,7 +102,7 @@ void hessian_pattern_draw(const Plot *card)
     const double list_height = 28; /* ems */
     Plot triplets = *card;
     Box inside = card->box;
-    bool has_list = writes && !card->content->in_document &&
+    bool has_list = writes && !card->content->has_document &&
                     inside.height > list_height * paper->em;
     int line = paper_pixels(paper, 1.4), count = writes ? 1 : 2;
     if (has_list)

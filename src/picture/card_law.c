@@ -92,7 +92,7 @@ static const Law laws[] = {
      0, 1.3, false},
 };
 
-static void fill_spring_law(LawPoint *now, int s)
+static void set_spring_law(LawPoint *now, int s)
 {
     const System *system = now->eval.system;
     const Plasticity *flow = system_term_data(system, &plastic_energy);
@@ -144,7 +144,7 @@ static const Law *find_law(const Simulation *simulation, LawPoint *most)
         most->axis_unit = self_contact_of(system)->d_hat;
     LawPoint now = *most;
     for (int s = 0; s < system->springs && !law->element_term; s++) {
-        fill_spring_law(&now, s);
+        set_spring_law(&now, s);
         *most = now.load > most->load ? now : *most;
     }
     if (!law->element_term)
@@ -214,7 +214,7 @@ static bool find_flow_path(const LawPoint *now, double from[2], double to[2])
     return ep != 0 && fabs(away) <= 1e-9 * most;
 }
 
-bool law_find_slide(const Simulation *simulation, int body, double distance[2])
+bool law_find_slip(const Simulation *simulation, int body, double distance[2])
 {
     const SquareMesh *mesh = &simulation->mesh;
     const Options *options = &simulation->options;
@@ -261,7 +261,7 @@ void law_add_values(const Simulation *simulation, LiveValues *values)
     Energies energies = simulation_energies(simulation, 0);
     for (int i = 0; i < energies.rows; i++)
         values_add(values, energies.row[i].name, energies.row[i].value);
-    if (law_find_slide(simulation, simulation->mesh.bodies - 1, way))
+    if (law_find_slip(simulation, simulation->mesh.bodies - 1, way))
         values_add(values, "rigid", way[1]);
 }
 

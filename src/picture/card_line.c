@@ -30,8 +30,8 @@ static double line_energy_at(const Trace *trace, double alpha)
 /* Fills the curves and the ends of the axis, from the minimum of the curves to
  * slightly above 0. The quadratic model has its minimum at alpha = 1: since H^
  * p = -g, its curvature p H^ p is minus the slope. */
-static void fill_curves(const Trace *trace, const Trace *other,
-                        LineCurves *curves)
+static void compute_curves(const Trace *trace, const Trace *other,
+                           LineCurves *curves)
 {
     double end = (other ? PAGE_END : AXIS_END) * trace_step_length(trace, 1);
     double low = 0, high = 0;
@@ -115,11 +115,11 @@ void line_energy_draw(const Plot *card)
         descent_direction(card->simulation, PROJECTION_CLAMP, other.start,
                           other.p);
     other.trace.difference_data = &other;
-    fill_curves(trace, both ? &other.trace : NULL, &curves);
+    compute_curves(trace, both ? &other.trace : NULL, &curves);
     Axis x = {0, curves.alpha[LINE_POINTS - 1], .label = "{alpha}"};
     Axis y = {curves.low, curves.high, .label = NULL};
     Plot rest = *card;
-    if (!card->content->in_document)
+    if (!card->content->has_document)
         draw_legend(card, &rest.box);
     Plot plot = plot_create(&rest, x, y);
     plot_curve(&plot, LINE_POINTS, curves.alpha, curves.model, 1.3, COLOUR_P);

@@ -9,14 +9,14 @@ static const double PAGE_PITCH = 2.1, PITCH = 1.75;
 /* Height of the table of residuals over that of the main card. */
 static const double TABLE_PART = 0.68;
 
-ShownRow listing_fill_row(const Pane *pane, const ListingRow *row)
+ShownRow listing_make_row(const Pane *pane, const ListingRow *row)
 {
     const LiveValues *values = &pane->values;
     const Trace *trace = pane->shown_trace;
     bool reached = trace && (trace->at_line == LINE_NONE ||
                              trace->at_line >= row->at_line);
     bool struck = text_has_line(values, row->struck_if);
-    return (ShownRow){.highlighted = trace && trace->at_line == row->at_line,
+    return (ShownRow){.is_highlighted = trace && trace->at_line == row->at_line,
                       .is_struck = struck,
                       .text = text_first_line(values, row->text),
                       .value = text_first_line(
@@ -28,7 +28,7 @@ static void draw_listing_row(const Plot *card, Box box, const ListingRow *row,
                              int number)
 {
     Paper *paper = card->paper;
-    const ShownRow now = listing_fill_row(card->pane, row);
+    const ShownRow now = listing_make_row(card->pane, row);
     char digits[12];
     double size = box.height < 0.95 * PAGE_PITCH * paper->em ? 1 : 1.2;
     int indent = paper_pixels(paper, 2 + 1.2 * row->indented);
@@ -40,7 +40,7 @@ static void draw_listing_row(const Plot *card, Box box, const ListingRow *row,
     bool both = paper_width(paper, FACE_REGULAR, paper->min_letter,
                             now.text.text) <= room.width;
     room.width += both ? 0 : wide;
-    if (now.highlighted)
+    if (now.is_highlighted)
         canvas_fill(&paper->canvas, box, COLOUR_LIT);
     snprintf(digits, sizeof digits, "%d", number);
     paper_write_in_box(paper, FACE_REGULAR, 0.82, COLOUR_GREY, count,
@@ -56,7 +56,7 @@ static void draw_listing_row(const Plot *card, Box box, const ListingRow *row,
     box.width -= paper_pixels(paper, 0.6);
     if (both)
         paper_write_in_box(paper, FACE_REGULAR, 0.88 * size,
-                           now.highlighted ? COLOUR_TEXT : COLOUR_FAINT, box,
+                           now.is_highlighted ? COLOUR_TEXT : COLOUR_FAINT, box,
                            ALIGN_RIGHT, now.value.text);
 }
 
@@ -100,7 +100,7 @@ void card_write_rows(const Plot *card, const ListingRow *row)
 }
 
 /* Fills a row for each update, and a last row: why the loop has ended. */
-bool residuals_fill_row(const FrameContent *content, int row,
+bool residuals_make_row(const FrameContent *content, int row,
                         CardTableRow *cells)
 {
     const Trace *trace = active_pane(content)->shown_trace;
@@ -130,7 +130,7 @@ void residual_log_draw(const Plot *card)
     static const int order[CARD_COLUMNS] = {0, 1, 3, 2};
     Plot above = *card, below = *card;
     const Trace *trace = card->pane->shown_trace;
-    if (card->content->in_document) {
+    if (card->content->has_document) {
         residual_draw(card);
         return;
     }

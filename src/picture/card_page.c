@@ -67,13 +67,13 @@ static int lay_out_page(Paper *paper, Box inside, double size,
                        : "Say it, then press N or Space.";
     bool asks = lecture->hides_answer;
     const PageText words[] = {
-        {NULL, asks || keeps_text || !lecture->asked ? page->text : NULL,
+        {NULL, asks || keeps_text || !lecture->question ? page->text : NULL,
          COLOUR_TEXT, 1},
         {NULL, page->formula, COLOUR_TEXT, FORMULA_SIZE},
-        {"Ask", asks || !lecture->own_title[0] ? lecture->asked : NULL,
+        {"Ask", asks || !lecture->condition[0] ? lecture->question : NULL,
          COLOUR_X, 1},
         {"You", asks ? NULL : lecture->verdict, COLOUR_HAND, 1},
-        {"Look", asks ? NULL : lecture->look_text, COLOUR_X, 1},
+        {"Look", asks ? NULL : lecture->answer_text, COLOUR_X, 1},
         {asks ? "How" : "Try", asks ? how : page->try, COLOUR_HAND, 1}};
     int y = inside.y;
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
@@ -90,18 +90,18 @@ static int measure_page(Paper *paper, Box inside, double size,
     FrameContent other = *content;
     LectureContent *lecture = &other.lecture;
     LiveValues *values = &other.pane[other.active_pane].values;
-    if (!lecture->asked)
+    if (!lecture->question)
         return lay_out_page(paper, inside, size, content, keeps_text, false);
     lecture->hides_answer = false;
-    lecture->own_title[0] = '\0';
+    lecture->condition[0] = '\0';
     if (lecture->page->answer && !lecture->verdict)
         lecture->verdict = "0"; /* a line for the verdict */
     values_add_flag(values, "told", true);
     int after = lay_out_page(paper, inside, size, &other, keeps_text, false);
     lecture->hides_answer = true;
     for (int i = 0; i < values->count; i++)
-        if (strcmp(values->entry[i].name, "told") == 0)
-            values->entry[i].name = "";
+        if (strcmp(values->value[i].name, "told") == 0)
+            values->value[i].name = "";
     int before = lay_out_page(paper, inside, size, &other, keeps_text, false);
     return before > after ? before : after;
 }
@@ -140,8 +140,8 @@ Box page_draw_claim(Paper *paper, Box inside, const FrameContent *content)
 }
 
 /* Returns the height in ems of the whole card, in letters of this size. */
-static double height_of_card(const FrameContent *content, double wide,
-                             double em, double size, bool keeps_text)
+static double find_card_height(const FrameContent *content, double wide,
+                               double em, double size, bool keeps_text)
 {
     Paper paper = {.text = content->text, .em = em, .min_letter = 1};
     Box box = {0, 0, (int)(wide * em + 0.5), 0};
@@ -151,10 +151,10 @@ static double height_of_card(const FrameContent *content, double wide,
 
 double page_needed_height(const FrameContent *content, double wide, double em)
 {
-    return height_of_card(content, wide, em, LETTERS, true);
+    return find_card_height(content, wide, em, LETTERS, true);
 }
 
 double page_least_height(const FrameContent *content, double wide, double em)
 {
-    return height_of_card(content, wide, em, SMALLEST, false);
+    return find_card_height(content, wide, em, SMALLEST, false);
 }

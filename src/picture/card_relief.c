@@ -32,7 +32,7 @@ typedef struct Relief {
 /* A corner of the surface's triangles. */
 typedef struct Corner {
     double x, y, E; /* position in m, energy in J s^2 */
-    bool is_convex;
+    bool is_convex; /* the Hessian is positive definite */
 } Corner;
 
 static double rim_height(const Simulation *simulation)

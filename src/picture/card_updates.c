@@ -12,7 +12,7 @@ void step_energy_draw(const Plot *card)
 {
     enum { POINTS = 31, START = 5, END = 25 }; /* points with t = 0 and 1 */
     static const struct {
-        const char *name;
+        const char *name; /* name of the curve */
         Colour colour;
         int label_index;     /* index of the point with the label */
         double label_factor; /* height of the label, times the curve's value */
@@ -114,7 +114,7 @@ void residual_draw(const Plot *card)
 /* Fills a row for each update so far.  The row of the current update has the
  * cells that are known at the present line.  Without projection the table has
  * the number of negative eigenvalues of the Hessian, and the slope along p. */
-bool updates_fill_row(const FrameContent *content, int row, CardTableRow *cells)
+bool updates_make_row(const FrameContent *content, int row, CardTableRow *cells)
 {
     const Pane *pane = active_pane(content);
     const Trace *trace = pane->trace;

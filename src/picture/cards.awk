@@ -68,7 +68,7 @@ BEGIN {
     texts["title"] texts["legend"] texts["words"] texts["column_heads"]
     texts["text"] texts["value"] texts["struck_if"]
     values["min_height"] values["needed_height"] values["weight"] values["default_bounds"]
-    values["draw"] values["fill_row"] values["bounds"] values["add_values"] values["pick"]
+    values["draw"] values["make_row"] values["bounds"] values["add_values"] values["pick"]
     values["draw_hover"] values["sample"] values["legend_row"]
     switches["has_no_curves"] switches["half_width"] switches["halves_on_page"]
     switches["starts_closed"] switches["below_picture"]

@@ -167,7 +167,7 @@ static void draw_code(Paper *paper, Box inside, const FrameContent *content)
 
 /* ---- cards -------------------------------------------------------------- */
 
-bool card_fill_row(const FrameContent *content, const Card *card, int row,
+bool card_make_row(const FrameContent *content, const Card *card, int row,
                    CardTableRow *cells)
 {
     const LiveValues *values = &active_pane(content)->values;
@@ -181,7 +181,7 @@ bool card_fill_row(const FrameContent *content, const Card *card, int row,
                      (int)length, at);
         at += length + (at[length] == '|');
     }
-    return card->fill_row(content, row, cells);
+    return card->make_row(content, row, cells);
 }
 
 void card_draw_table(const Plot *card, const Card *table, const int *order)
@@ -194,7 +194,7 @@ void card_draw_table(const Plot *card, const Card *table, const int *order)
     double wide[CARD_COLUMNS] = {0}, em = paper->em, gap = 0.7 * em, all = 0;
     int rows = 0, columns = 0;
     bool shown[CARD_COLUMNS] = {false};
-    for (; card_fill_row(card->content, table, rows, &cells); rows++)
+    for (; card_make_row(card->content, table, rows, &cells); rows++)
         for (int c = 0; c < cells.columns && cells.cell[0][0]; c++)
             wide[c] = fmax(wide[c],
                            paper_width(paper, rows ? FACE_REGULAR : FACE_BOLD,
@@ -216,7 +216,7 @@ void card_draw_table(const Plot *card, const Card *table, const int *order)
     int skipped = rows - (int)fmin(rows, box->height / line + 0.01);
     for (int i = 0; i < rows - skipped; i++) {
         double right = box->x - size * gap;
-        card_fill_row(card->content, table, i > 1 ? i + skipped : i, &cells);
+        card_make_row(card->content, table, i > 1 ? i + skipped : i, &cells);
         for (int c = 0; c < cells.columns; c++) {
             right += shown[c] ? size * (wide[c] + gap) : 0;
             if (shown[c])

@@ -15,14 +15,14 @@ typedef struct ListingRow {
      * struck out if struck_if has one.  shown_if NULL: end of rows. */
     const char *shown_if, *struck_if;
     StepLine at_line; /* line of Algorithm 3 that the row is */
-    bool indented;
+    bool indented;    /* begins further right */
     const char *text;
     const char *value; /* text at the right, once this line has been executed */
 } ListingRow;
 
 /* A row of a listing as the present frame shows it. */
 typedef struct ShownRow {
-    bool highlighted, is_struck;
+    bool is_highlighted, is_struck;
     TextLine text;
     TextLine value; /* empty until the step has reached the line */
 } ShownRow;
@@ -62,8 +62,8 @@ extern CardDraw page_draw, residual_log_draw, line_energy_draw, residual_draw,
     step_energy_draw, updates_draw, energies_draw, energy_budget_draw,
     radius_draw, relief_draw, eigenvalues_draw, tangent_numbers_draw, law_draw,
     hessian_pattern_draw, spring_profile_draw, race_table_draw;
-extern CardTable residuals_fill_row, updates_fill_row, iterates_fill_row,
-    race_fill_row, energies_legend_row;
+extern CardTable residuals_make_row, updates_make_row, iterates_make_row,
+    race_make_row, energies_legend_row;
 extern CardHeight page_needed_height, listing_needed_height,
     energies_needed_height, updates_needed_height;
 
@@ -94,7 +94,7 @@ bool law_find_gap(const Simulation *simulation, LawGap *gap);
 
 /* Finds how far a body has slid, and how far a rigid body would slide, m.
  * Returns false if the scene does not draw the law of friction. */
-bool law_find_slide(const Simulation *simulation, int body, double distance[2]);
+bool law_find_slip(const Simulation *simulation, int body, double distance[2]);
 
 /* Whether the picture has a card of this name that is not hidden. */
 bool frame_has_card(const FrameContent *content, const char *name);
@@ -119,7 +119,7 @@ void card_write_hint(const Plot *card, const char *text);
 void card_draw_table(const Plot *card, const Card *table, const int *order);
 
 /* Returns what a row of a listing shows. */
-ShownRow listing_fill_row(const Pane *pane, const ListingRow *row);
+ShownRow listing_make_row(const Pane *pane, const ListingRow *row);
 
 /* Writes the rows of a listing that are shown now; the present line is lit. */
 void card_write_rows(const Plot *card, const ListingRow *row);
@@ -128,7 +128,7 @@ void card_write_rows(const Plot *card, const ListingRow *row);
 double code_needed_width(const LecturePage *page);
 
 /* Fills a row of a table; row 0: the heads.  Returns false after the last. */
-bool card_fill_row(const FrameContent *content, const Card *card, int row,
+bool card_make_row(const FrameContent *content, const Card *card, int row,
                    CardTableRow *cells);
 
 /* Draws the content of the picture's card with this index into a box. */

@@ -16,9 +16,9 @@ Colour colour_of_spring_kind(int kind)
     return colour_of_run(kind < 2 ? kind : 3);
 }
 
-/* The first TERMS colours are those of letters and energies: the row of a new
- * energy raises TERMS.  Then come words and methods. */
-enum { TERMS = 21 };
+/* The first TERM_COLOURS colours are those of letters and energies: the row of
+ * a new energy raises TERM_COLOURS.  Then come words and methods. */
+enum { TERM_COLOURS = 21 };
 static const struct {
     const char *name;
     Colour colour;
@@ -74,5 +74,5 @@ Colour colour_of_name(const char *name)
 
 Colour colour_of_term(int term)
 {
-    return term < TERMS ? names[term].colour : 0;
+    return term < TERM_COLOURS ? names[term].colour : 0;
 }

@@ -35,10 +35,10 @@ static const double CARD_BELOW = 0.65, MAIN_CARD_GROWTH = 1.3;
 static const double SETTINGS_PART = 0.75;
 
 /* Width of the column over that of the window: usually; at most for the texts
- * of a page, in large type, for code and lists of more than MOST_ROWS rows. */
+ * of a page, in large type, for code and lists of more than MAX_ROWS rows. */
 static const double COLUMN_PART = 0.38, PAGE_PART = 0.50, BIG_PART = 0.57,
                     WIDE_PART = 0.75, COLUMN_GROWTH = 0.01;
-enum { MOST_ROWS = 30 };
+enum { MAX_ROWS = 30 };
 
 /* An em has 14 pixels in a window of 1000 x 800, is proportional to the smaller
  * one of width/1000 and height/800, and has at least 9 pixels. */
@@ -168,7 +168,7 @@ static Box place_zones(const FrameContent *content, Layout *layout)
     double high = layout->height / layout->em;
     bool roomy = high >= 40, lecture = content->lecture.page;
     bool big = active_pane(content)->simulation->options.big;
-    if (content->is_bare || content->in_page || high < 16)
+    if (content->is_bare || content->is_stage_only || high < 16)
         return rest;
     layout->title_bar = box_cut_off(&rest, EDGE_TOP,
                                     ems_to_pixels(layout, roomy ? STRIP : 2.2));
@@ -212,7 +212,7 @@ static double needed_height(const FrameContent *content, const Layout *layout,
 
 /* A row of the column, with one card or two. */
 typedef struct CardRow {
-    int first_card, card_count;
+    int first_card, card_count; /* cards of the row */
     double min_height; /* ems; 0: only the title is seen */
     double weight;     /* weight with which the row shares free height */
 } CardRow;
@@ -482,7 +482,7 @@ Layout layout_create(const FrameContent *content, int width, int height)
     }
     double wide = width / layout.em, high = height / layout.em;
     bool low = page && high < 50; /* a list or code then covers the stage */
-    bool bare = content->is_bare || content->in_page;
+    bool bare = content->is_bare || content->is_stage_only;
     if (!bare && wide >= 53 && high >= 34 && !low &&
         (page || content->cards.hidden_cards != (1u << picture->count) - 1)) {
         double most = WIDE_PART * wide;
@@ -493,7 +493,7 @@ Layout layout_create(const FrameContent *content, int width, int height)
             if (content->column == COLUMN_CODE)
                 ems = fmin(fmax(code_needed_width(content->lecture.page), ems),
                            most);
-            else if (page && content->list.rows > MOST_ROWS)
+            else if (page && content->list.rows > MAX_ROWS)
                 ems = most;
             layout.stage = whole;
             layout.column = box_cut_off(&layout.stage, EDGE_RIGHT,
@@ -529,9 +529,9 @@ WindowHit layout_hit(const Layout *layout, double x, double y)
     const struct {
         Zone zone;
         const Box *box;
-        int count;
+        int count; /* number of boxes */
     } lists[] = {
-        {ZONE_STRIP, &l->title_bar, 1}, {ZONE_STAGE, l->pane, l->panes},
+        {ZONE_TITLE, &l->title_bar, 1}, {ZONE_STAGE, l->pane, l->panes},
         {ZONE_TIME, &l->time_line, 1},  {ZONE_LIST, &l->column, l->has_list},
         {ZONE_CARD, l->card, l->cards}, {ZONE_SETTING, l->setting, l->settings},
         {ZONE_CHIP, l->chip, l->chips}, {ZONE_CELL, l->cell, l->cells}};

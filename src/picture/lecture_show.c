@@ -60,17 +60,17 @@ static void add_list_lines(const char *text, bool live, char *out, size_t size)
 
 /* Copies the answer of the page.  If options are changed, lines with live
  * values come first; the other lines, if any, follow below lecture->own. */
-static void fill_look_text(const LecturePage *page, LectureContent *lecture)
+static void build_answer_text(const LecturePage *page, LectureContent *lecture)
 {
-    char *look = lecture->look_text, others[LOOK_SIZE] = "";
+    char *look = lecture->answer_text, others[ANSWER_SIZE] = "";
     look[0] = '\0';
-    add_list_lines(page->look_text, false, others, sizeof others);
-    if (lecture->own_title[0]) {
-        add_list_lines(page->look_text, true, look, LOOK_SIZE);
+    add_list_lines(page->answer_text, false, others, sizeof others);
+    if (lecture->condition[0]) {
+        add_list_lines(page->answer_text, true, look, ANSWER_SIZE);
         if (others[0])
-            append(look, LOOK_SIZE, "%s\n%s", lecture->own_title, others);
+            append(look, ANSWER_SIZE, "%s\n%s", lecture->condition, others);
     } else {
-        append(look, LOOK_SIZE, "%s", page->look_text);
+        append(look, ANSWER_SIZE, "%s", page->answer_text);
     }
 }
 
@@ -88,9 +88,9 @@ void frame_add_lecture(ColumnContent column, const LecturePage *left,
     if (!page)
         return;
     content->lecture.page = page;
-    fill_look_text(page, &content->lecture);
+    build_answer_text(page, &content->lecture);
     if (content->lecture.hides_answer)
-        content->lecture.asked = page->question;
+        content->lecture.question = page->question;
     content->title_bar.topic = page->topic;
     content->cards.covered_cards = 0;
     for (int c = 0; c < picture->count; c++)

@@ -12,8 +12,8 @@
 
 static LiveValue *append_value(LiveValues *values, const char *name)
 {
-    LiveValue *new = &values->entry[values->count % VALUES_MOST];
-    values->count += values->count < VALUES_MOST;
+    LiveValue *new = &values->value[values->count % MAX_VALUES];
+    values->count += values->count < MAX_VALUES;
     *new = (LiveValue){.name = name, .run = values->run};
     return new;
 }
@@ -57,13 +57,13 @@ static void add_window_values(const FrameContent *content, LiveValues *values)
         values_add(values, "page", (int)(lecture->page - lecture_pages) + 1);
     values_add(values, "pages", lecture_count_pages());
     values_add(values, "panes", content->panes > 1 ? content->panes : NAN);
-    values_add_flag(values, "paused", content->time_line.paused);
+    values_add_flag(values, "paused", content->time_line.is_paused);
     values_add_flag(values, "told", !lecture->hides_answer);
     values_add_flag(values, "guessed", lecture->guesses > 0);
     values_add(values, "guesses", lecture->guesses);
     values_add(values, "right", lecture->right_guesses);
-    values_add_flag(values,
-                    content->view->drag_bounds.is_held ? "held" : "free", true);
+    values_add_flag(
+        values, content->view->drag_bounds.is_dragging ? "held" : "free", true);
 }
 
 static void add_setting_values(const Simulation *simulation, LiveValues *values)
@@ -140,7 +140,7 @@ static void add_trace_values(const Simulation *simulation, const Trace *trace,
         values_add(values, "length", alpha);
     if (trace->trials > 0)
         values_add_flag(values, trace->is_accepted ? "taken" : "refused", true);
-    values_add_flag(values, "given up", trace->given_up);
+    values_add_flag(values, "given up", trace->has_failed);
     const NewtonRecord *last =
         trace->records > 0 ? trace->record + trace->records - 1 : NULL;
     if (simulation->scene->parts & HAS_TIME && last &&
@@ -166,7 +166,7 @@ static void add_trace_values(const Simulation *simulation, const Trace *trace,
         values_add_words(values, ">", above ? ">" : "\u2264");
         values_add_words(values, "above", above ? "above" : "not above");
         values_add_words(values, "given",
-                         above && trace->given_up ? ": given up" : "");
+                         above && trace->has_failed ? ": given up" : "");
     }
 }
 
@@ -209,7 +209,7 @@ static const Trace *make_descent_trace(const Simulation *simulation,
         .record = descent->record,
         .iteration = descent->count,
         .residual = given_up ? record->residual : descent->residual,
-        .given_up = given_up,
+        .has_failed = given_up,
         .slope = taken  ? record->slope
                  : aims ? descent->slope
                         : 0,
@@ -222,7 +222,7 @@ static const Trace *make_descent_trace(const Simulation *simulation,
     return &space->trace;
 }
 
-void frame_fill_values(FrameContent *content)
+void frame_compute_values(FrameContent *content)
 {
     static const char *const lines[LINE_COUNT] = {"",       "line 1", "line 2",
                                                   "line 3", "line 4", "line 5",
@@ -243,7 +243,7 @@ void frame_fill_values(FrameContent *content)
             values->colour[run] = COLOUR_TEXT;
         add_window_values(content, values);
         add_setting_values(simulation, values);
-        if ((!line || now->trace->given_up) && now->failure &&
+        if ((!line || now->trace->has_failed) && now->failure &&
             now->failure != STATUS_INTERRUPTED) {
             values_add_words(values, status_name(now->failure), "");
             values_add_words(values, "trouble", status_text(now->failure));
@@ -266,7 +266,7 @@ static const LiveValue *find_value(const LiveValues *values, int run,
 {
     size_t length = strcspn(name, ":}");
     for (int i = 0; i < values->count; i++) {
-        const LiveValue *one = &values->entry[i];
+        const LiveValue *one = &values->value[i];
         bool here = one->run == 0 || one->run == run;
         if (here && strlen(one->name) == length &&
             strncmp(name, one->name, length) == 0)
@@ -283,7 +283,7 @@ double values_find_number(const LiveValues *values, const char *name)
 
 double frame_find_number(FrameContent *content, const char *name)
 {
-    frame_fill_values(content);
+    frame_compute_values(content);
     return values_find_number(&active_pane(content)->values, name);
 }
 
@@ -311,7 +311,7 @@ static void format_value(const LiveValue *one, const char *format, char *out,
 }
 
 /* Fills a line of `length` bytes.  Returns false if a value is unknown. */
-static bool fill_line(TextLine *line, const char *text, size_t length)
+static bool expand_line(TextLine *line, const char *text, size_t length)
 {
     const LiveValues *values = line->values;
     const char *from = text, *end = text + length;
@@ -367,7 +367,7 @@ bool text_next_line(TextLine *line)
         const char *text = line->next_text;
         size_t length = strcspn(text, "\n");
         line->next_text += length + (text[length] == '\n');
-        if (*text && fill_line(line, text, length))
+        if (*text && expand_line(line, text, length))
             return true;
         if (!*text)
             break;
@@ -440,22 +440,22 @@ int card_write_flow(const Plot *card, int at[2], double size, double gap,
 /* ---- the title bar ------------------------------------------------------- */
 
 /* Fills an empty string with the first line whose values are known. */
-static void fill_text(const LiveValues *values, const char *text, char *string,
-                      size_t size)
+static void expand_text(const LiveValues *values, const char *text,
+                        char *string, size_t size)
 {
     if (!string[0])
         snprintf(string, size, "%.*s", (int)size - 1,
                  text_first_line(values, text).text);
 }
 
-void frame_fill_texts(FrameContent *content)
+void frame_expand_texts(FrameContent *content)
 {
     const LiveValues *values = &active_pane(content)->values;
     TitleBar *bar = &content->title_bar;
-    frame_fill_values(content);
+    frame_compute_values(content);
     if (!bar->topic)
         bar->topic = active_pane(content)->simulation->scene->title;
-    fill_text(values, text_sentences, bar->sentence, sizeof bar->sentence);
-    fill_text(values, text_methods, bar->method, sizeof bar->method);
-    fill_text(values, text_states, bar->state, sizeof bar->state);
+    expand_text(values, text_sentences, bar->sentence, sizeof bar->sentence);
+    expand_text(values, text_methods, bar->method, sizeof bar->method);
+    expand_text(values, text_states, bar->state, sizeof bar->state);
 }

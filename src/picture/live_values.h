@@ -14,7 +14,7 @@
 
 #include "picture/picture.h"
 
-enum { VALUES_TEXT = 512 };
+enum { LINE_TEXT_SIZE = 512 };
 
 /* Adds a value of this name.  If a name is added twice, the first value counts.
  *   number  NaN: the value stays unknown
@@ -36,7 +36,7 @@ double values_find_number(const LiveValues *values, const char *name);
 typedef struct TextLine {
     Colour colour;
     Face face;
-    char text[VALUES_TEXT];
+    char text[LINE_TEXT_SIZE];
     const LiveValues *values;
     const char *next_text; /* the text after this line */
     const char *repeated;  /* lines to repeat for each run, or NULL */

@@ -197,7 +197,7 @@ void eigenvalues_draw(const Plot *card)
 {
     Plot numbers = *card, plane = *card;
     const Box *box = &card->box;
-    if (card->content->in_document) {
+    if (card->content->has_document) {
         draw_complex_plane(card);
         return;
     }

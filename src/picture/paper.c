@@ -8,7 +8,7 @@
 #include "picture/colour_map.h"
 #include "simulation/message.h"
 
-enum { PAPER_TEXT = 768, PAPER_EM = 14 };
+enum { PAPER_TEXT_SIZE = 768, PAPER_EM = 14 };
 
 /* A line that is too wide shrinks to at least this part of its size. */
 static const double MIN_FIT = 0.6;
@@ -34,7 +34,7 @@ int paper_pixels(const Paper *paper, double ems)
 
 void paper_keep_words(Paper *paper, Box box)
 {
-    paper->word_boxes[paper->word_count++ % PAPER_WORDS] = box;
+    paper->word_boxes[paper->word_count++ % MAX_WORD_BOXES] = box;
 }
 
 static TextStyle paper_style(const Paper *paper, Face face, double size,
@@ -47,7 +47,7 @@ static TextStyle paper_style(const Paper *paper, Face face, double size,
 int paper_write(Paper *paper, Face face, double size, Colour colour, double x,
                 double y, Align align, const char *format, ...)
 {
-    char words[PAPER_TEXT];
+    char words[PAPER_TEXT_SIZE];
     TextStyle style = paper_style(paper, face, size, colour);
     write_formatted(words, sizeof words, format);
     return text_draw(paper->text, &paper->canvas, &style, x, y, align, words);
@@ -84,7 +84,7 @@ void paper_write_on_panel(Paper *paper, Face face, double size, Colour colour,
                           double x, double y, Align align, const char *format,
                           ...)
 {
-    char words[PAPER_TEXT];
+    char words[PAPER_TEXT_SIZE];
     write_formatted(words, sizeof words, format);
     int wide = paper_width(paper, face, size, words);
     int left = pixel_from_coordinate(x) - (int)align * wide / 2;
@@ -114,7 +114,7 @@ void paper_shorten(Paper *paper, double size, int width, char *words,
 int paper_write_paragraph(Paper *paper, Face face, double size, Colour colour,
                           Box box, int lines, const char *markup)
 {
-    char part[PAPER_TEXT];
+    char part[PAPER_TEXT_SIZE];
     TextStyle style = paper_style(paper, face, size, colour);
     double y = box.y, above = text_extent(paper->text, &style, "").ascent;
     for (int line = 1; *markup && (line <= lines || lines == 0); line++) {

@@ -108,7 +108,7 @@ static void find_pane_bounds(const FrameContent *content, const Layout *layout,
     const DragBounds *held = &content->view->drag_bounds;
     int last = content->lecture.page ? content->panes - 1 : pane;
     double own[4];
-    if (held->is_held && !held->is_away &&
+    if (held->is_dragging && !held->has_left &&
         (held->pane == pane || held->pane == last)) {
         memcpy(bounds, held->bounds, sizeof held->bounds);
         return;
@@ -125,7 +125,7 @@ static void find_pane_bounds(const FrameContent *content, const Layout *layout,
 /* Lists the switches on the stage; a document has them beside the picture. */
 static int list_switches(const Plot *stage, Switch out[SCENE_MAX_SWITCHES])
 {
-    return stage->has_text && !stage->content->in_document
+    return stage->has_text && !stage->content->has_document
                ? exhibit_list_switches(stage->simulation, out)
                : 0;
 }
@@ -162,7 +162,7 @@ Camera camera_of_pane(const FrameContent *content, const Layout *layout,
 DragBounds frame_view_bounds(const FrameContent *content, const Layout *layout,
                              int pane)
 {
-    DragBounds held = {.is_held = true, .pane = pane};
+    DragBounds held = {.is_dragging = true, .pane = pane};
     find_pane_bounds(content, layout, pane, held.bounds);
     return held;
 }
@@ -256,7 +256,7 @@ Pick frame_pick(const FrameContent *content, const Layout *layout, double x,
     double at[SCENE_MAX_HANDLES][2];
     Switch switches[SCENE_MAX_SWITCHES];
     camera_to_world(&stage.camera, x, y, pick.point);
-    pick.kind = picture->takes_clicks ? PICK_PLACE : PICK_NONE;
+    pick.kind = picture->takes_clicks ? PICK_POINT : PICK_NONE;
     if (!picture->draws_handles) {
         int count = list_switches(&stage, switches);
         for (pick.index = 0; pick.index < count; pick.index++)
@@ -461,13 +461,13 @@ void frame_draw(Paper *paper, const FrameContent *content)
     }
     if (content->is_bare && !sheet)
         return;
-    if (!sheet && !content->in_page) {
+    if (!sheet && !content->is_stage_only) {
         if (content->column != COLUMN_CARDS)
             canvas_fill(&paper->canvas, layout.column, COLOUR_WHITE);
         cards_draw(paper, &layout, content);
     }
     if (!sheet)
         highlight_draw(paper, content);
-    if (!content->in_page)
+    if (!content->is_stage_only)
         window_rows_draw(paper, &layout, content);
 }

@@ -5,7 +5,7 @@
 
 #include "picture/cards.h"
 
-enum { HALVED = 2 }; /* number of the table's columns for halved time steps */
+enum { HALVED_COLUMNS = 2 }; /* of the table, for halved time steps */
 static const double NAMES_WIDTH = 20;    /* ems; a narrower plot has no names */
 static const double TARGET_ERROR = 0.01; /* m, largest error of a fast run */
 
@@ -116,7 +116,7 @@ static void format_cell(char cell[CARD_CELL], const char *sign, double value)
 
 /* Fills a row: row 0 with heads, else with a method's error at h = 4 ms, m, and
  * the factors by which half of h divides the error. */
-bool race_fill_row(const FrameContent *content, int row, CardTableRow *cells)
+bool race_make_row(const FrameContent *content, int row, CardTableRow *cells)
 {
     const Race *race = &active_pane(content)->simulation->exhibit.race;
     int method = row - 1;
@@ -132,7 +132,7 @@ bool race_fill_row(const FrameContent *content, int row, CardTableRow *cells)
         snprintf(cell[1], CARD_CELL, "explodes");
         format_cell(cell[1], "", point->error);
     }
-    for (int k = 1; k <= HALVED; k++) {
+    for (int k = 1; k <= HALVED_COLUMNS; k++) {
         const RacePoint *half = point + RACE_METHODS;
         if (race->count <= half - race->point)
             break;

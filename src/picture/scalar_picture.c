@@ -7,7 +7,7 @@
 
 #include "picture/cards.h"
 
-enum { ROOT_UPDATES = 60, ITERATE_TEXT = 48 };
+enum { ROOT_UPDATES = 60, DIGITS_SIZE = 48 };
 
 static const double TANGENT_REACH = 3;    /* m, least half width of the view */
 static const double ITERATES_WIDE = 12;   /* ems */
@@ -20,7 +20,7 @@ typedef struct ScalarUpdate {
     double alpha; /* step length; 0: unknown, or all lengths were refused */
     int refused_lengths; /* number of refused trials alpha = 1, 1/2, ... */
     int iterate;         /* index of the iterate x0 */
-    bool is_made;
+    bool is_made;        /* false: the update is only predicted */
     bool shows_derivative; /* draws f' and tangent, not f and model */
 } ScalarUpdate;
 
@@ -253,19 +253,19 @@ static double find_root(const Simulation *simulation)
 }
 
 /* Writes a double with 12 decimals, or 10 digits if large. */
-static void write_digits(double x, char text[ITERATE_TEXT])
+static void write_digits(double x, char text[DIGITS_SIZE])
 {
     bool plain = fabs(x) < 1e4;
-    snprintf(text, ITERATE_TEXT, plain ? "%s%.12f" : "%s%.9e",
+    snprintf(text, DIGITS_SIZE, plain ? "%s%.12f" : "%s%.9e",
              x < 0 ? "\u2212" : "", fabs(x));
 }
 
 /* Fills a row for each iterate; digits unlike those of the zero are grey. */
-bool iterates_fill_row(const FrameContent *content, int row,
+bool iterates_make_row(const FrameContent *content, int row,
                        CardTableRow *cells)
 {
     const Simulation *simulation = active_pane(content)->simulation;
-    char root[ITERATE_TEXT], x[ITERATE_TEXT];
+    char root[DIGITS_SIZE], x[DIGITS_SIZE];
     int right = 0;
     if (row == 0 || row > simulation->descent.count + 1)
         return row == 0;
@@ -288,7 +288,7 @@ static void draw_iterates(const Plot *card)
     int first = count > rows ? count - rows : 0;
     CardTableRow cells;
     for (int i = first;
-         card_fill_row(card->content, &card_tangent_numbers, i + 1, &cells);
+         card_make_row(card->content, &card_tangent_numbers, i + 1, &cells);
          i++) {
         int y = card->box.y + paper_pixels(paper, pitch * (i - first));
         int right = (int)strcspn(cells.cell[1], "#");

@@ -51,7 +51,7 @@ void square_pick(const Plot *stage, double x, double y, Pick *pick)
         const int *e = system->e + 2 * (size_t)pick->index;
         int sides = square_mesh_get_sides(mesh, e[0]) &
                     square_mesh_get_sides(mesh, e[1]);
-        if (stage->content->time_line.paused && simulation->steps == 0 &&
+        if (stage->content->time_line.is_paused && simulation->steps == 0 &&
             options->bodies == 0 && sides & (MESH_LEFT | MESH_RIGHT)) {
             pick->kind = PICK_EDGE;
             pick->index = sides & MESH_LEFT ? 0 : 1;

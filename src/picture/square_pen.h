@@ -12,7 +12,7 @@ typedef struct SquarePen {
     const System *system;
     const double *x, *v;    /* [2n] m, m/s */
     double spacing; /* pixels from node to node at rest; more if flown apart */
-    double width;           /* width of a spring */
+    double width;   /* width of a spring */
     double node_radius;     /* radius of a node */
     double shade_strain;    /* strain of the lightest shade of faces */
     double colour_range;    /* strain of the end colours; 0: no colours */

@@ -106,10 +106,10 @@ static void widen_to_obstacles(const Plot *stage, Extent *view)
     const Simulation *simulation = stage->simulation;
     const Options *options = &simulation->options;
     const Contact *contact = contact_of(&simulation->system);
-    const HeldByHand *hand = &stage->content->hand;
+    const HandGrip *hand = &stage->content->hand;
     const Extent seen = find_seen_extent(stage, view);
     double air = 0.04 * fmin(view->half_size[0], view->half_size[1]);
-    if (hand->is_held && !stage->content->view->drag_bounds.is_held)
+    if (hand->is_held && !stage->content->view->drag_bounds.is_dragging)
         widen_to_circle(&seen, hand->target, air, PULL_REACH, view);
     for (int k = 0; contact && k < options->grounds + options->balls; k++) {
         const Obstacle *obstacle = &contact->obstacle[k];
@@ -262,7 +262,7 @@ static void mark_under_mouse(const SquarePen *pen)
     const Plot *stage = pen->stage;
     const FrameContent *content = stage->content;
     const System *system = pen->system;
-    const HeldByHand *hand = &content->hand;
+    const HandGrip *hand = &content->hand;
     bool holds = hand->is_held && stage->pane == active_pane(content);
     const Pick *hover = &content->view->hovered;
     bool over = hover->pane == plot_pane_index(stage);
@@ -532,7 +532,7 @@ static void draw_slid_distance(const Plot *stage, int body)
     const double *x = stage->simulation->run[0].x;
     double gone[2], from[2] = {INFINITY, -INFINITY};
     int nodes = mesh->nodes / mesh->bodies;
-    if (!stage->revealed || !law_find_slide(stage->simulation, body, gone))
+    if (!stage->revealed || !law_find_slip(stage->simulation, body, gone))
         return;
     for (int i = body * nodes; i < (body + 1) * nodes; i++) {
         from[0] = fmin(from[0], x[2 * i] - gone[0]);

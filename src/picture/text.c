@@ -10,7 +10,7 @@
 
 enum {
     TEXT_GLYPHS = 2048, /* letters in the cache, a power of two */
-    TEXT_NAME = 512
+    FONT_PATH_SIZE = 512
 };
 
 struct Text {
@@ -47,7 +47,7 @@ static FT_Error open_font(FT_Library library, Face face, const char *given,
                           FT_Face *font)
 {
     const char *home = getenv("HOME") ? getenv("HOME") : "";
-    char name[TEXT_NAME];
+    char name[FONT_PATH_SIZE];
     FT_Error error = FT_Err_Cannot_Open_Resource;
     if (given && face != FACE_MONO)
         error = FT_New_Face(library, given, 0, font);

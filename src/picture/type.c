@@ -42,7 +42,7 @@ typedef struct Pen {
 
 /* A part of a text, such as the inside of braces. */
 typedef struct MarkupPart {
-    const char *from, *end; /* first byte, byte after the last one */
+    const char *start, *end; /* first byte, byte after the last one */
 } MarkupPart;
 
 static MarkupPart whole_markup(const char *string)
@@ -141,7 +141,7 @@ static const char *find_outside_braces(MarkupPart part, const char *word)
 {
     size_t length = word ? strlen(word) : 0;
     int depth = 0;
-    for (const char *at = part.from; at < part.end; at++) {
+    for (const char *at = part.start; at < part.end; at++) {
         depth += (*at == '{') - (*at == '}');
         if (depth < 0 || (depth == 0 && word && at + length <= part.end &&
                           strncmp(at, word, length) == 0))
@@ -161,7 +161,7 @@ static void shrink_letters(TextStyle *style, double factor)
 static void typeset_script(Pen *pen, MarkupPart part, int depth)
 {
     Pen inner = *pen;
-    inner.y += (part.from[-2] == '^' ? -RAISE : LOWER) * pen->style.size;
+    inner.y += (part.start[-2] == '^' ? -RAISE : LOWER) * pen->style.size;
     shrink_letters(&inner.style, SCRIPT_SIZE);
     typeset_markup(&inner, part, depth);
     pen_extend(pen, inner.top, inner.bottom);
@@ -173,8 +173,8 @@ static void typeset_fraction(Pen *pen, MarkupPart part, int depth)
 {
     static const char over[] = " over ";
     const char *middle = find_outside_braces(part, over);
-    MarkupPart above = {part.from, middle}, below = {middle, part.end};
-    below.from += middle < part.end ? strlen(over) : 0;
+    MarkupPart above = {part.start, middle}, below = {middle, part.end};
+    below.start += middle < part.end ? strlen(over) : 0;
     Pen small = *pen;
     shrink_letters(&small.style, FRACTION_SIZE);
     TextExtent a = measure_markup(&small, above, depth);
@@ -199,7 +199,7 @@ static bool read_matrix_cell(const char **at, const char *end, MarkupPart *cell)
     const char *row = find_outside_braces(rest, ";");
     const char *column = find_outside_braces((MarkupPart){*at, row}, "&");
     *cell = (MarkupPart){*at + strspn(*at, " "), column};
-    while (cell->end > cell->from && cell->end[-1] == ' ')
+    while (cell->end > cell->start && cell->end[-1] == ' ')
         cell->end--;
     *at = column + (column < end);
     return column == row;
@@ -213,7 +213,7 @@ static void typeset_matrix(Pen *pen, MarkupPart part, int depth)
            wide[MAX_COLUMNS] = {0};
     double high = -ROW_GAP * em,
            right = pen->x + (3.5 * SPACE - COLUMN_GAP) * em;
-    const char *at = part.from;
+    const char *at = part.start;
     int rows = 0;
     for (; at < part.end && rows < MAX_ROWS; rows++) {
         bool last = false;
@@ -257,10 +257,10 @@ static void typeset_coloured(Pen *pen, MarkupPart part, int depth)
 {
     Colour before = pen->style.colour;
     size_t length = 0;
-    while (part.from[-2 - (ptrdiff_t)length] != '#')
+    while (part.start[-2 - (ptrdiff_t)length] != '#')
         length++;
     if (before != COLOUR_GREY)
-        pen->style.colour = colour_find_name(part.from - 1 - length, length);
+        pen->style.colour = colour_find_name(part.start - 1 - length, length);
     typeset_markup(pen, part, depth);
     pen->style.colour = before;
 }
@@ -310,7 +310,7 @@ bool text_is_markup_brace(const char *text, const char *brace)
 /* Sets the letter or command at the start of a part.  Returns its end. */
 static const char *typeset_first(Pen *pen, MarkupPart part, int depth)
 {
-    const char *at = part.from, *brace = at;
+    const char *at = part.start, *brace = at;
     bool plain = pen->style.is_plain || depth >= MAX_DEPTH;
     int command = plain ? COMMANDS : find_command(at, &brace);
     if (command < COMMANDS && commands[command].expansion) {
@@ -329,8 +329,8 @@ static const char *typeset_first(Pen *pen, MarkupPart part, int depth)
 
 static void typeset_markup(Pen *pen, MarkupPart part, int depth)
 {
-    while (part.from < part.end)
-        part.from = typeset_first(pen, part, depth);
+    while (part.start < part.end)
+        part.start = typeset_first(pen, part, depth);
 }
 
 /* ---- lines -------------------------------------------------------------- */
@@ -367,11 +367,11 @@ size_t text_break_line(Text *text, const TextStyle *style, int width,
     MarkupPart rest = whole_markup(markup);
     size_t fits = 0;
     for (int depth = 0;;) {
-        size_t count = (size_t)(rest.from - markup);
-        bool ends = rest.from == rest.end;
+        size_t count = (size_t)(rest.start - markup);
+        bool ends = rest.start == rest.end;
         if (count >= room)
             return fits;
-        if (count > 0 && (ends || (depth <= 0 && *rest.from == ' '))) {
+        if (count > 0 && (ends || (depth <= 0 && *rest.start == ' '))) {
             if (fits > 0 && ceil(pen.x) > width)
                 return fits;
             fits = count;
@@ -380,8 +380,8 @@ size_t text_break_line(Text *text, const TextStyle *style, int width,
         if (ends)
             return fits;
         const char *next = typeset_first(&pen, rest, 0);
-        for (; rest.from < next; rest.from++)
-            depth += (*rest.from == '{') - (*rest.from == '}');
+        for (; rest.start < next; rest.start++)
+            depth += (*rest.start == '{') - (*rest.start == '}');
     }
 }
 

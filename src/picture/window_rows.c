@@ -107,7 +107,7 @@ static void draw_step_bars(Paper *paper, Box bars, double pitch,
         for (long k = s; k < s + group && k < line->steps; k++) {
             StepBar one = line->get_bar(line->bar_data, k + 1);
             bar.updates = (int)fmax(bar.updates, one.updates);
-            bar.unconverged |= one.unconverged;
+            bar.is_unconverged |= one.is_unconverged;
         }
         int left = (int)(s * pitch), right = (int)((s + group) * pitch) - gap;
         int high = least + (int)((bars.height - least) *
@@ -116,9 +116,9 @@ static void draw_step_bars(Paper *paper, Box bars, double pitch,
         Box box = {bars.x + left, bars.y + bars.height - high, right - left,
                    high};
         canvas_fill(&paper->canvas, box,
-                    bar.unconverged ? COLOUR_WARNING
-                    : shown         ? COLOUR_VALUE
-                                    : COLOUR_BAR);
+                    bar.is_unconverged ? COLOUR_WARNING
+                    : shown            ? COLOUR_VALUE
+                                       : COLOUR_BAR);
     }
 }
 
@@ -167,9 +167,9 @@ static void draw_chips(Paper *paper, const Layout *layout,
         int key = paper_width(paper, FACE_BOLD, size, chip->key);
         int width = key + paper_width(paper, FACE_REGULAR, size, label);
         canvas_framed_box(&paper->canvas, box,
-                          chip->highlighted ? COLOUR_LIT
-                          : over            ? COLOUR_WHITE
-                                            : COLOUR_CHIP,
+                          chip->is_highlighted ? COLOUR_LIT
+                          : over               ? COLOUR_WHITE
+                                               : COLOUR_CHIP,
                           over ? COLOUR_GREY : COLOUR_BORDER);
         box_cut_off(&box, EDGE_LEFT,
                     (int)fmax(0, 0.5 * (box.width - gap - width)));

@@ -8,7 +8,7 @@
 #include "picture/live_values.h"
 #include "picture/plot.h"
 
-enum { WORDS_TEXT = 512 }; /* bytes of a label */
+enum { LABEL_TEXT_SIZE = 512 }; /* bytes of a label */
 
 static const double LEGEND_SIZE = 0.92; /* ems */
 /* The scale bar is at least this part of the stage's width long. */
@@ -115,7 +115,7 @@ double plot_label_cost(const Plot *plot, Box place)
             ink += (pixel & 255) < INK || (pixel >> 8 & 255) < INK ||
                    (pixel >> 16 & 255) < INK;
         }
-    for (int i = 0; i < plot->paper->word_count && i < PAPER_WORDS; i++) {
+    for (int i = 0; i < plot->paper->word_count && i < MAX_WORD_BOXES; i++) {
         Box both = box_intersection(seen, plot->paper->word_boxes[i]);
         ink += both.width > 0 ? (double)both.width * both.height : 0;
     }
@@ -127,7 +127,7 @@ void plot_label(const Plot *plot, int points, const double *at, Colour colour,
                 const char *format, ...)
 {
     Paper *paper = plot->paper;
-    char words[WORDS_TEXT];
+    char words[LABEL_TEXT_SIZE];
     if (!plot->has_text)
         return;
     write_formatted(words, sizeof words, format);

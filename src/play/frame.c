@@ -133,7 +133,7 @@ static void add_chip(Frame *frame, CommandKind kind, int state, bool lit)
     const char *keys = command_rows[kind].keys;
     for (; state > 0; state--)
         label = strchr(label, '|') + 1;
-    *chip = (Chip){.highlighted = lit};
+    *chip = (Chip){.is_highlighted = lit};
     append(chip->label, VALUE_SIZE, "%.*s", (int)strcspn(label, "|"), label);
     append(chip->key, VALUE_SIZE, "%.*s", (int)strcspn(keys, "|"), keys);
     shorten_key(chip->key);
@@ -287,7 +287,7 @@ static void build_time_line(const Player *player, FrameContent *content)
         shared = shared && (p == 0 || h == longest);
         longest = fmax(longest, h);
     }
-    content->time_line.paused = player_is_stopped(player);
+    content->time_line.is_paused = player_is_stopped(player);
     if (player_active_options(player)->next_action == NEXT_SPRING) {
         long last = player_simulation(player)->system.springs - 1;
         snprintf(text, SENTENCE_SIZE, "spring %ld",
@@ -341,7 +341,7 @@ static void write_page_heading(const Player *player, LectureContent *lecture)
                value + strcspn(value, " "));
         before = ", ";
     }
-    snprintf(lecture->own_title, sizeof lecture->own_title, "%s:", text);
+    snprintf(lecture->condition, sizeof lecture->condition, "%s:", text);
 }
 
 static void build_frame_content(const Player *player, Frame *frame)
@@ -356,8 +356,8 @@ static void build_frame_content(const Player *player, Frame *frame)
     content->min_em = window                        ? window->find_font_size()
                       : player->screen.draws_frames ? SMALL_LETTER
                                                     : 0;
-    content->in_page = window && window->has_document;
-    content->in_document = content->in_page && window->has_document();
+    content->is_stage_only = window && window->has_document;
+    content->has_document = content->is_stage_only && window->has_document();
     content->panes = past_panes(past);
     if (content->panes > LAYOUT_PANES) /* scripts can have more panes */
         content->panes = LAYOUT_PANES;
@@ -370,10 +370,10 @@ static void build_frame_content(const Player *player, Frame *frame)
     const Control *control = past_control(past, active);
     if (control_hand_holds(control) &&
         player->view_of_pane[active].position < 0)
-        content->hand = (HeldByHand){true,
-                                     control->held_node,
-                                     control->held_obstacle,
-                                     {control->target[0], control->target[1]}};
+        content->hand = (HandGrip){true,
+                                   control->held_node,
+                                   control->held_obstacle,
+                                   {control->target[0], control->target[1]}};
     content->time_line.steps = past->stores_states ? past_newest(past) : 0;
     content->time_line.get_bar = find_step_bar;
     content->time_line.bar_data = player;
@@ -395,9 +395,9 @@ static void build_frame_content(const Player *player, Frame *frame)
     write_page_heading(player, &content->lecture);
     bool answered =
         content->pane[0].simulation->options.page == player->tour.revealed;
-    content->lecture.asked = answered ? player->tour.asked_question : NULL;
+    content->lecture.question = answered ? player->tour.asked_question : NULL;
     content->lecture.verdict =
-        answered && player->tour.verdict[0] && !content->lecture.own_title[0]
+        answered && player->tour.verdict[0] && !content->lecture.condition[0]
             ? player->tour.verdict
             : NULL;
     content->lecture.guesses = player->tour.guesses;
@@ -406,7 +406,7 @@ static void build_frame_content(const Player *player, Frame *frame)
     content->cards.closed_cards ^= player->screen.toggled_cards;
     if (player->screen.sheet)
         sheet_build_content(player, content);
-    frame_fill_texts(content);
+    frame_expand_texts(content);
 }
 
 /* Finds what is under the mouse, if it was a body, which may have moved. */

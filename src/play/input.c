@@ -36,16 +36,16 @@ static MouseTarget find_mouse_target(Player *player)
                                 paper ? paper->canvas.height : 1),
         .pane = player->active};
     target.hit = layout_hit(&target.layout, mouse->x, mouse->y);
-    int pane = held->is_held                   ? held->pane
+    int pane = held->is_dragging               ? held->pane
                : target.hit.zone == ZONE_STAGE ? target.hit.index
                                                : target.pane;
     if (pane < past_panes(&player->past)) /* the pane of a drag may be closed */
         target.pane = pane;
-    held->is_away = false;
+    held->has_left = false;
     Camera camera = camera_of_pane(content, &target.layout, target.pane);
     camera_to_world(&camera, mouse->x, mouse->y, target.point);
     target.pick = frame_pick(content, &target.layout, mouse->x, mouse->y);
-    held->is_away = target.hit.zone != ZONE_STAGE;
+    held->has_left = target.hit.zone != ZONE_STAGE;
     return target;
 }
 
@@ -209,7 +209,7 @@ static Status begin_press(Player *player, const MouseTarget *target)
         return obey(player, COMMAND_FLIP, target->pick.index);
     case PICK_CELL:
         return open_cell(player, target->pick.index);
-    case PICK_PLACE:
+    case PICK_POINT:
         if (page_wants_click(page) && player_hides_answer(player))
             return obey_at(player, COMMAND_PREDICT, 0, target->pick.point);
         mouse->drag_command = COMMAND_START;
@@ -450,7 +450,7 @@ static Status release_button(Player *player)
     CommandKind drag = mouse->drag_command;
     int node = mouse->dragged_id;
     mouse->drag_command = COMMAND_NONE;
-    player->screen.view.drag_bounds.is_held = false;
+    player->screen.view.drag_bounds.is_dragging = false;
     if (!mouse->has_moved && (drag == COMMAND_GRAB || drag == COMMAND_PLACE) &&
         node < simulation->mesh.nodes)
         player_note(player, "a drag moves node %d, a right click %s it", node,

@@ -148,7 +148,7 @@ bool player_is_slow(const Player *player)
 void player_sample_line_energy(Player *player)
 {
     const FrameContent *content = &player->screen.frame.content;
-    bool has_cards = content->in_document || !content->in_page;
+    bool has_cards = content->has_document || !content->is_stage_only;
     bool is_drawn = player->screen.draws_frames && !player->screen.is_bare &&
                     has_cards &&
                     cards_need_line_energy(player_simulation(player),

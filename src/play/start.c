@@ -169,7 +169,7 @@ Status player_reveal_answer(Player *player, const char *typed)
     TextLine asked =
         text_first_line(&active_pane(content)->values, page->question);
     bool is_filled = content->lecture.page == page; /* by a frame of the page */
-    snprintf(player->tour.asked_question, LOOK_SIZE, "%s",
+    snprintf(player->tour.asked_question, ANSWER_SIZE, "%s",
              is_filled ? asked.text : page->question);
     if (judged)
         append(player->tour.verdict, VALUE_SIZE, "%s%s%s.", typed,

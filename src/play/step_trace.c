@@ -306,7 +306,7 @@ const double *step_trace_show(const StepTrace *trace, int place, Trace *shown)
     shown->x_tilde = trace->x_tilde;
     if (at.at_line != LINE_START && source.iterate < count)
         show_iterate_values(trace, &source, shown);
-    shown->given_up =
+    shown->has_failed =
         given_up &&
         (end || (at.at_line == LINE_SEARCH && at.iterate == count - 1 &&
                  at.trials == last->trials && last->alpha == 0));

@@ -80,8 +80,8 @@ unsigned document_colour(Colour colour)
 }
 
 /* Writes the lines of a text whose values are all known, each after `word`. */
-static void put_text(Writer *to, const LiveValues *values, const char *word,
-                     const char *text)
+static void write_page_text(Writer *to, const LiveValues *values,
+                            const char *word, const char *text)
 {
     for (TextLine line = text_begin(values, text); text_next_line(&line);)
         print(to, "%s\t#%06x\t%d\t%s\n", word, document_colour(line.colour),
@@ -91,13 +91,13 @@ static void put_text(Writer *to, const LiveValues *values, const char *word,
 /* ---- the page of the lecture --------------------------------------------- */
 
 /* Writes the texts of the page; `look` and `try` only with the answer. */
-static void put_page_texts(Writer *to, const FrameContent *content)
+static void write_page_texts(Writer *to, const FrameContent *content)
 {
     const LecturePage *page = content->lecture.page;
     const LiveValues *values = &active_pane(content)->values;
-    put_text(to, values, "text", page->text);
-    put_text(to, values, "formula", page->formula);
-    put_text(to, values, "ask", page->question);
+    write_page_text(to, values, "text", page->text);
+    write_page_text(to, values, "formula", page->formula);
+    write_page_text(to, values, "ask", page->question);
     if (content->lecture.hides_answer) {
         double at[2];
         print(to, "asks\t%s\t%d\n",
@@ -106,11 +106,11 @@ static void put_page_texts(Writer *to, const FrameContent *content)
                                      : "words",
               simulation_find_point(active_pane(content)->simulation, at));
     } else {
-        put_text(to, values, "look", content->lecture.look_text);
-        put_text(to, values, "try", page->try);
+        write_page_text(to, values, "look", content->lecture.answer_text);
+        write_page_text(to, values, "try", page->try);
     }
-    put_text(to, values, "claim", page->claim);
-    put_text(to, values, "notes", page->notes);
+    write_page_text(to, values, "claim", page->claim);
+    write_page_text(to, values, "notes", page->notes);
     for (int i = 0; page->code[i]; i++)
         print(to, "code\t%d\t%s\n",
               strstr(page->code[i], lecture_find_lit_text(content)) != NULL,
@@ -120,21 +120,21 @@ static void put_page_texts(Writer *to, const FrameContent *content)
 /* ---- cards --------------------------------------------------------------- */
 
 /* Writes the lines of an algorithm that the scene shows now. */
-static void put_algorithm(Writer *to, const FrameContent *content, int card,
-                          const ListingRow *row)
+static void write_algorithm_lines(Writer *to, const FrameContent *content,
+                                  int card, const ListingRow *row)
 {
     const Pane *pane = active_pane(content);
     for (; row->shown_if; row++) {
         if (!text_has_line(&pane->values, row->shown_if))
             continue;
-        const ShownRow now = listing_fill_row(pane, row);
-        print(to, "row\t%d\t%d\t%d\t%d\t%s\t%s\n", card, now.highlighted,
+        const ShownRow now = listing_make_row(pane, row);
+        print(to, "row\t%d\t%d\t%d\t%d\t%s\t%s\n", card, now.is_highlighted,
               now.is_struck, row->indented, now.text.text, now.value.text);
     }
 }
 
 /* Writes the energies of the first run, "total 21700 J, elastic 18200 J". */
-static void put_energies(Writer *to, const Simulation *simulation)
+static void write_energies(Writer *to, const Simulation *simulation)
 {
     const Energies energies = simulation_energies(simulation, 0);
     for (int i = 0; i < energies.rows; i++)
@@ -143,12 +143,12 @@ static void put_energies(Writer *to, const Simulation *simulation)
 }
 
 /* Writes the values of a graph without legend, of energies or residuals. */
-static void put_values(Writer *to, const Pane *pane, const char *name)
+static void write_live_values(Writer *to, const Pane *pane, const char *name)
 {
     const Trace *trace = pane->shown_trace;
     if (strcmp(name, "budget") == 0) {
         print(to, ": ");
-        put_energies(to, pane->simulation);
+        write_energies(to, pane->simulation);
     } else if (strcmp(name, "residual") == 0 && trace) {
         for (int i = 0; i < trace->records; i++)
             print(to, "; update %d: residual %s, step length %s", i + 1,
@@ -158,8 +158,8 @@ static void put_values(Writer *to, const Pane *pane, const char *name)
 }
 
 /* Writes a row of a table or legend. */
-static void put_row(Writer *to, const char *word, int index,
-                    const CardTableRow *row)
+static void write_table_row(Writer *to, const char *word, int index,
+                            const CardTableRow *row)
 {
     print(to, "%s\t%d\t#%06x", word, index, document_colour(row->colour));
     for (int c = 0; c < row->columns; c++)
@@ -168,27 +168,27 @@ static void put_row(Writer *to, const char *word, int index,
 }
 
 /* Writes heads and last rows of a card's table.  Returns false without rows. */
-static bool put_table(Writer *to, const FrameContent *content, int index,
-                      const Card *card)
+static bool write_table(Writer *to, const FrameContent *content, int index,
+                        const Card *card)
 {
-    enum { MOST_ROWS = 40 };
+    enum { MAX_TABLE_ROWS = 40 };
     CardTableRow row;
     int rows = 0;
-    while (card_fill_row(content, card, rows, &row))
+    while (card_make_row(content, card, rows, &row))
         rows++;
     for (int i = 0; i < rows; i++) {
-        if (i > 0 && i < rows - MOST_ROWS)
+        if (i > 0 && i < rows - MAX_TABLE_ROWS)
             continue;
-        card_fill_row(content, card, i, &row);
-        put_row(to, "cells", index, &row);
+        card_make_row(content, card, i, &row);
+        write_table_row(to, "cells", index, &row);
     }
     return rows > 0;
 }
 
 /* Writes a card: a line for its graph with the rows of its legend below, and a
  * line for its text with the rows of this text below. */
-static void put_card(Writer *to, const FrameContent *content, int index,
-                     const Card *card)
+static void write_card(Writer *to, const FrameContent *content, int index,
+                       const Card *card)
 {
     const Pane *pane = active_pane(content);
     const LecturePage *page = content->lecture.page;
@@ -204,27 +204,27 @@ static void put_card(Writer *to, const FrameContent *content, int index,
     if (graph) {
         print(to, "card\t%d\t%s\t%s\t%d\t%s\t%s", index, card->name,
               star ? "star" : "graph", closed, title.text, title.text);
-        put_values(to, pane, card->name);
+        write_live_values(to, pane, card->name);
         print(to, "\n");
         for (int i = 0; card->legend_row && card->legend_row(content, i, &row);
              i++)
-            put_row(to, "legend", index, &row);
+            write_table_row(to, "legend", index, &row);
         TextLine line = text_begin(&pane->values, card->legend);
         while (text_next_line(&line))
             print(to, "legend\t%d\t#%06x\t%s\n", index,
                   document_colour(line.colour), line.text);
     }
-    if (graph && !card->fill_row && !text_has_line(&pane->values, card->words))
+    if (graph && !card->make_row && !text_has_line(&pane->values, card->words))
         return;
     print(to, "card\t%d\t%s%s\t%s\t%d\t%s\t\n", index, card->name,
           graph ? "-text" : "", covered ? "covered" : "text", closed,
           title.text);
-    put_text(to, &pane->values, word,
-             covered ? "after your guess" : card->words);
+    write_page_text(to, &pane->values, word,
+                    covered ? "after your guess" : card->words);
     if (card->listing && !covered)
-        put_algorithm(to, content, index, card->listing);
-    if (card->fill_row && !covered && !put_table(to, content, index, card))
-        put_text(to, &pane->values, word, text_undrawn);
+        write_algorithm_lines(to, content, index, card->listing);
+    if (card->make_row && !covered && !write_table(to, content, index, card))
+        write_page_text(to, &pane->values, word, text_undrawn);
 }
 
 /* ---- what can be set ----------------------------------------------------- */
@@ -242,7 +242,7 @@ static bool asks_to_drag(const char *text, const OptionRow *row)
     return false;
 }
 
-static void put_numbers(Writer *to, const Player *player)
+static void write_settings(Writer *to, const Player *player)
 {
     const FrameContent *content = &player->screen.frame.content;
     const LecturePage *page =
@@ -270,7 +270,7 @@ static void put_numbers(Writer *to, const Player *player)
     }
 }
 
-static void put_handles_and_switches(Writer *to, const Simulation *simulation)
+static void write_handles_and_switches(Writer *to, const Simulation *simulation)
 {
     double at[SCENE_MAX_HANDLES][2];
     Switch part[SCENE_MAX_SWITCHES];
@@ -285,7 +285,7 @@ static void put_handles_and_switches(Writer *to, const Simulation *simulation)
 /* ---- what is seen, and what happened ------------------------------------- */
 
 /* Describes size and place of a body, or the place of a point. */
-static void put_shape(Writer *to, const Pane *pane)
+static void write_shape(Writer *to, const Pane *pane)
 {
     const Simulation *simulation = pane->simulation;
     double box[4], at[2];
@@ -303,7 +303,7 @@ static void put_shape(Writer *to, const Pane *pane)
 }
 
 /* Describes the picture: method and shape of each pane, energies, legend. */
-static void put_picture(Writer *to, const Player *player)
+static void write_picture_fields(Writer *to, const Player *player)
 {
     const FrameContent *content = &player->screen.frame.content;
     const Simulation *simulation = player_simulation(player);
@@ -316,12 +316,12 @@ static void put_picture(Writer *to, const Player *player)
             print(to, " Picture %d of %d:", p + 1, content->panes);
         if (method && pane->simulation->scene->parts & HAS_TIME)
             print(to, " %s.", method->label);
-        put_shape(to, pane);
+        write_shape(to, pane);
     }
     print(to, " %s, %s.", content->time_line.label, content->title_bar.state);
     if (simulation->scene->parts & HAS_BODY) {
         print(to, " Energies: ");
-        put_energies(to, simulation);
+        write_energies(to, simulation);
         print(to, ".");
     }
     for (TextLine line = text_begin(values, active_picture(content)->legend);
@@ -331,7 +331,7 @@ static void put_picture(Writer *to, const Player *player)
 }
 
 /* Describes the last step: "step 12: 3 updates, E fell by 13.8". */
-static void put_event(Writer *to, const Player *player)
+static void write_event(Writer *to, const Player *player)
 {
     const FrameContent *content = &player->screen.frame.content;
     const Trace *trace = active_pane(content)->shown_trace;
@@ -370,9 +370,9 @@ void document_write(const Player *player, char *text)
     print(to, "told\t%d\t%s\n", content->title_bar.is_warning,
           content->title_bar.message);
     print(to, "step\t%ld\t%ld\t%d\n", content->time_line.step,
-          content->time_line.steps, content->time_line.paused);
+          content->time_line.steps, content->time_line.is_paused);
     if (page)
-        put_page_texts(to, content);
+        write_page_texts(to, content);
     if (content->lecture.verdict && !content->lecture.hides_answer) {
         print(to, "verdict\t%s", content->lecture.verdict);
         if (content->lecture.guesses > 1)
@@ -383,11 +383,11 @@ void document_write(const Player *player, char *text)
     for (int i = 0; i < picture->count && content->sheet.cells == 0; i++)
         if (!(content->cards.hidden_cards >> i & 1) &&
             strcmp(picture->cards[i]->name, "page") != 0)
-            put_card(to, content, i, picture->cards[i]);
-    put_numbers(to, player);
-    put_handles_and_switches(to, active_pane(content)->simulation);
-    put_picture(to, player);
-    put_event(to, player);
+            write_card(to, content, i, picture->cards[i]);
+    write_settings(to, player);
+    write_handles_and_switches(to, active_pane(content)->simulation);
+    write_picture_fields(to, player);
+    write_event(to, player);
 }
 
 void document_write_lists(char *text)

@@ -20,7 +20,7 @@ static FrameContent content;
 static void show_all(void)
 {
     frame_create(&simulation, &content);
-    frame_fill_values(&content);
+    frame_compute_values(&content);
     for (int i = 0; i < 9; i++) {
         content.settings.item[i].min_letters = 4 + 2 * i;
         content.chips.chip[i] = (Chip){"Tab", "", false};
@@ -162,7 +162,7 @@ TEST(a_click_hits_the_part_that_is_drawn_there)
         WindowHit hit = layout_hit(&l, close.x + 2, close.y + 2);
         CHECK(hit.zone == ZONE_CARD_CLOSE && hit.index == i);
     }
-    CHECK(layout_hit(&l, 640, 5).zone == ZONE_STRIP);
+    CHECK(layout_hit(&l, 640, 5).zone == ZONE_TITLE);
     CHECK(layout_hit(&l, 640, l.time_line.y + 1).zone == ZONE_TIME);
     CHECK(layout_hit(&l, -1, -1).zone == ZONE_NONE);
 }

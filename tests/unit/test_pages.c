@@ -308,7 +308,7 @@ static const char *missing_words(const FrameContent *content)
     const LecturePage *page = content->lecture.page;
     const char *texts[] = {page->text, page->formula,
                            content->lecture.hides_answer ? page->question
-                                                         : page->look_text,
+                                                         : page->answer_text,
                            content->lecture.hides_answer ? NULL : page->try};
     const char *missing = NULL;
     for (int i = 0; i < 4 && !missing; i++)
@@ -342,7 +342,7 @@ static void check_frame(const LecturePage *page, Simulation *simulation,
     frame_create(simulation, &content);
     content.lecture.hides_answer = kind == LARGE_ASKED && page->question;
     frame_add_lecture(column[kind], NULL, &content);
-    frame_fill_texts(&content);
+    frame_expand_texts(&content);
     see_frame(&content, paper);
     bool good = (seen.smallest + 0.5) * (large ? 35 : 55) >= height;
     if (kind == CODE) { /* the picture and the main card stay */
@@ -410,7 +410,7 @@ TEST(scenes_keep_their_words_in_place)
             FrameContent content;
             CHECK_OK(paper_create(sizes[s][0], sizes[s][1], &paper));
             frame_create(simulation, &content);
-            frame_fill_texts(&content);
+            frame_expand_texts(&content);
             see_frame(&content, &paper);
             paper_free(&paper);
             if (seen.cut > 0 || seen.over > 0)

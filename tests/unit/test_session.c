@@ -505,7 +505,7 @@ static void collect_parts(void)
         fact("chip %s %s", content->chips.chip[i].key,
              content->chips.chip[i].label);
         fact("lit %s %d", content->chips.chip[i].key,
-             content->chips.chip[i].highlighted);
+             content->chips.chip[i].is_highlighted);
     }
     for (int c = 0; c < active_picture(content)->count; c++)
         fact("card %d %s", c,
@@ -529,7 +529,7 @@ static void collect_facts(void)
     fact("files %d", count_files(false));
     fact("page %d", page ? (int)(page - lecture_pages) + 1 : 0);
     fact("page %s", page ? page->name : "none");
-    fact("stands %d", content->time_line.paused);
+    fact("stands %d", content->time_line.is_paused);
     fact("panes %d", content->panes);
     fact("ghost %d", content->pane[content->active_pane].ghost_x != NULL);
     fact("speed %d", player.play.log_speed);

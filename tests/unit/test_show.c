@@ -50,7 +50,7 @@ static void stand_up(const char *line, int steps)
     view = *content.view;
     content.view = &view;
     content.pane[0].history = &history;
-    frame_fill_values(&content);
+    frame_compute_values(&content);
     set_size(1280, 800);
 }
 
@@ -65,7 +65,7 @@ static int take_down(void **unused)
 static void draw(void)
 {
     int width = paper.canvas.width, height = paper.canvas.height;
-    frame_fill_values(&content);
+    frame_compute_values(&content);
     frame_draw(&paper, &content);
     layout = layout_create(&content, width, height);
 }
@@ -152,7 +152,7 @@ TEST(every_size_is_drawn)
                     simulation.run[0].x[1] = mode == 1 ? 1e300 : -INFINITY;
                 }
                 set_size(sizes[i][0], sizes[i][1]);
-                frame_fill_texts(&content);
+                frame_expand_texts(&content);
                 draw();
             }
 }
@@ -272,7 +272,7 @@ TEST(the_camera_does_not_jump)
 TEST(the_mouse_finds_nodes_and_springs)
 {
     stand_up("square", 2);
-    content.time_line.paused = true;
+    content.time_line.is_paused = true;
     System *system = &simulation.system;
     const double *x = simulation.run[0].x;
     const double *a = x + 2 * system->e[0], *b = x + 2 * system->e[1];
@@ -311,7 +311,7 @@ TEST(the_mouse_finds_nodes_and_springs)
     system->k[left] = 0;
     CHECK(pick_at(column, height, -6, 0).kind == PICK_NONE);
     stand_up("square", 0); /* before the first step its sides are edges */
-    content.time_line.paused = true;
+    content.time_line.is_paused = true;
     for (int side = 0; side < 2; side++)
         CHECK(picks(pick_at(side ? 0.7 : -0.7, 0.125, 0, 0), PICK_EDGE, side));
 }
@@ -488,7 +488,7 @@ TEST(right_digits_are_marked)
     for (int i = 0; i <= 6; i++) {
         if (i > 0)
             CHECK(!simulation_step(&simulation));
-        frame_fill_values(&content);
+        frame_compute_values(&content);
         Plot card = blank_card(600, 400);
         tangent_numbers_draw(&card);
         int lit[7] = {0}, rows = 0, before = 0;
