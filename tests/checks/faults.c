@@ -22,15 +22,15 @@ void *__libc_realloc(void *old, size_t size);
 static const char *fault_kind;
 static long fault_at, fault_count;
 
-static int is_kind(const char *kind)
+static int fault_is_of_kind(const char *kind)
 {
     return fault_kind && strcmp(kind, fault_kind) == 0;
 }
 
 /* Whether this call is the one; errno is then the reason. */
-static int fails(const char *kind, int reason)
+static int call_fails(const char *kind, int reason)
 {
-    if (!is_kind(kind))
+    if (!fault_is_of_kind(kind))
         return 0;
     int fault =
         __atomic_add_fetch(&fault_count, 1, __ATOMIC_RELAXED) == fault_at;
@@ -41,24 +41,24 @@ static int fails(const char *kind, int reason)
 
 void *malloc(size_t size)
 {
-    return fails("memory", ENOMEM) ? NULL : __libc_malloc(size);
+    return call_fails("memory", ENOMEM) ? NULL : __libc_malloc(size);
 }
 
 void *calloc(size_t count, size_t size)
 {
-    return fails("memory", ENOMEM) ? NULL : __libc_calloc(count, size);
+    return call_fails("memory", ENOMEM) ? NULL : __libc_calloc(count, size);
 }
 
 void *realloc(void *old, size_t size)
 {
-    return fails("memory", ENOMEM) ? NULL : __libc_realloc(old, size);
+    return call_fails("memory", ENOMEM) ? NULL : __libc_realloc(old, size);
 }
 
 int rename(const char *from, const char *to)
 {
-    while (is_kind("hang"))
+    while (fault_is_of_kind("hang"))
         pause();
-    if (fails("rename", EIO))
+    if (call_fails("rename", EIO))
         return -1;
     return REAL(rename)(from, to);
 }

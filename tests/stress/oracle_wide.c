@@ -30,18 +30,18 @@ static Real smaller(Real a, Real b)
     return a < b ? a : b;
 }
 
-static Real size_of(Real a)
+static Real magnitude(Real a)
 {
     return a < 0 ? -a : a;
 }
 
 static Real with_sign(Real size, Real sign)
 {
-    return sign < 0 ? -size_of(size) : size_of(size);
+    return sign < 0 ? -magnitude(size) : magnitude(size);
 }
 
 /* Newton's method from the root in extended precision. */
-static Real root_of(Real a)
+static Real square_root(Real a)
 {
     if (!(a > 0))
         return a == 0 ? 0 : (Real)NAN;
@@ -50,29 +50,29 @@ static Real root_of(Real a)
     return (root + a / root) / 2;
 }
 
-static Real length_of(Real x, Real y)
+static Real vector_length(Real x, Real y)
 {
-    return root_of(x * x + y * y);
+    return square_root(x * x + y * y);
 }
 
 /* Of a = 1 ... 2: four roots, and 2 artanh((a - 1)/(a + 1)). */
-static Real small_log_of(Real a)
+static Real log1p_of(Real a)
 {
     for (int i = 0; i < 4; i++)
-        a = root_of(a);
+        a = square_root(a);
     Real r = (a - 1) / (a + 1), sum = 0, power = r;
     for (int i = 1; i < 30; i += 2, power *= r * r)
         sum += power / i;
     return 32 * sum;
 }
 
-static Real log_of(Real a)
+static Real logarithm(Real a)
 {
     int k;
     if (!(a > 0))
         return a == 0 ? -(Real)INFINITY : (Real)NAN;
     frexpl((long double)a, &k);
-    return small_log_of(a / ldexpl(0.5L, k)) + (k - 1) * small_log_of(2);
+    return log1p_of(a / ldexpl(0.5L, k)) + (k - 1) * log1p_of(2);
 }
 
 #define fabsl     size_of

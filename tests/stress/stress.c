@@ -38,7 +38,7 @@ static void print_row(const char *name, const Tally *tally)
 {
     printf("%-22s %7ld %9ld %8ld %5ld %9ld %7ld\n", name, tally->cases,
            tally->steps[VERDICT_CONVERGED], tally->steps[VERDICT_REPORTED],
-           tally->wrong, tally->judged, tally->blurred);
+           tally->wrong, tally->judged, tally->undecided);
     fflush(stdout);
 }
 
@@ -48,7 +48,7 @@ static void add_tally(const Tally *tally, Tally *sum)
     sum->wrong += tally->wrong;
     sum->updates += tally->updates;
     sum->judged += tally->judged;
-    sum->blurred += tally->blurred;
+    sum->undecided += tally->undecided;
     for (int i = 0; i < VERDICTS; i++)
         sum->steps[i] += tally->steps[i];
     for (int i = 0; i < STATUS_COUNT; i++)
@@ -110,7 +110,7 @@ static void run_random(uint64_t seed, bool quick, Tally *sum)
     }
 }
 
-static int run_one(const char *line)
+static int run_command_line(const char *line)
 {
     static const char *const words[VERDICTS] = {"converged", "reported",
                                                 "WRONG"};
@@ -154,7 +154,7 @@ static void run_envelope(Solver solver, Tally *sum)
     add_tally(&tally, sum);
 }
 
-static void print_sum(const Tally *sum)
+static void print_tallies(const Tally *sum)
 {
     print_row("all", sum);
     puts("steps by status:");
@@ -175,7 +175,7 @@ int main(int argc, char **argv)
         else if (strcmp(argv[i], "--seed") == 0 && i + 1 < argc)
             seed = strtoull(argv[++i], NULL, 10);
         else if (strcmp(argv[i], "--line") == 0 && i + 1 < argc)
-            return run_one(argv[i + 1]);
+            return run_command_line(argv[i + 1]);
         else
             return fprintf(stderr,
                            "stress: '%s' is none of: --seed S, --line LINE, "
@@ -190,6 +190,6 @@ int main(int argc, char **argv)
     run_random(seed, quick, &sum);
     for (int solver = 0; solver < SOLVER_COUNT && !quick; solver++)
         run_envelope((Solver)solver, &sum);
-    print_sum(&sum);
+    print_tallies(&sum);
     return sum.wrong > 0;
 }

@@ -48,7 +48,7 @@ typedef enum Verdict {
 /* Of cases, steps by verdict and by status, residuals computed again (judged)
  * and those of them where rounding is larger than the tolerance (blurred). */
 typedef struct Tally {
-    long cases, wrong, updates, steps[VERDICTS], judged, blurred;
+    long cases, wrong, updates, steps[VERDICTS], judged, undecided;
     long statuses[STATUS_COUNT];
 } Tally;
 

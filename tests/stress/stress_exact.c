@@ -62,7 +62,7 @@ typedef struct Blocks {
     int count, entries, room;
 } Blocks;
 
-static void keep_block(void *blocks, const Block *block)
+static void store_block(void *blocks, const Block *block)
 {
     Blocks *to = blocks;
     int n = 2 * block->count;
@@ -163,7 +163,7 @@ LargeVerdict large_judge(const IncrementalPotential *E, const double *u,
     Real *r = calloc(4 * size, sizeof *r);
     Blocks blocks = {.g = r};
     CHECK(r != NULL);
-    exact_blocks(E, u, 1, keep_block, &blocks);
+    exact_blocks(E, u, 1, store_block, &blocks);
     for (size_t i = 0; i < size; i++)
         r[i] = -r[i];
     clear_pinned(E->system, r);

@@ -37,7 +37,7 @@ static struct Draw {
 } draws[96];
 static int draw_count;
 
-static bool keep_draw(void *unused, char *row)
+static bool store_draw(void *unused, char *row)
 {
     struct Draw *draw = &draws[draw_count++];
     (void)unused;
@@ -93,7 +93,7 @@ static void draw_line(const char *kinds, uint64_t seed, long number,
     char kind = kinds[number % (long)strlen(kinds)];
     line[0] = '\0';
     if (draw_count == 0)
-        stress_rows("draw", keep_draw, NULL);
+        stress_rows("draw", store_draw, NULL);
     for (int i = 0; i < draw_count; i++)
         if (strchr(draws[i].kinds, kind) &&
             random_below(&random, draws[i].one_in) == 0)
@@ -103,7 +103,7 @@ static void draw_line(const char *kinds, uint64_t seed, long number,
 /* Masses, springs, positions and velocities of no square: each over some
  * powers of ten, springs that hardly are, nodes on a line, in one point or in
  * pairs, folded, some a million times further out than others, or far away. */
-static void shake(uint64_t seed, TimeIntegrator *run)
+static void perturb_start(uint64_t seed, TimeIntegrator *run)
 {
     Random random = {seed * 0x9e3779b97f4a7c15u};
     System *system = run->system;
@@ -152,7 +152,7 @@ static Verdict run_steps(Simulation *simulation, uint64_t shaken, int steps,
         TimeIntegrator *run = &simulation->run[r];
         Watch watch;
         if (shaken > 0)
-            shake(shaken, run);
+            perturb_start(shaken, run);
         if ((shaken > 0 && watch_restart(run)) ||
             !watch_create(run, tally, &watch))
             return snprintf(reason, 512, "no restart"), VERDICT_WRONG;
@@ -254,7 +254,7 @@ static bool large_squares(Tally *tally, char *reason)
     return stress_rows("large squares", run_row, &(Rows){tally, reason, false});
 }
 
-static bool once_wrong(Tally *tally, char *reason)
+static bool earlier_failures(Tally *tally, char *reason)
 {
     return stress_rows("once wrong", run_row, &(Rows){tally, reason, false});
 }
@@ -301,7 +301,7 @@ const StressCase stress_cases[] = {
     {"extreme squares", false, extreme_squares},
     {"large squares", true, large_squares},
     {"every integrator", false, every_integrator},
-    {"once wrong", false, once_wrong},
+    {"once wrong", false, earlier_failures},
     {"many steps", true, many_steps},
     {NULL, false, NULL},
 };

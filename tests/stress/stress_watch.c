@@ -84,7 +84,7 @@ static void judge_large(Watch *watch, const double *u, double tolerance)
         return;
     LargeVerdict verdict = large_judge(&E, u, settings->h, tolerance);
     watch->tally->judged++;
-    watch->tally->blurred += verdict == LARGE_UNDECIDED;
+    watch->tally->undecided += verdict == LARGE_UNDECIDED;
     if (verdict == LARGE_FAILED)
         blame(watch, "converged, but the residual is above %g m/s", tolerance);
 }
@@ -137,7 +137,7 @@ static void judge_terms(Watch *watch, const double *u, double limit)
     if (residual_holds(watch, u, limit, exact_residual, NULL, &residual) ||
         residual_holds(watch, u, limit, wide_exact_residual, NULL, &residual))
         return;
-    watch->tally->blurred++;
+    watch->tally->undecided++;
     if (!residual_holds(watch, u, limit, wide_exact_residual, &noise,
                         &residual))
         blame(watch,
@@ -157,7 +157,7 @@ static void judge_convergence(Watch *watch, const double *u, double limit)
 
 /* The last direction passed the test, and was used; or the one after it passes
  * the test, by multigrid or shorter than a millionth of the shortest spring. */
-static void judge_end(Watch *watch)
+static void judge_step_end(Watch *watch)
 {
     const Newton *newton = watch->run->newton;
     const System *system = newton->system;
@@ -231,7 +231,7 @@ static void watch_descent(Watch *watch, const double *u, const char *where)
 
 /* "No step helps" and "uphill" are said only where rounding does not hide the
  * slope: else it is rounding that must be named. */
-static void check_excuse(Watch *watch, const NewtonRecord *record)
+static void check_failure_reason(Watch *watch, const NewtonRecord *record)
 {
     IncrementalPotential E = watch_potential(watch);
     long double scale = 0;
@@ -289,10 +289,10 @@ static bool watch_record(void *user, const NewtonRecord *record)
             blame(watch, "iterate %d is not finite", watch->updates);
     if (newton->settings.line_search != LINE_SEARCH_NONE)
         watch_descent(watch, newton->iterate.u, "in an iteration");
-    check_excuse(watch, record);
+    check_failure_reason(watch, record);
     check_walls(watch, newton->iterate.x);
     if (record->status == STATUS_OK)
-        judge_end(watch);
+        judge_step_end(watch);
     memcpy(watch->u, newton->iterate.u,
            (size_t)watch_size(watch) * sizeof *watch->u);
     return true;
@@ -379,7 +379,7 @@ static void check_failure(Watch *watch, Status status)
 /* Whether nothing but gravity and one pin pulls at the bodies as a whole, and
  * backward Euler makes the step.
  *   pin  out, the pinned node, or -1 */
-static bool is_free(const TimeIntegrator *run, int *pin)
+static bool run_is_free(const TimeIntegrator *run, int *pin)
 {
     static const TermKind *const inner[] = {&mass_spring_energy,
                                             &neo_hookean_energy,
@@ -462,7 +462,7 @@ static void check_state(Watch *watch)
     }
     check_walls(watch, run->x);
     int pin;
-    if (watch->status == STATUS_OK && is_free(run, &pin))
+    if (watch->status == STATUS_OK && run_is_free(run, &pin))
         check_momentum(watch, pin);
     if (watch->springs &&
         run->newton && /* with flow and breaks E changes between steps */

@@ -76,7 +76,7 @@ Real exact_strain(const System *system, const double *x, int s)
 
 /* A spring that has flowed begins the next step where V'' jumps: rounding of
  * its strain, some units of 1 + E, says on which side. */
-static Real edge_of_flow(Spot *spot, Real E)
+static Real shift_flow_limit(Spot *spot, Real E)
 {
     Real side = spot->jitter ? random_uniform(spot->jitter, -1, 1) : spot->side;
     return 8 * DBL_EPSILON * (1 + fabsl(E)) * side;
@@ -106,7 +106,7 @@ static void spring(Spot *spot, Jet *sum, const void *data, int s)
         Real yield = flow->yield_strain + flow->hardening * (Real)kappa;
         held = fminl(held, yield);
         over = fabsl(e) - held;
-        flows = fabsl(e) - yield > edge_of_flow(spot, E.f);
+        flows = fabsl(e) - yield > shift_flow_limit(spot, E.f);
     }
     V = chain(E, held * (held / 2 + over) + hard * over * over / 2,
               copysignl(held + hard * over, e), flows ? hard : 1);
@@ -195,7 +195,7 @@ static void touch(Spot *spot, Jet *sum, const Contact *contact, int i, int k)
     barrier(spot, sum, contact->barrier.c, gap(spot, contact, i, k, n));
 }
 
-static void at_a_wall(Spot *spot, Jet *sum, const void *data, int i)
+static void wall_contacts(Spot *spot, Jet *sum, const void *data, int i)
 {
     const System *system = spot->at->system;
     const Contact *contact = contact_of(system);
@@ -241,7 +241,7 @@ static void outline_cell(Outline *outline, int a, int high)
 }
 
 /* Without self-contact: none. */
-static Outline outline_of(const System *system)
+static Outline find_outline(const System *system)
 {
     static double *bytes;
     if (!self_contact_of(system))
@@ -284,8 +284,8 @@ static Outline outline_of(const System *system)
 }
 
 /* d^2/d_hat^2 of point p and an edge; where the edge is nearest, and n. */
-static Jet parted(Spot *spot, const SelfContact *self, int p, const int end[2],
-                  Real *r, Real n[2])
+static Jet point_edge_gap(Spot *spot, const SelfContact *self, int p,
+                          const int end[2], Real *r, Real n[2])
 {
     Jet d[2], e[2], q[2], length2, along, d2;
     for (int axis = 0; axis < 2; axis++) {
@@ -312,8 +312,8 @@ static Jet parted(Spot *spot, const SelfContact *self, int p, const int end[2],
 }
 
 /* mu F f0(y), F and t of x_n: friction.h */
-static void rubbing(Spot *spot, Jet *sum, const SelfContact *self, int p,
-                    const int end[2])
+static void self_friction(Spot *spot, Jet *sum, const SelfContact *self, int p,
+                          const int end[2])
 {
     const System *system = spot->at->system;
     const Term *term = system_find_term(system, &self_friction_energy);
@@ -323,7 +323,7 @@ static void rubbing(Spot *spot, Jet *sum, const SelfContact *self, int p,
     Spot before = {.at = &start, .h = spot->h, .jitter = spot->jitter};
     Real n[2], r, e = ((const Friction *)term->data)->slip_speed * spot->h;
     start.x = start.x_n;
-    Real S = parted(&before, self, p, end, &r, n).f;
+    Real S = point_edge_gap(&before, self, p, end, &r, n).f;
     Jet y = {0};
     if (!(S < 1))
         return;
@@ -353,7 +353,7 @@ static bool is_far(const double *x, int p, const int end[2], double most)
 }
 
 /* c f(d^2/d_hat^2): self_contact.h; friction is of the step's start. */
-static void meeting(Spot *spot, Jet *sum, const void *data, int i)
+static void self_contact(Spot *spot, Jet *sum, const void *data, int i)
 {
     const SelfContact *self = self_contact_of(spot->at->system);
     const Outline *outline = spot->outline;
@@ -364,9 +364,9 @@ static void meeting(Spot *spot, Jet *sum, const void *data, int i)
     if (p == end[0] || p == end[1] || is_far(x, p, end, 1.001 * self->d_hat))
         return;
     if (data == self)
-        barrier(spot, sum, self->c, parted(spot, self, p, end, &r, n));
+        barrier(spot, sum, self->c, point_edge_gap(spot, self, p, end, &r, n));
     else
-        rubbing(spot, sum, self, p, end);
+        self_friction(spot, sum, self, p, end);
 }
 
 /* Whether triangle t of the cells has all its springs, and its area over that
@@ -496,7 +496,7 @@ static void frame_of_pair(Spot *spot, Frame *frame, int i)
     Real n[2], r;
     if (p == end[0] || p == end[1] || is_far(outline->x, p, end, self->d_hat))
         return;
-    parted(spot, self, p, end, &r, n);
+    point_edge_gap(spot, self, p, end, &r, n);
     *frame = (Frame){.n = 2, .node = {p, end[0], end[1]}};
     for (int c = 0; c < 2; c++) {
         Real t = c ? n[0] : -n[1];
@@ -512,7 +512,7 @@ static void frame_of_pair(Spot *spot, Frame *frame, int i)
 }
 
 /* n = 0: it bends up anyway. */
-static Frame frame_of(Spot *spot, Parts parts, const void *data, int i)
+static Frame make_frame(Spot *spot, Parts parts, const void *data, int i)
 {
     static const double edges[2][3] = {{-1, 1, 0}, {-1, 0, 1}};
     const System *system = spot->at->system;
@@ -537,14 +537,14 @@ static const struct {
     void (*part)(Spot *spot, Jet *sum, const void *data, int i);
 } formulas[] = {{&mass_spring_energy, SPRINGS, spring},
                 {&plastic_energy, SPRINGS, spring},
-                {&contact_energy, WALLS, at_a_wall},
-                {&friction_energy, WALLS, at_a_wall},
+                {&contact_energy, WALLS, wall_contacts},
+                {&friction_energy, WALLS, wall_contacts},
                 {&cell_energy, CELLS, cell},
                 {&central_field, COORDINATES, pull},
                 {&hand_energy, COORDINATES, pull},
                 {&neo_hookean_energy, SOLIDS, solid},
-                {&self_contact_energy, PAIRS, meeting},
-                {&self_friction_energy, PAIRS, meeting}};
+                {&self_contact_energy, PAIRS, self_contact},
+                {&self_friction_energy, PAIRS, self_contact}};
 
 /* The row of a term, or -1. */
 static int formula_of(const TermKind *kind)
@@ -556,7 +556,7 @@ static int formula_of(const TermKind *kind)
 }
 
 /* p [2n] += sign times the displacement of number k. */
-static void move(const Frame *frame, int k, double sign, double *p)
+static void move_nodes(const Frame *frame, int k, double sign, double *p)
 {
     for (int i = 0; i < 6; i++)
         p[2 * frame->node[i / 2] + i % 2] += sign * frame->move[k][i];
@@ -571,18 +571,18 @@ static int negative_part(const Spot *spot, int row, const void *data, int part,
                          Real rows[4][6])
 {
     Spot own = *spot;
-    *frame = frame_of(&own, formulas[row].parts, data, part);
+    *frame = make_frame(&own, formulas[row].parts, data, part);
     Real A[16], v[16];
     int n = frame->n;
     own.p = p;
     own.q = q;
     for (int i = 0; i < n * n; i++) {
         Jet W = {0};
-        move(frame, i / n, 1, p);
-        move(frame, i % n, 1, q);
+        move_nodes(frame, i / n, 1, p);
+        move_nodes(frame, i % n, 1, q);
         formulas[row].part(&own, &W, data, part);
-        move(frame, i / n, -1, p);
-        move(frame, i % n, -1, q);
+        move_nodes(frame, i / n, -1, p);
+        move_nodes(frame, i % n, -1, q);
         A[i] = W.pq;
     }
     exact_eigen(n, A, v);
@@ -597,10 +597,10 @@ static int negative_part(const Spot *spot, int row, const void *data, int part,
     return n;
 }
 
-static Outline outline_there(const Spot *spot)
+static Outline find_outline_at_point(const Spot *spot)
 {
     Spot plain = *spot;
-    Outline outline = outline_of(spot->at->system);
+    Outline outline = find_outline(spot->at->system);
     plain.jitter = NULL;
     for (int c = 0; outline.x && c < 2 * spot->at->system->nodes; c++)
         outline.x[c] = (double)coordinate(&plain, c, false).f;
@@ -610,7 +610,7 @@ static Outline outline_there(const Spot *spot)
 Jet oracle_energy(Spot *spot, const TermKind *only)
 {
     const System *system = spot->at->system;
-    Outline outline = outline_there(spot);
+    Outline outline = find_outline_at_point(spot);
     Jet sum = {0};
     spot->outline = &outline;
     spot->size = (Jet){0};
@@ -727,7 +727,7 @@ static void walk_blocks(const Spot *there, const double *u,
                         void (*take)(void *to, const Block *block), void *to)
 {
     const System *system = there->at->system;
-    Outline outline = outline_there(there);
+    Outline outline = find_outline_at_point(there);
     double *p = calloc(4 * (size_t)system->nodes, sizeof *p);
     double *q = p + 2 * system->nodes;
     Spot spot = *there;
@@ -885,8 +885,8 @@ enum { UNITS = 4, SAMPLES = 12 };
  * Each number of u is off by half a unit of its last digit, which inertia sees
  * where u is much larger than u - u_tilde.
  *   place  [4n] workspace */
-static Real nearby(const Spot *spot, const double *u, const double *u_tilde,
-                   const Assembly *of, Random *random, double *place)
+static Real perturb_p(const Spot *spot, const double *u, const double *u_tilde,
+                      const Assembly *of, Random *random, double *place)
 {
     const System *system = spot->at->system;
     double *x = place, *x_n = place + of->n;
@@ -928,7 +928,7 @@ static double residual_by_side(const IncrementalPotential *E, const double *u,
     for (int round = 0; noise && round < SAMPLES; round++)
         blur = fmaxl(
             blur,
-            fabsl(nearby(&spot, u, E->u_tilde, &to, &random, place) - most));
+            fabsl(perturb_p(&spot, u, E->u_tilde, &to, &random, place) - most));
     if (noise)
         *noise = (double)(blur / h);
     free(place);
@@ -989,7 +989,7 @@ static Real area_of(const double *x, int a, int b, int c)
 
 long exact_crossings(const System *system, const double *x)
 {
-    Outline outline = outline_of(system);
+    Outline outline = find_outline(system);
     long count = 0;
     for (int k = 0; k < outline.edges; k++)
         for (int l = 0; l < k; l++) {

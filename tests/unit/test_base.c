@@ -42,7 +42,7 @@ static void problem_free(Problem *problem)
 }
 
 /* Entry (row, column), row >= column. */
-static double *entry(Problem *problem, int row, int column)
+static double *find_entry_value(Problem *problem, int row, int column)
 {
     for (int s = problem->A.column_start[column];; s++)
         if (problem->A.row[s] == row)
@@ -61,7 +61,7 @@ static void problem_fill(Random *random, Problem *problem)
             sum[A->row[s]] += fabs(A->value[s]);
         }
     for (int i = 0; i < SIZE; i++)
-        *entry(problem, i, i) = sum[i] + 0.5;
+        *find_entry_value(problem, i, i) = sum[i] + 0.5;
 }
 
 /* A x is b within the tolerance, in place or not. */
@@ -82,7 +82,7 @@ static void check_solution(Random *random, Problem *problem, double tolerance)
     }
 }
 
-typedef enum Spoil {
+typedef enum Damage {
     NOTHING,
     NEGATE_ONE,  /* on the diagonal */
     NEGATE_HALF, /* of the diagonal */
@@ -92,9 +92,9 @@ typedef enum Spoil {
                   * a matrix that is not singular at all */
     NOT_FINITE,
     ALL_TINY /* 1 / 1e-310 is infinite */
-} Spoil;
+} Damage;
 
-static void spoil(Problem *problem, Spoil how, int trial)
+static void damage_matrix(Problem *problem, Damage how, int trial)
 {
     static const double bad[] = {NAN, INFINITY, -INFINITY};
     Sparse *A = &problem->A;
@@ -124,7 +124,7 @@ static void spoil(Problem *problem, Spoil how, int trial)
 TEST(matrices_are_solved_or_named)
 {
     static const struct {
-        Spoil how;
+        Damage how;
         CholeskyKind kind;
         Status factor, solve;
         double tolerance;
@@ -152,7 +152,7 @@ TEST(matrices_are_solved_or_named)
             for (int k = 0; k < SIZE; k++)
                 x[k] = 1;
             problem_fill(&random, &problem);
-            spoil(&problem, rows[i].how, trial);
+            damage_matrix(&problem, rows[i].how, trial);
             CHECK_STATUS(cholesky_factor(problem.cholesky), rows[i].factor);
             if (rows[i].factor == STATUS_OK)
                 CHECK_STATUS(cholesky_solve(problem.cholesky, x, x),
@@ -184,7 +184,7 @@ enum { MOST = 21, LD = MOST + 2 };
 static const int ld = LD;
 static const double one = 1, zero = 0;
 
-static void fill(Random *random, double *A)
+static void fill_matrix(Random *random, double *A)
 {
     for (int i = 0; i < LD * MOST; i++)
         A[i] = random_uniform(random, -1, 1);
@@ -208,8 +208,8 @@ TEST(products_have_one_order_of_sums)
     for (int m = 1; m <= MOST; m++)
         for (int n = 1; n <= 9; n++) {
             int k = (m * n) % MOST;
-            fill(&random, A);
-            fill(&random, B);
+            fill_matrix(&random, A);
+            fill_matrix(&random, B);
             for (int i = 0; i < LD * MOST; i++)
                 C[i] = S[i] = 7;
             dgemm_("N", "C", &m, &n, &k, &one, A, &ld, B, &ld, &zero, C, &ld);
@@ -234,13 +234,13 @@ TEST(factors_and_divisions_are_exact_to_rounding)
     double A[LD * MOST], L[LD * MOST], B[LD * MOST], X[LD * MOST];
     for (int n = 1; n <= MOST; n++) {
         int info = -1, m = 1 + (5 * n) % MOST;
-        fill(&random, A);
+        fill_matrix(&random, A);
         for (int i = 0; i < n; i++)
             A[i * LD + i] = 4 + n;
         memcpy(L, A, sizeof A);
         dpotrf_("L", &n, L, &ld, &info);
         CHECK(info == 0);
-        fill(&random, B);
+        fill_matrix(&random, B);
         memcpy(X, B, sizeof B);
         dtrsm_("R", "L", "C", "N", &m, &n, &one, L, &ld, X, &ld);
         for (int j = 0; j < n; j++) {
@@ -259,7 +259,7 @@ TEST(factors_and_divisions_are_exact_to_rounding)
 
 /* Units in the last place between a double and the same in extended precision.
  */
-static double ulps(double got, long double exact)
+static double count_ulps(double got, long double exact)
 {
     double nearest = (double)exact;
     if (!isfinite(nearest))
@@ -271,9 +271,9 @@ static double ulps(double got, long double exact)
 /* 1.5 units: what mathematics.h promises. */
 static void check_digits(double x, double z)
 {
-    CHECK_AT_MOST(ulps(math_log(x), logl(x)), 1.5);
-    CHECK_AT_MOST(ulps(math_log1p(z), log1pl(z)), 1.5);
-    CHECK_AT_MOST(ulps(math_hypot(x, z), hypotl(x, z)), 1.5);
+    CHECK_AT_MOST(count_ulps(math_log(x), logl(x)), 1.5);
+    CHECK_AT_MOST(count_ulps(math_log1p(z), log1pl(z)), 1.5);
+    CHECK_AT_MOST(count_ulps(math_hypot(x, z), hypotl(x, z)), 1.5);
 }
 
 TEST(functions_are_right_to_the_last_place)

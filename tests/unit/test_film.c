@@ -90,7 +90,7 @@ static int read_film(const char *name, int width, int height, uint8_t *bytes,
 }
 
 /* Frames a second, from the times of the first and the last of `count`. */
-static double rate_of(const char *name, int count)
+static double find_rate(const char *name, int count)
 {
     double first, last;
     FILE *times = ask("ffprobe -v error -show_entries packet=pts_time -of "
@@ -144,7 +144,7 @@ TEST(films_show_what_was_drawn)
         check_format(row);
         check_frames(row, bytes, frames);
         if (frames == FRAMES) /* .webm counts milliseconds */
-            CHECK(fabs(rate_of(row->name, frames) / row->rate - 1) < 1e-2);
+            CHECK(fabs(find_rate(row->name, frames) / row->rate - 1) < 1e-2);
         CHECK(unlink(row->name) == 0);
     }
 }

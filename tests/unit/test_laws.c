@@ -59,7 +59,7 @@ static void point_on_wall(const double n[2], double friction, double slip_speed,
 }
 
 /* The masses, by backward Euler from x and v. */
-static void let_go(double h, const double *x, const double *v)
+static void begin_free_masses(double h, const double *x, const double *v)
 {
     const NewtonSettings settings = {
         .h = h, .tolerance = 1e-11, .max_iterations = 2000};
@@ -69,7 +69,7 @@ static void let_go(double h, const double *x, const double *v)
 }
 
 /* J, what the first term that loses any has taken out of them. */
-static double lost(void)
+static double find_lost_energy(void)
 {
     return few.losses[0].energy;
 }
@@ -92,17 +92,17 @@ TEST(a_belt_takes_its_load_along)
     point_on_wall(n, mu, 1e-4, G);
     contact_of(&few)->obstacle[0].motion =
         (Motion){.phases = 1, .phase_end = {1e9}, .v = {{W * t[0], W * t[1]}}};
-    let_go(h, (double[2]){0.005 * n[0], 0.005 * n[1]}, still);
+    begin_free_masses(h, (double[2]){0.005 * n[0], 0.005 * n[1]}, still);
     for (int i = 0; i < 200; i++) {
         double before = speed, done = run.work;
-        double heat = lost();
+        double heat = find_lost_energy();
         step();
         speed = run.v[0] * t[0] + run.v[1] * t[1];
         if (i < 60 || speed > 0.9 * W)
             continue; /* finds its height; is carried along */
         CHECK_NEAR((speed - before) / h, mu * N - G * sin(angle), 1e-6);
         CHECK_NEAR((run.work - done) / h, mu * N * W, 1e-5);
-        CHECK_NEAR((lost() - heat) / h, mu * N * (W - speed), 1e-5);
+        CHECK_NEAR((find_lost_energy() - heat) / h, mu * N * (W - speed), 1e-5);
         slips++;
     }
     CHECK(slips > 30);
@@ -127,7 +127,7 @@ TEST(a_hand_pushes_with_a_bounded_speed)
     const double h = 0.01, still[2] = {0, 0}, right[2] = {1, 0};
     point_on_wall(right, 0, 0, 0);
     Obstacle *wall = push_wall();
-    let_go(h, still, still);
+    begin_free_masses(h, still, still);
     for (int i = 0; i < 200; i++) {
         double before = wall->o[0];
         step();
@@ -151,7 +151,7 @@ TEST(a_fixed_body_stops_the_hand)
     point_on_wall(right, 0, 0, 0);
     few.pinned[0] = 1;
     Obstacle *wall = push_wall();
-    let_go(0.01, still, still);
+    begin_free_masses(0.01, still, still);
     for (int i = 0; i < 100; i++)
         step();
     CHECK(-0.0035 < wall->o[0] && wall->o[0] <= -0.003 && run.x[0] == 0);
@@ -161,7 +161,7 @@ TEST(a_fixed_body_stops_the_hand)
     CHECK_OK(contact_configure(&few, &(Barrier){0.01, 1}, 2, walls));
     wall = push_wall();
     contact_of(&few)->hand.target[0] = 0.05; /* short ways in the end */
-    let_go(0.01, still, still);
+    begin_free_masses(0.01, still, still);
     for (int i = 0; i < 300; i++)
         step();
     double room = 0.05 - wall->o[0];
@@ -179,7 +179,7 @@ TEST(a_ball_that_is_pushed_jumps_over_nothing)
     CHECK_OK(contact_configure(&few, &(Barrier){0.002, 1}, 1, &ball));
     Contact *contact = contact_of(&few);
     contact->hand = (Push){.is_held = 1, .target = {9, 0}, .mesh = {.side = 1}};
-    let_go(0.01, still, still);
+    begin_free_masses(0.01, still, still);
     for (int i = 0; i < 50; i++) {
         step();
         CHECK(run.x[0] - contact->obstacle[0].o[0] > 0.02);
@@ -209,16 +209,16 @@ TEST(broken_springs_do_nothing)
     few_masses(2, 1)->k[0] = 1000;
     CHECK_OK(damping.configure(&few, NULL, &(double){0.01}));
     CHECK_OK(fracture.configure(&few, NULL, &(double){0.01}));
-    let_go(0.001, apart, v);
+    begin_free_masses(0.001, apart, v);
     for (int i = 0; i < 200 && !spring_is_broken(&few, 0); i++)
         step();
     CHECK(spring_is_broken(&few, 0));
-    double damped = lost(), speed = run.v[2];
+    double damped = find_lost_energy(), speed = run.v[2];
     CHECK(damped > 0 && speed > 0);
     for (int i = 0; i < 5; i++)
         step();
     CHECK_NEAR(run.v[2], speed, 1e-12 * speed);
-    CHECK(lost() == damped);
+    CHECK(find_lost_energy() == damped);
 }
 
 /* ---- whole scenes ------------------------------------------------------ */
@@ -412,7 +412,7 @@ TEST(a_moving_wall_never_gives_back_what_is_dissipated)
             (Motion){.phases = 3,
                      .phase_end = {0.2, 0.3, 0.8},
                      .v = {{0, 0.5}, {0, -3}, {0, 1}}};
-        let_go(h[k], x, v);
+        begin_free_masses(h[k], x, v);
         double before = 0, start = 0, most = 0;
         for (int step = 0; step < 1 / h[k]; step++) {
             double held = system_kinetic_energy(&few, run.v) +
@@ -429,23 +429,23 @@ TEST(a_moving_wall_never_gives_back_what_is_dissipated)
 }
 
 /* The methods of the table, each with every solver that it can have. */
-typedef struct Way {
+typedef struct Variant {
     const IntegratorMethod *method;
     Solver solver;
-} Way;
+} Variant;
 
-static bool next_way(Way *way)
+static bool next_variant(Variant *way)
 {
     if (!way->method)
         way->method = integrator_methods;
     else if (way->method->is_implicit && way->solver + 1 < SOLVER_COUNT)
         way->solver++;
     else
-        *way = (Way){.method = way->method + 1};
+        *way = (Variant){.method = way->method + 1};
     return way->method->name != NULL;
 }
 
-static Simulation *go(const Way *way, const char *line)
+static Simulation *start(const Variant *way, const char *line)
 {
     return simulate("%s --integrator %s --solver %s", line, way->method->name,
                     solver_name(way->solver));
@@ -457,7 +457,7 @@ static Simulation *go(const Way *way, const char *line)
  * y, and with velocities of some m/s. */
 static const double TIME = 0.064;
 
-static Simulation *moving_square(const Way *way, int steps)
+static Simulation *moving_square(const Variant *way, int steps)
 {
     char line[120];
     Random random = {90};
@@ -465,7 +465,7 @@ static Simulation *moving_square(const Way *way, int steps)
              "--segments 2 --stretch 1.1 --gravity 9.81 --tolerance 1e-13 "
              "--timestep %.17g",
              TIME / steps);
-    Simulation *square = go(way, line);
+    Simulation *square = start(way, line);
     for (size_t i = 0; i < square->run[0].x_length; i++)
         square->run[0].v[i] += random_uniform(&random, -1, 1);
     return square;
@@ -477,7 +477,7 @@ static Simulation *moving_square(const Way *way, int steps)
 TEST(methods_have_the_order_of_their_table)
 {
     enum { FINEST = 16384 };
-    const Way verlet = {integrator_find_method("verlet"), SOLVER_NEWTON};
+    const Variant verlet = {integrator_find_method("verlet"), SOLVER_NEWTON};
     const TimeIntegrator *start = &moving_square(&verlet, FINEST)->run[0];
     Simulation *far = make_steps(moving_square(&verlet, FINEST), FINEST);
     Simulation *near =
@@ -486,7 +486,7 @@ TEST(methods_have_the_order_of_their_table)
     for (int i = 1; i < 2 * 9; i += 2)
         fallen += (far->run[0].x[i] - start->x[i] - TIME * start->v[i]) / 9;
     CHECK_NEAR(fallen, -9.81 / 2 * TIME * TIME, 1e-12);
-    for (Way way = {0}; next_way(&way);) {
+    for (Variant way = {0}; next_variant(&way);) {
         int order = way.method->order;
         int steps = order == 1 ? 2048 : 256;
         double last = 0;
@@ -512,7 +512,7 @@ typedef struct Momentum {
     long double linear[2], angular, linear_size, angular_size;
 } Momentum;
 
-static Momentum momentum_of(const TimeIntegrator *run)
+static Momentum find_momentum(const TimeIntegrator *run)
 {
     Momentum sum = {{0, 0}, 0, 0, 0};
     for (int i = 0; i < run->system->nodes; i++) {
@@ -536,9 +536,9 @@ static void check_momentum(Simulation *square, double angular)
     for (size_t i = 0; i < run->x_length; i++)
         run->v[i] =
             (i % 2 ? 5 : -5) * run->x[i ^ 1] + random_uniform(&random, -1, 3);
-    Momentum start = momentum_of(run);
+    Momentum start = find_momentum(run);
     for (int step = 0; step < 40; step++) {
-        Momentum now = momentum_of(&make_steps(square, 1)->run[0]);
+        Momentum now = find_momentum(&make_steps(square, 1)->run[0]);
         for (int c = 0; c < 2; c++)
             CHECK_NEAR(now.linear[c], start.linear[c],
                        4e-13 * start.linear_size);
@@ -553,15 +553,15 @@ static void check_momentum(Simulation *square, double angular)
  * Newton goes by the midpoint rule. */
 TEST(momentum_is_kept)
 {
-    for (Way way = {0}; next_way(&way);) {
+    for (Variant way = {0}; next_variant(&way);) {
         bool midpoint = strcmp(way.method->name, "midpoint") == 0;
         bool symplectic = strcmp(way.method->name, "verlet") == 0 ||
                           strcmp(way.method->name, "symplectic-euler") == 0;
-        check_momentum(go(&way, "--timestep 1e-3"), symplectic ? 4e-13 : 0);
+        check_momentum(start(&way, "--timestep 1e-3"), symplectic ? 4e-13 : 0);
         if (way.method->is_implicit)
-            check_momentum(go(&way, "--stretch 0.6 --timestep 0.01"), 0);
+            check_momentum(start(&way, "--stretch 0.6 --timestep 0.01"), 0);
         if (midpoint)
-            check_momentum(go(&way, "--tolerance 1e-12"), 1e-11);
+            check_momentum(start(&way, "--tolerance 1e-12"), 1e-11);
     }
 }
 

@@ -23,7 +23,7 @@ static bool allocation_fails(void)
            (for_good ? number >= first_failure : number == first_failure);
 }
 
-static void *hold(void *block)
+static void *track(void *block)
 {
     held += block != NULL;
     return block;
@@ -31,17 +31,17 @@ static void *hold(void *block)
 
 void *__wrap_malloc(size_t size)
 {
-    return allocation_fails() ? NULL : hold(__real_malloc(size));
+    return allocation_fails() ? NULL : track(__real_malloc(size));
 }
 
 void *__wrap_calloc(size_t count, size_t size)
 {
-    return allocation_fails() ? NULL : hold(__real_calloc(count, size));
+    return allocation_fails() ? NULL : track(__real_calloc(count, size));
 }
 
 void *__wrap_aligned_alloc(size_t page, size_t size)
 {
-    return allocation_fails() ? NULL : hold(__real_aligned_alloc(page, size));
+    return allocation_fails() ? NULL : track(__real_aligned_alloc(page, size));
 }
 
 void *__wrap_realloc(void *old, size_t size)

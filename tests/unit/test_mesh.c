@@ -49,7 +49,7 @@ TEST(nodes_and_springs_are_the_slides)
 }
 
 /* Whether a spring joins the nodes, in any order. */
-static bool joins(const int e[2], int a, int b)
+static bool spring_joins(const int e[2], int a, int b)
 {
     return (e[0] == a && e[1] == b) || (e[0] == b && e[1] == a);
 }
@@ -74,12 +74,12 @@ TEST(cells_triangles_and_outline_are_those_of_the_springs)
         CHECK((b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]) ==
               0.25);
         for (int k = 0; k < 3; k++)
-            CHECK(joins(e + 2 * spring[k], node[k], node[(k + 1) % 3]));
+            CHECK(spring_joins(e + 2 * spring[k], node[k], node[(k + 1) % 3]));
         square_mesh_get_cell(&mesh, t / 4, node, spring);
         for (int k = 0; k < 4; k++)
-            CHECK(joins(e + 2 * spring[k], node[k], node[(k + 1) % 4]));
-        CHECK(joins(e + 2 * spring[4], node[0], node[2]) &&
-              joins(e + 2 * spring[5], node[1], node[3]));
+            CHECK(spring_joins(e + 2 * spring[k], node[k], node[(k + 1) % 4]));
+        CHECK(spring_joins(e + 2 * spring[4], node[0], node[2]) &&
+              spring_joins(e + 2 * spring[5], node[1], node[3]));
     }
     double twice = 0;
     for (int k = 0; k < mesh.outline_edges; k++) {

@@ -80,16 +80,16 @@ static void pull(double times)
 
 /* No update may raise E nor lower it by something else than it says.  The end
  * is judged in extended precision. */
-typedef struct Fall {
+typedef struct ResidualHistory {
     Real start, now;
     int judged;
     int by_bound; /* steps ended by a bound of the next residual */
-} Fall;
+} ResidualHistory;
 
-static bool see_fall(void *user, const NewtonRecord *record)
+static bool store_residual(void *user, const NewtonRecord *record)
 {
     static const double zero[LARGEST];
-    Fall *E = user;
+    ResidualHistory *E = user;
     if (record->iteration == 0)
         E->start = E->now = wide_energy(&(Moment){.E = at->E}, zero);
     Real now = wide_energy(&(Moment){.E = at->E}, at->u);
@@ -124,7 +124,7 @@ TEST(steps_fall_and_pass_the_test_of_algorithm_3)
                 {16, 1.1, false, false, 0}};
     for (int i = 0; i < 15; i++) {
         Random random = {(uint64_t)i};
-        Fall fall = {0};
+        ResidualHistory fall = {0};
         Simulation *square = begin_problem(rows[i].segments, rows[i].stretch);
         if (rows[i].disturbed)
             disturb(&random, rows[i].pins);

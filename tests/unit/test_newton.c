@@ -13,15 +13,15 @@
 enum { LARGEST = 2 * 25, SIZE = 2 * 16 };
 
 /* The last record of a minimisation, and the iterate that its p starts from. */
-typedef struct Last {
+typedef struct LastRecord {
     const Simulation *simulation;
     NewtonRecord record;
     double u[LARGEST];
-} Last;
+} LastRecord;
 
-static bool keep_last(void *user, const NewtonRecord *record)
+static bool store_record(void *user, const NewtonRecord *record)
 {
-    Last *last = user;
+    LastRecord *last = user;
     const Newton *newton = last->simulation->run[0].newton;
     last->record = *record;
     memcpy(last->u, record->alpha != 0 ? newton->u_trial : newton->iterate.u,
@@ -44,7 +44,7 @@ TEST(residuals_are_what_they_are_called)
         "--segments 4 --solver multigrid --stretch 1.001"};
     int seen[2][2] = {{0}};
     for (int line = 0; line < 7; line++) {
-        Last last;
+        LastRecord last;
         Simulation *simulation =
             simulate_watched(keep_last, &last, "%s", lines[line]);
         TimeIntegrator *run = &simulation->run[0];
@@ -176,7 +176,7 @@ TEST(nearly_singular_steps_end_or_say_why_not)
  * small beside h^2 k, makes a factor possible, and conjugate gradients find the
  * masses again: a square that flies along while it relaxes keeps its velocity.
  */
-static bool keep_shift(void *user, const NewtonRecord *record)
+static bool store_shift(void *user, const NewtonRecord *record)
 {
     double *largest = user;
     *largest = fmax(*largest, record->shift);
@@ -210,7 +210,7 @@ static bool pause_always(void *unused, const NewtonRecord *record)
 }
 
 /* From rest, iterate by iterate and step by step; 1e-9 for rounding. */
-static bool keep_energy(void *unused, char *line)
+static bool store_energy(void *unused, char *line)
 {
     (void)unused;
     Simulation *simulation = simulate_watched(pause_always, NULL, "%s", line);

@@ -120,7 +120,7 @@ TEST(the_crack_begins_at_the_slit)
     static bool before[4000];
     Simulation *simulation = make_steps(open_page("fracture", ""), 20);
     const System *system = &simulation->system;
-    const double *rest = rest_of(simulation);
+    const double *rest = rest_x(simulation);
     int count = 0;
     for (int s = 0; s < system->springs; s++)
         before[s] = spring_is_broken(system, s);
@@ -317,7 +317,7 @@ static const char *missing_words(const FrameContent *content)
 }
 
 /* Draws a frame, of which `seen` is then filled anew. */
-static void see_frame(const FrameContent *content, Paper *paper)
+static void inspect_frame(const FrameContent *content, Paper *paper)
 {
     memset(&seen, 0, sizeof seen);
     seen.smallest = seen.smallest_code = INT_MAX;
@@ -343,7 +343,7 @@ static void check_frame(const LecturePage *page, Simulation *simulation,
     content.lecture.hides_answer = kind == LARGE_ASKED && page->question;
     frame_add_lecture(column[kind], NULL, &content);
     frame_expand_texts(&content);
-    see_frame(&content, paper);
+    inspect_frame(&content, paper);
     bool good = (seen.smallest + 0.5) * (large ? 35 : 55) >= height;
     if (kind == CODE) { /* the picture and the main card stay */
         Layout beside = layout_create(&content, width, height);
@@ -411,7 +411,7 @@ TEST(scenes_keep_their_words_in_place)
             CHECK_OK(paper_create(sizes[s][0], sizes[s][1], &paper));
             frame_create(simulation, &content);
             frame_expand_texts(&content);
-            see_frame(&content, &paper);
+            inspect_frame(&content, &paper);
             paper_free(&paper);
             if (seen.cut > 0 || seen.over > 0)
                 fail_msg("%s at %d x %d: %d words cut (%s), %d over others",

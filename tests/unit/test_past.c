@@ -54,7 +54,7 @@ static void run(long from, long to, uint64_t *hash)
 }
 
 /* From one step to the next that is looked at. */
-static int stride(int all, int some)
+static int choose_stride(int all, int some)
 {
     return tests_are_long() ? all : some;
 }
@@ -63,9 +63,9 @@ static int stride(int all, int some)
 static void check_all_steps(long steps, const uint64_t *hash)
 {
     Random random = {7};
-    for (long step = steps; step >= 0; step -= stride(3, 9))
+    for (long step = steps; step >= 0; step -= choose_stride(3, 9))
         CHECK(show(step) == hash[step]);
-    for (int i = 0; i < 20; i += stride(1, 3)) {
+    for (int i = 0; i < 20; i += choose_stride(1, 3)) {
         int step = random_below(&random, (int)steps + 1);
         CHECK(show(step) == hash[step]);
     }
@@ -94,7 +94,7 @@ enum { LINES = sizeof lines / sizeof *lines };
  * for a few states: then only every 2^k-th is kept. */
 TEST(states_come_back)
 {
-    for (int i = 0; i < 2 * LINES; i += stride(1, 3)) {
+    for (int i = 0; i < 2 * LINES; i += choose_stride(1, 3)) {
         uint64_t hash[STEPS + 1];
         Simulation plain;
         begin_past(lines[i % LINES]);
@@ -231,7 +231,7 @@ static double change_of_motion(const Simulation *simulation, const double *v_n)
 }
 
 /* A timestep every ten steps; a node is taken, jerked about and let go. */
-static void jerk(Random *random, int step)
+static void drag_randomly(Random *random, int step)
 {
     double h = random_logarithmic(random, 1e-4, 1);
     if (step % 10 == 0)
@@ -303,7 +303,7 @@ TEST(random_drags_end)
         begin_past(line);
         int runaways = 0;
         for (int step = 0; step < steps; step++) {
-            jerk(&random, step);
+            drag_randomly(&random, step);
             if (jerked_step(euler))
                 continue;
             past_free(&past);

@@ -53,7 +53,7 @@ static void read_updates(FILE *file, Updates *updates)
     fclose(file);
 }
 
-static bool keep_update(void *user, const NewtonRecord *record)
+static bool store_update(void *user, const NewtonRecord *record)
 {
     Updates *kept = user;
     CHECK(kept->count < ROWS);
@@ -128,7 +128,7 @@ static int read_cases(void **unused)
     return count == 19 ? 0 : -1;
 }
 
-static bool is_for(const Case *one, const char *who)
+static bool case_is_for(const Case *one, const char *who)
 {
     return strcmp(one->who, who) == 0;
 }
@@ -155,8 +155,8 @@ TEST(the_program_goes_the_slides_way)
 {
     for (int i = 0; i < count; i++) {
         const Case *it = &cases[i];
-        bool solid = is_for(it, "solid");
-        if (is_for(it, "lecture"))
+        bool solid = case_is_for(it, "solid");
+        if (case_is_for(it, "lecture"))
             continue;
         FILE *file = open_reference(it->name, "states");
         Simulation *scene = simulate("%s --tolerance 1e-9", it->line);
@@ -215,7 +215,7 @@ static void free_solid(Solid *solid)
 TEST(lecture_goes_the_slides_way)
 {
     static Updates got, expected;
-    for (int i = 0; i < count && is_for(&cases[i], "lecture"); i++) {
+    for (int i = 0; i < count && case_is_for(&cases[i], "lecture"); i++) {
         const Options options = simulate("%s", cases[i].line)->options;
         Solid solid = square(1, options.segments, 1000, options.stiffness);
         FILE *file = open_reference(cases[i].name, "states");
@@ -308,11 +308,11 @@ static void check_same_updates(const Updates *got, const Updates *expected,
 TEST(the_program_is_lecture_turned_round)
 {
     static Updates got, expected;
-    for (int i = 0; i < count && is_for(&cases[i], "lecture"); i++)
+    for (int i = 0; i < count && case_is_for(&cases[i], "lecture"); i++)
         for (int tight = 0; tight < 2; tight++) {
             got.count = expected.count = 0;
             Simulation *scene =
-                simulate_watched(keep_update, &got, "%s %s", cases[i].line,
+                simulate_watched(store_update, &got, "%s %s", cases[i].line,
                                  tight ? "--tolerance 1e-9" : "");
             const Options *options = &scene->options;
             const TimeIntegrator *run = &scene->run[0];
@@ -362,7 +362,7 @@ TEST(explicit_euler_is_the_product_s)
 
 /* By which part of the start's energy that of the stretched square strays in so
  * many steps of c/n_seg; or 1000, if it is more. */
-static double strays(int n_seg, double c, int steps)
+static double find_largest_deviation(int n_seg, double c, int steps)
 {
     Solid solid = square(1, n_seg, 1000, 1e5);
     double start, most = 0;
@@ -388,8 +388,8 @@ TEST(symplectic_euler_stays_as_long_as_it_says)
 {
     static const int n_seg[] = {4, 8, 16};
     for (int i = 0; i < 3; i++) {
-        CHECK(strays(n_seg[i], 0.01, 3000) <= 0.25);
-        CHECK(strays(n_seg[i], 0.025, 50) == 1000);
+        CHECK(find_largest_deviation(n_seg[i], 0.01, 3000) <= 0.25);
+        CHECK(find_largest_deviation(n_seg[i], 0.025, 50) == 1000);
     }
 }
 

@@ -102,7 +102,7 @@ TEST(landscape_is_downhill_from_everywhere)
 
 /* ---- the envelope ------------------------------------------------------- */
 
-static const EnvelopeCell *visit(Simulation *map, int column, int row)
+static const EnvelopeCell *show_cell_run(Simulation *map, int column, int row)
 {
     CHECK_OK(envelope_run_cell(map, column, row));
     return &map->exhibit.envelope.cell[row][column];
@@ -117,7 +117,7 @@ TEST(envelope_cells_are_runs)
     int refused = 0;
     for (int i = 0; i < 6; i++) {
         int column = cells[i][0], row = cells[i][1];
-        const EnvelopeCell *cell = visit(map, column, row);
+        const EnvelopeCell *cell = show_cell_run(map, column, row);
         Status worst = STATUS_OK;
         Simulation *run =
             simulate("square --segments %d --stretch %.17g --timestep %.17g "
@@ -209,7 +209,7 @@ TEST(a_body_that_is_pushed_stops_at_another)
 /* ---- the ledger while hands are on ------------------------------------- */
 
 /* Changes a run between two steps. */
-static Status meddle(Simulation *scene, int deed)
+static Status change_scene(Simulation *scene, int deed)
 {
     const double *x = scene->run[0].x + 2 * 7;
     const Options *now = &scene->options;
@@ -257,7 +257,7 @@ TEST(what_hands_do_is_work)
             Energies before = simulation_energies(scene, 0);
             int broken = count_broken_springs(scene);
             Status status =
-                n % 5 ? simulation_step(scene) : meddle(scene, n / 5);
+                n % 5 ? simulation_step(scene) : change_scene(scene, n / 5);
             Energies after = simulation_energies(scene, 0);
             double size = fabs(before.total) + fabs(after.total) +
                           fabs(after.work) + fabs(before.dissipated) + 1;

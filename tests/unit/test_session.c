@@ -60,7 +60,7 @@ static uint64_t shape_shown(void)
 
 /* Hash of the picture without its message, of its cards, of the state or of the
  * square's shape.  The picture is drawn as in a window: only after a change. */
-static uint64_t seen(const char *what)
+static uint64_t hash_shown(const char *what)
 {
     char note[sizeof player.note];
     if (strcmp(what, "state") == 0)
@@ -191,7 +191,7 @@ static void show_result(Status status)
         snprintf(player.note, sizeof player.note, "%.150s", player.message);
 }
 
-static void put(Input input)
+static void player_put_input(Input input)
 {
     input.x = mouse[0];
     input.y = mouse[1];
@@ -202,7 +202,7 @@ static void press_key(const char *name)
 {
     Input input = {.kind = INPUT_KEY};
     snprintf(input.key, sizeof input.key, "%s", name);
-    put(input);
+    player_put_input(input);
 }
 
 /* As the window names the key of a letter. */
@@ -340,7 +340,7 @@ static bool use_mouse(const char *verb, const char *place)
         if (strcmp(deeds[i].verb, verb) == 0) {
             point_at(place);
             scale_before = scale_now();
-            put(deeds[i].input);
+            player_put_input(deeds[i].input);
             return true;
         }
     return false;
@@ -351,8 +351,8 @@ static void resize_window(const char *size)
 {
     int *now = player.screen.paper_size;
     CHECK(sscanf(size, "%d %d", &now[0], &now[1]) == 2);
-    put((Input){.kind = INPUT_REDRAW});
-    seen("");
+    player_put_input((Input){.kind = INPUT_REDRAW});
+    hash_shown("");
 }
 
 static void run_until(long step)
@@ -423,7 +423,7 @@ static void check_tables(const char *line)
 
 static void compare(const char *verb, const char *rest)
 {
-    uint64_t now = seen(rest[1] ? rest + 2 : ""),
+    uint64_t now = hash_shown(rest[1] ? rest + 2 : ""),
              *mark = &marks[(rest[0] - 'a') % MARKS];
     if (strcmp(verb, "mark") == 0)
         *mark = now;
@@ -837,9 +837,9 @@ static double find_top(const Simulation *simulation)
 }
 
 /* m, how far the farthest node is from its place at rest */
-static double find_way_from_rest(const Simulation *simulation)
+static double find_distance_from_rest(const Simulation *simulation)
 {
-    const double *x = simulation->run[0].x, *rest = rest_of(simulation);
+    const double *x = simulation->run[0].x, *rest = rest_x(simulation);
     double most = 0;
     for (int i = 0; i < 2 * simulation->mesh.nodes; i += 2)
         most = fmax(most, hypot(x[i] - rest[i], x[i + 1] - rest[i + 1]));
@@ -924,7 +924,7 @@ static double find_hand_step(const Simulation *simulation)
  * shortest spring. */
 static double rested[2 * 128];
 
-static double find_way_from_stop(const Simulation *simulation)
+static double find_distance_from_stop(const Simulation *simulation)
 {
     const System *system = &simulation->system;
     double far = 0, l2 = INFINITY;
@@ -983,7 +983,7 @@ static const struct {
                {"all masses", add_masses},
                {"lowest", find_lowest},
                {"top", find_top},
-               {"way from rest", find_way_from_rest},
+               {"way from rest", find_distance_from_rest},
                {"mean vy", find_mean_vy},
                {"turned", count_turned},
                {"broken", count_broken_springs},
@@ -996,7 +996,7 @@ static const struct {
                {"wall", find_wall},
                {"hand distance", find_hand_distance},
                {"hand step", find_hand_step},
-               {"way from stop", find_way_from_stop},
+               {"way from stop", find_distance_from_stop},
                {"unconverged", count_unconverged}};
 
 /* Finds a number by its name: a name of the table above, a coordinate of a
@@ -1073,7 +1073,7 @@ static void check_value(const char *line)
 }
 
 /* Makes steps of a line "STEPS NAME NUMBER"; the number holds after each. */
-static void keep_value(const char *line)
+static void store_value(const char *line)
 {
     for (long left = atol(line); left > 0; left--) {
         show_result(player_make_step(&player));
@@ -1087,7 +1087,7 @@ static void session_line(const char *line)
         const char *verb;
         void (*act)(const char *rest);
     } acts[] = {{"begin", begin_session}, {"size", resize_window},
-                {"value", check_value},   {"keeps", keep_value},
+                {"value", check_value},   {"keeps", store_value},
                 {"replays", replay},      {"tables", check_tables},
                 {"file", record_file},    {"picture", check_picture},
                 {"words", record_words}};
@@ -1301,7 +1301,7 @@ static void grips_go_where_they_are_dragged(void **unused)
 /* The rest of the row, and what else is seen of the run. */
 static uint64_t all_but(int place)
 {
-    uint64_t hash = seen("state") + (uint64_t)player.past.step;
+    uint64_t hash = hash_shown("state") + (uint64_t)player.past.step;
     player_build_frame(&player);
     for (int i = 0; i < content->settings.count; i++)
         if (i != place)
@@ -1329,7 +1329,7 @@ static void random_keys_stay_in_their_field(void **unused)
             session_line("begin square --segments 2 --paused");
             session_line("key N N");
         }
-        uint64_t before = seen("");
+        uint64_t before = hash_shown("");
         int place = random_below(&random, player.screen.frame.options);
         for (int i = 0; i <= place; i++)
             press_key("Tab");
@@ -1354,7 +1354,7 @@ static void random_keys_stay_in_their_field(void **unused)
         if (set && player.past.step == 2) /* a mesh size begins a new run */
             CHECK(all_but(place) == rest);
         if (!set)
-            CHECK(seen("") == before);
+            CHECK(hash_shown("") == before);
         assert_string_equal(player_simulation(&player)->scene->name, "square");
         assert_int_equal(count_files(false), 0);
     }

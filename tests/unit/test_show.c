@@ -25,7 +25,7 @@ static void set_size(int width, int height)
     layout = layout_create(&content, width, height);
 }
 
-static void sample(void)
+static void sample_energies(void)
 {
     Energy row[HISTORY_SERIES];
     const Picture *picture = picture_of_scene(simulation.scene);
@@ -34,17 +34,17 @@ static void sample(void)
 }
 
 /* Replaces the simulation of the test before. */
-static void stand_up(const char *line, int steps)
+static void begin_show(const char *line, int steps)
 {
     simulation_free(&simulation);
     simulation_from_line(line, NULL, NULL, &simulation);
     history.series = history.count = 0;
-    sample();
+    sample_energies();
     for (int i = 0; i < steps; i++) {
         Status status = simulation_step(&simulation);
         assert_true(!status || status_is_unconverged(status) ||
                     simulation.is_over);
-        sample();
+        sample_energies();
     }
     frame_create(&simulation, &content);
     view = *content.view;
@@ -54,7 +54,7 @@ static void stand_up(const char *line, int steps)
     set_size(1280, 800);
 }
 
-static int take_down(void **unused)
+static int end_show(void **unused)
 {
     (void)unused;
     paper_free(&paper);
@@ -140,7 +140,7 @@ TEST(every_size_is_drawn)
             for (int mode = 0; mode < 4; mode++) {
                 if (!tests_are_long() && (scene - scenes + i + mode) % 2)
                     continue;
-                stand_up(scene->name, mode);
+                begin_show(scene->name, mode);
                 content.shows_strain = mode & 1;
                 content.is_bare = mode == 3;
                 content.column = mode == 2 ? COLUMN_KEYS : COLUMN_CARDS;
@@ -167,7 +167,7 @@ enum { ENERGIES = 4 };
  * pixel is covered; what has folded over is dark, and stands above the rest. */
 TEST(fine_squares_are_faces)
 {
-    stand_up("square --segments 90 --turn 17 --stretch 1.3", 0);
+    begin_show("square --segments 90 --turn 17 --stretch 1.3", 0);
     set_size(400, 400);
     content.is_bare = true;
     draw();
@@ -209,12 +209,12 @@ TEST(fine_squares_are_faces)
  * beyond them words say why nothing is seen. */
 TEST(what_flies_far_is_drawn_or_reported)
 {
-    stand_up("square", 0);
+    begin_show("square", 0);
     double *x = simulation.run[0].x;
     int size = 2 * simulation.system.nodes;
     for (double far = 1e10; far < 1e301; far *= 1e10) {
         for (int i = 0; i < size; i++)
-            x[i] = far * rest_of(&simulation)[i];
+            x[i] = far * rest_x(&simulation)[i];
         draw();
         CHECK(on_stage(COLOUR_X) > 500 && on_stage(COLOUR_WARNING) == 0);
     }
@@ -242,7 +242,7 @@ TEST(the_camera_does_not_jump)
         "square --stretch 1 --ball 1.1,0,0.2 --velocity -2,0 --timestep 0.02",
         "drop --velocity 3,3 --timestep 0.02"};
     for (int i = 0; i < 3; i++) {
-        stand_up(lines[i], 0);
+        begin_show(lines[i], 0);
         Camera was = camera_of_pane(&content, &layout, 0);
         int jumps = 0;
         for (int step = 0; step < 150; step++) {
@@ -271,7 +271,7 @@ TEST(the_camera_does_not_jump)
  * broken; left or right of the square there is nothing. */
 TEST(the_mouse_finds_nodes_and_springs)
 {
-    stand_up("square", 2);
+    begin_show("square", 2);
     content.time_line.is_paused = true;
     System *system = &simulation.system;
     const double *x = simulation.run[0].x;
@@ -310,7 +310,7 @@ TEST(the_mouse_finds_nodes_and_springs)
     CHECK(pick_at(column, height, -12, 0).kind == PICK_NONE);
     system->k[left] = 0;
     CHECK(pick_at(column, height, -6, 0).kind == PICK_NONE);
-    stand_up("square", 0); /* before the first step its sides are edges */
+    begin_show("square", 0); /* before the first step its sides are edges */
     content.time_line.is_paused = true;
     for (int side = 0; side < 2; side++)
         CHECK(picks(pick_at(side ? 0.7 : -0.7, 0.125, 0, 0), PICK_EDGE, side));
@@ -389,7 +389,7 @@ TEST(texts_say_what_is_known)
 TEST(maps_have_levels_and_pulls)
 {
     static const double levels[] = {0.2, 0.6, 1};
-    stand_up("landscape --projection none --start 0.6,0.9 --timestep 0.1", 0);
+    begin_show("landscape --projection none --start 0.6,0.9 --timestep 0.1", 0);
     content.lecture.page = lecture_find_page("parts");
     lecture_apply_page(content.lecture.page, &simulation.options);
     simulation.exhibit.switches = PART_INERTIA;
@@ -436,7 +436,7 @@ TEST(the_plot_of_energies_stays_high)
                 {"squeeze --big" ALL_ENERGIES, 1, 1366, 768},
                 {"square", 6, 900, 600}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        stand_up(rows[i].line, 8);
+        begin_show(rows[i].line, 8);
         for (int s = 0; s < history.series; s++)
             history.value[s][4] = -1000 * s; /* all are seen */
         content.settings.count = 12;
@@ -482,7 +482,7 @@ TEST(right_digits_are_marked)
 {
     static const char *const roots[] = {"1.",   "1.",       "1.",
                                         "1.17", "1.177993", "1.17799325406"};
-    stand_up("tangent", 0);
+    begin_show("tangent", 0);
     content.lecture.page = lecture_find_page("tangent");
     lecture_apply_page(content.lecture.page, &simulation.options);
     for (int i = 0; i <= 6; i++) {
@@ -506,4 +506,4 @@ TEST(right_digits_are_marked)
     }
 }
 
-TESTS(NULL, take_down)
+TESTS(NULL, end_show)

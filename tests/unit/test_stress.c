@@ -42,14 +42,14 @@ TEST(random_scenes_keep_the_promise)
 }
 
 /* Steps that break one promise each, and else are those of the slides. */
-static void go_back_a_little(TimeIntegrator *run)
+static void reduce_step(TimeIntegrator *run)
 {
     integrator_methods[0].finish(run);
     for (size_t i = 0; i < run->x_length; i++)
         run->newton->iterate.u[i] *= 0.9;
 }
 
-static void fall_through(TimeIntegrator *run)
+static void move_through_ground(TimeIntegrator *run)
 {
     integrator_methods[0].finish(run);
     run->new_x[1] = -0.7;
@@ -72,14 +72,14 @@ static void turn(TimeIntegrator *run)
 /* A tolerance that grows behind the judge's back. */
 static double tolerance;
 
-static void be_content(TimeIntegrator *run)
+static void loosen_tolerance(TimeIntegrator *run)
 {
     tolerance = run->newton->settings.tolerance;
     run->newton->settings.tolerance = 1;
     integrator_methods[0].set_target(run);
 }
 
-static void be_strict_again(TimeIntegrator *run)
+static void restore_tolerance(TimeIntegrator *run)
 {
     run->newton->settings.tolerance = tolerance;
     integrator_methods[0].finish(run);

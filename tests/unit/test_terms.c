@@ -219,7 +219,7 @@ static void add_terms(const Row *row, Random *random, System *system)
 }
 
 /* Random u that all terms allow, and two directions. */
-static void make_place(const Row *row, Random *random, Case *c)
+static void make_positions(const Row *row, Random *random, Case *c)
 {
     double shake = row->flat            ? 1e-8
                    : row->shape == PAIR ? 0.05
@@ -264,7 +264,7 @@ static void make_case(const Row *row, Random *random, Case *c)
                 &(TermStep){system, &system->term[i], c->x_n, c->u, c->h}));
     c->at = make_eval_point(system, c->x_n, c->u, c->x);
     c->at.weight = random_logarithmic(random, 0.1, 10);
-    make_place(row, random, c);
+    make_positions(row, random, c);
 }
 
 /* TermKind's hessian, without a matrix; a force that is the same everywhere has
@@ -287,7 +287,7 @@ static const Row *row; /* of the present test */
 static long looked;    /* how often a property said something */
 
 /* What the formula says, and how far an ulp in each coordinate moves it. */
-static Jet exact(const Case *c, const TermKind *kind, Real alpha, Jet *noise)
+static Jet oracle(const Case *c, const TermKind *kind, Real alpha, Jet *noise)
 {
     Random random = {1};
     Spot spot = {.at = &c->at, .h = c->h, .alpha = alpha, .p = c->p, .q = c->q};
@@ -303,7 +303,7 @@ static Jet exact(const Case *c, const TermKind *kind, Real alpha, Jet *noise)
     return part;
 }
 
-static void near(const char *what, Real got, Real expected, Real tolerance)
+static void check(const char *what, Real got, Real expected, Real tolerance)
 {
     looked++;
     if (got == expected) /* both infinite: behind a wall */
@@ -337,21 +337,21 @@ static Real entries_noise(Case *c, const TermKind *kind)
 }
 
 /* value, gradient, Hessian: those of the formula. */
-static void derivatives(Case *c, const TermKind *kind)
+static void check_derivatives(Case *c, const TermKind *kind)
 {
     Jet noise;
     double g[SIZE] = {0}, Hq[SIZE] = {0}, Hp[SIZE] = {0};
-    Jet formula = exact(c, kind, 0, &noise);
+    Jet formula = oracle(c, kind, 0, &noise);
     kind->gradient(&c->at, g);
     noise.p += dot_noise(c, g, c->p);
     noise.pq += entries_noise(c, kind);
     times_hessian(c, kind, PROJECTION_NONE, c->q, Hq);
     times_hessian(c, kind, PROJECTION_NONE, c->p, Hp);
     if (!(system_term_data(&c->system, &damping) && !kind->is_external))
-        near("value", c->at.weight * kind->value(&c->at), formula.f, noise.f);
-    near("gradient", dot(c, g, c->p), formula.p, noise.p);
-    near("Hessian", dot(c, Hq, c->p), formula.pq, noise.pq);
-    near("symmetry", dot(c, Hp, c->q), formula.pq, noise.pq);
+        check("value", c->at.weight * kind->value(&c->at), formula.f, noise.f);
+    check("gradient", dot(c, g, c->p), formula.p, noise.p);
+    check("Hessian", dot(c, Hq, c->p), formula.pq, noise.pq);
+    check("symmetry", dot(c, Hp, c->q), formula.pq, noise.pq);
     for (int f = 0; f < PROJECTION_COUNT; f++) { /* it says what it changes */
         double projected[SIZE] = {0};
         bool differs = false;
@@ -362,9 +362,9 @@ static void derivatives(Case *c, const TermKind *kind)
     }
     for (int i = 0; i < c->size && kind->is_diagonal;
          i++) /* the same everywhere */
-        near("curvature", fabs(Hq[i]), 0,
-             c->at.weight * kind->curvature_bound(&c->at) * fabs(c->q[i]) *
-                 (1 + 4 * DBL_EPSILON));
+        check("curvature", fabs(Hq[i]), 0,
+              c->at.weight * kind->curvature_bound(&c->at) * fabs(c->q[i]) *
+                  (1 + 4 * DBL_EPSILON));
     if (kind->is_external)
         return;
     Real sum[3] = {0}, size = 0;
@@ -376,12 +376,12 @@ static void derivatives(Case *c, const TermKind *kind)
     }
     /* where the tangent is of x_n, they may turn all */
     for (int i = 0; i < (kind == &self_friction_energy ? 2 : 3); i++)
-        near("forces add up to nothing", sum[i], 0, 1e-14L * size);
+        check("forces add up to nothing", sum[i], 0, 1e-14L * size);
 }
 
 /* E along p: exact where it moves much, right to its last digits where it moves
  * next to nothing. */
-static void line(Case *c, const TermKind *kind, Random *random)
+static void check_line(Case *c, const TermKind *kind, Random *random)
 {
     double q[3] = {0}, g[SIZE] = {0}, reach = INFINITY;
     if (kind->element)
@@ -392,8 +392,8 @@ static void line(Case *c, const TermKind *kind, Random *random)
     double alpha = random_below(random, 4) == 0
                        ? 1e-9
                        : most * random_logarithmic(random, 1e-9, 1);
-    Jet noise[2], start = exact(c, kind, 0, &noise[0]);
-    Jet end = exact(c, kind, alpha, &noise[1]);
+    Jet noise[2], start = oracle(c, kind, 0, &noise[0]);
+    Jet end = oracle(c, kind, alpha, &noise[1]);
     kind->gradient(&c->at, g);
     if (kind->line_polynomial)
         kind->line_polynomial(&c->at, c->p, q);
@@ -401,14 +401,14 @@ static void line(Case *c, const TermKind *kind, Random *random)
     if (kind->line_remainder)
         got += kind->line_remainder(&c->at, c->p, alpha);
     Real expected = end.f - start.f - alpha * start.p;
-    near("change", got, expected,
-         1e-13L * (fabsl(expected) + fabsl(end.f) + alpha * fabsl(start.p)) +
-             noise[0].f + noise[1].f + alpha * noise[0].p);
+    check("change", got, expected,
+          1e-13L * (fabsl(expected) + fabsl(end.f) + alpha * fabsl(start.p)) +
+              noise[0].f + noise[1].f + alpha * noise[0].p);
     memcpy(c->q, c->p, sizeof c->p);
-    start = exact(c, kind, 0, &noise[0]);
+    start = oracle(c, kind, 0, &noise[0]);
     if (alpha == 1e-9)
-        near("small change", got, alpha * alpha / 2 * start.pq,
-             alpha * alpha * (1e-3L * fabsl(start.pq) + noise[0].pq));
+        check("small change", got, alpha * alpha / 2 * start.pq,
+              alpha * alpha * (1e-3L * fabsl(start.pq) + noise[0].pq));
 }
 
 /* The smallest part that is left of a gap, or of the area of a triangle. */
@@ -426,7 +426,7 @@ static double part_left(const Case *c, const double *x)
 }
 
 /* Before the limit every place is allowed; there a tenth is left. */
-static void limit(Case *c, const TermKind *kind)
+static void check_max_step(Case *c, const TermKind *kind)
 {
     double x[SIZE],
         alpha = kind->element ? elements_max_step(&c->at, c->p) : INFINITY;
@@ -450,12 +450,12 @@ static void limit(Case *c, const TermKind *kind)
     if (row->shape == PAIR)
         CHECK(crossings > 0);
     else if (row->shape != GRID) /* there another corner may be the smallest */
-        near("what the limit leaves", part_left(c, x), 0.1, 1e-8);
+        check("what the limit leaves", part_left(c, x), 0.1, 1e-8);
 }
 
 /* The matrix is the products' one, and projected it has the blocks' negative
  * eigenvalues cut or mirrored. */
-static void projection(Case *c, Random *random)
+static void check_projection(Case *c, Random *random)
 {
     IncrementalPotential E = {&c->system, c->at.weight, c->x_n, c->u};
     Iterate iterate = {.E = E, .u = c->u, .x = c->x};
@@ -476,7 +476,7 @@ static void projection(Case *c, Random *random)
         Real sum = 0;
         for (int j = 0; j < n; j++)
             sum += (Real)plain[n * i + j] * c->q[j];
-        near("matrix", Hq[i], sum, 2e-14L * scale);
+        check("matrix", Hq[i], sum, 2e-14L * scale);
     }
     exact_derivatives(&E, c->u, c->x, c->h, 0, g, exact_plain);
     const Projection projections[2] = {PROJECTION_CLAMP, PROJECTION_ABS};
@@ -500,14 +500,14 @@ static void projection(Case *c, Random *random)
         }
         /* Of a gap of 2 mm an ulp of x is 1e-13, of W'' three times as much. */
         Real relative = 1e-14L * n + (row->shape == PAIR ? 4e-13L : 0);
-        near("projection", more, expected, relative * scale);
+        check("projection", more, expected, relative * scale);
     }
     sparse_free(&A);
 }
 
 /* Inertia and all terms together: E of a step, its first and second
  * derivatives. */
-static void whole_step(Case *c, Random *random)
+static void check_whole_step(Case *c, Random *random)
 {
     double u_tilde[SIZE], g[SIZE], Hq[SIZE];
     for (int i = 0; i < c->size; i++)
@@ -515,21 +515,21 @@ static void whole_step(Case *c, Random *random)
     IncrementalPotential E = {&c->system, c->at.weight, c->x_n, u_tilde};
     Spot spot = {.at = &c->at, .h = c->h, .p = c->p, .q = c->q};
     Jet noise, part = oracle_step(&spot, u_tilde), size = spot.size;
-    exact(c, NULL, 0, &noise);
+    oracle(c, NULL, 0, &noise);
     Iterate iterate = {.E = E, .u = c->u, .x = c->x, .g = g, .p = c->p};
     incremental_potential_gradient(&E, c->u, c->x, g);
     incremental_potential_product(&iterate, PROJECTION_NONE, c->q, Hq);
-    near("E's gradient", dot(c, g, c->p), part.p, noise.p + 1e-13L * size.p);
-    near("E's Hessian", dot(c, Hq, c->p), part.pq,
-         noise.pq + dot_noise(c, Hq, c->p) + 1e-13L * size.pq);
+    check("E's gradient", dot(c, g, c->p), part.p, noise.p + 1e-13L * size.p);
+    check("E's Hessian", dot(c, Hq, c->p), part.pq,
+          noise.pq + dot_noise(c, Hq, c->p) + 1e-13L * size.pq);
     if (!system_term_data(&c->system, &damping))
-        near("E", incremental_potential_value(&E, c->u, c->x), part.f,
-             noise.f + 1e-13L * size.f);
+        check("E", incremental_potential_value(&E, c->u, c->x), part.f,
+              noise.f + 1e-13L * size.f);
     const LineEnergy along = incremental_potential_prepare_line(&iterate);
     spot.alpha = 1e-3L;
     Real change = oracle_step(&spot, u_tilde).f - part.f;
-    near("E along p", line_energy_difference(&along, 1e-3), change,
-         2 * noise.f + noise.p + 1e-13L * size.f);
+    check("E along p", line_energy_difference(&along, 1e-3), change,
+          2 * noise.f + noise.p + 1e-13L * size.f);
 }
 
 static void row_is_right(void **state)
@@ -544,12 +544,12 @@ static void row_is_right(void **state)
             if (!kind->value)
                 continue;
             CHECK(!(kind->value(&c.at) < 0)); /* E is its own size */
-            derivatives(&c, kind);
-            limit(&c, kind);
-            line(&c, kind, &random);
+            check_derivatives(&c, kind);
+            check_max_step(&c, kind);
+            check_line(&c, kind, &random);
         }
-        projection(&c, &random);
-        whole_step(&c, &random);
+        check_projection(&c, &random);
+        check_whole_step(&c, &random);
         system_free(&c.system);
     }
     CHECK(looked > 1000);

@@ -205,7 +205,7 @@ Simulation *simulate_watched(NewtonObserver observer, void *user,
 }
 
 /* Takes the control, which is dropped, too. */
-static Status use(Simulation *simulation, Control *control)
+static Status apply_control(Simulation *simulation, Control *control)
 {
     Status status = control_apply(simulation, control);
     control_release(control);
@@ -216,14 +216,14 @@ Status simulation_set(Simulation *simulation, int slot, double value)
 {
     Control *control = control_from_simulation(simulation);
     control->options.number[slot] = value;
-    return use(simulation, control);
+    return apply_control(simulation, control);
 }
 
 Status simulation_pin(Simulation *simulation, int node, bool pinned)
 {
     Control *control = control_from_simulation(simulation);
     control->pinned[node] = pinned;
-    return use(simulation, control);
+    return apply_control(simulation, control);
 }
 
 Status simulation_hold(Simulation *simulation, int node, double x, double y)
@@ -232,7 +232,7 @@ Status simulation_hold(Simulation *simulation, int node, double x, double y)
     control->held_node = node;
     control->target[0] = x;
     control->target[1] = y;
-    return use(simulation, control);
+    return apply_control(simulation, control);
 }
 
 Simulation *make_steps(Simulation *simulation, int count)
@@ -303,7 +303,7 @@ double heap_in_use(void)
 #endif
 }
 
-double *rest_of(const Simulation *simulation)
+double *rest_x(const Simulation *simulation)
 {
     static double rest[2 * 2048];
     CHECK(simulation->mesh.nodes <= 2048);

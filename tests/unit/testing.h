@@ -126,6 +126,6 @@ double count_broken_springs(const Simulation *simulation);
 double heap_in_use(void);
 
 /* Rest positions of the mesh, [2n] m; valid until the next call */
-double *rest_of(const Simulation *simulation);
+double *rest_x(const Simulation *simulation);
 
 #endif
