@@ -5,7 +5,7 @@
 
 #include "picture/cards.h"
 
-enum { HALVED_COLUMNS = 2 }; /* of the table, for halved time steps */
+enum { HALVED_COLUMNS = 2 }; /* table columns of halved time steps */
 static const double NAMES_WIDTH = 20;    /* ems; a narrower plot has no names */
 static const double TARGET_ERROR = 0.01; /* m, largest error of a fast run */
 

@@ -75,10 +75,10 @@ static Real logarithm(Real a)
     return log1p_of(a / ldexpl(0.5L, k)) + (k - 1) * log1p_of(2);
 }
 
-#define fabsl     size_of
-#define sqrtl     root_of
-#define logl      log_of
-#define hypotl    length_of
+#define fabsl     magnitude
+#define sqrtl     square_root
+#define logl      logarithm
+#define hypotl    vector_length
 #define fminl     smaller
 #define fmaxl     larger
 #define copysignl with_sign

@@ -132,7 +132,7 @@ TEST(steps_fall_and_pass_the_test_of_algorithm_3)
             pull(rows[i].hand);
         if (i == 14) /* a short step, which a bound ends */
             square->run[0].h = newton->settings.h = 1e-4;
-        newton->settings.observer = see_fall;
+        newton->settings.observer = store_residual;
         newton->settings.user_data = &fall;
         for (int step = 0; step < (i == 0 ? 12 : 4); step++) {
             make_steps(square, 1);

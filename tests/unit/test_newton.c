@@ -46,7 +46,7 @@ TEST(residuals_are_what_they_are_called)
     for (int line = 0; line < 7; line++) {
         LastRecord last;
         Simulation *simulation =
-            simulate_watched(keep_last, &last, "%s", lines[line]);
+            simulate_watched(store_record, &last, "%s", lines[line]);
         TimeIntegrator *run = &simulation->run[0];
         const Newton *newton = run->newton;
         double tolerance = simulation->options.tolerance;
@@ -187,7 +187,7 @@ TEST(lost_masses_are_found_again)
 {
     double shift = 0;
     Simulation *simulation =
-        simulate_watched(keep_shift, &shift, "--segments 3 --stiffness 1e30");
+        simulate_watched(store_shift, &shift, "--segments 3 --stiffness 1e30");
     TimeIntegrator *run = &simulation->run[0];
     double start = system_potential(&simulation->system, run->x);
     for (int i = 0; i < SIZE; i++)
@@ -239,7 +239,7 @@ static bool store_energy(void *unused, char *line)
 
 TEST(energy_never_rises_without_masses)
 {
-    stress_rows("massless", keep_energy, NULL);
+    stress_rows("massless", store_energy, NULL);
 }
 
 /* ---- backtracking ------------------------------------------------------ */
