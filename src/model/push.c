@@ -19,8 +19,7 @@ static const double STRENGTH = 0.1;
 /* The obstacle keeps this part of the barrier's width from pinned nodes. */
 static const double KEPT = 0.3;
 
-/* Limits for the path of the obstacle in a step. */
-enum { MAX_HALVINGS = 8, MAX_PARTS = 16 };
+enum { MAX_HALVINGS = 8, MAX_PARTS = 16 }; /* limits of the path in a step */
 
 /* Writes the displacement of a free obstacle in a step of h seconds. */
 static void plan_obstacle_path(const Push *push, const double *o, double h,

@@ -126,9 +126,8 @@ void grid_line_polynomial(const Grid *grid, const double *p, double quartic[4]);
  *   g, last_g   grad E after and before that step
  *   last_slope  last_g.last_p, below 0
  * Returns beta >= 0. */
-double grid_conjugate_direction(const Grid *grid, const double *g,
-                                const double *last_g, const double *last_p,
-                                double last_slope, double *p);
+double grid_conjugate_p(const Grid *grid, const double *g, const double *last_g,
+                        const double *last_p, double last_slope, double *p);
 
 /* Moves all nodes alike, so that sum m x is sum m x_tilde, as at the minimum of
  * E where no node is pinned.  Returns the change of E, which is at most 0. */

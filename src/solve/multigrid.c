@@ -239,8 +239,8 @@ static Status multigrid_find_step_length(Newton *newton)
     for (bool again = true; again;) {
         double beta = 0;
         if (record->iteration > 0 && !mg->has_relaxed)
-            beta = grid_conjugate_direction(&mg->grid, mg->g, mg->last_g,
-                                            mg->last_p, last_slope, mg->p);
+            beta = grid_conjugate_p(&mg->grid, mg->g, mg->last_g, mg->last_p,
+                                    last_slope, mg->p);
         mg->p_size = record->residual * newton->settings.h + beta * last_size;
         multigrid_compute_line_polynomial(mg);
         record->slope = mg->line_E.q[0];
