@@ -17,11 +17,11 @@
 /* An element, and its place on the curve of the law. */
 typedef struct LawPoint {
     EvalPoint eval;
-    Element element;   /* contact or triangle */
-    FlowLaw spring;    /* law of the spring */
-    double axis_unit;  /* unit of axis_low and axis_high; of contact: d_hat */
-    double x;          /* value on the axis; NaN: there is no element */
-    double load;       /* the card shows the element with the largest load */
+    Element element;  /* contact or triangle */
+    FlowLaw spring;   /* law of the spring */
+    double axis_unit; /* unit of axis_low and axis_high; of contact: d_hat */
+    double x;         /* value on the axis; NaN: there is no element */
+    double load;      /* the card shows the element with the largest load */
 } LawPoint;
 
 typedef struct Law {
@@ -86,10 +86,10 @@ static const Law laws[] = {
      &self_contact_energy, friction_force_ratio, 0, 2, true},
     {"triangle", "J", "\u03a8 in J/m\u00b2", &neo_hookean_energy,
      &neo_hookean_energy, triangle_energy_density, 0, 1.5, false},
-    {"yield", "strain s", "force/(2k|d|)", &plastic_energy, NULL, flow_force_at,
-     -1, 1, false},
-    {"break", "s/s_{c}", "scaled force", &fracture, NULL, breaking_force_ratio,
-     0, 1.3, false},
+    {"yield", "strain s", "s \u2212 s_{p}", &plastic_energy, NULL,
+     flow_force_at, -1, 1, false},
+    {"break", "s/s_{c}", "force, 1 at s_{c}", &fracture, NULL,
+     breaking_force_ratio, 0, 1.3, false},
 };
 
 static void set_spring_law(LawPoint *now, int s)

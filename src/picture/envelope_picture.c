@@ -92,7 +92,6 @@ void envelope_add_values(const Simulation *simulation, LiveValues *values)
 {
     const EnvelopeMap *map = &simulation->exhibit.envelope;
     const EnvelopeCell *cell = &map->cell[map->row][map->column];
-    double h = envelope_timestep(map->column);
     int known = 0, converged = 0;
     for (int i = 0; i < ENVELOPE_ROWS * ENVELOPE_COLUMNS; i++) {
         const EnvelopeCell *one =
@@ -104,12 +103,11 @@ void envelope_add_values(const Simulation *simulation, LiveValues *values)
     values->colour[1] = colour_of_shade(2);
     values->colour[2] = COLOUR_REFUSED;
     bool all = known == ENVELOPE_ROWS * ENVELOPE_COLUMNS;
-    values_add_flag(values, all ? "all runs" : "some runs", true);
     values_add_flag(values, "all converged", all && converged == known);
     values_add_flag(values, "refused", all && converged < known);
     values_add(values, "known", known > 1 ? known : NAN);
     values_add(values, "converged", converged);
-    values_add(values, "h", h);
+    values_add(values, "h", envelope_timestep(map->column));
     values_add(values, "k", envelope_stiffness(map->row));
     values_add(values, "steps", ENVELOPE_STEPS);
     values_add(values, "updates", cell->updates);

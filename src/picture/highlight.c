@@ -99,17 +99,18 @@ void highlight_draw(Paper *paper, const FrameContent *content)
     const Trace *trace = active_pane(content)->trace;
     const WindowHit *mouse = &content->view->mouse_hit;
     unsigned layers = active_pane(content)->simulation->options.layers;
-    bool stage = mouse->zone == ZONE_STAGE;
+    bool stage = mouse->zone == ZONE_STAGE, idle = content->title_bar.state[0];
+    PickKind over = content->view->hovered.kind;
     Colour colour = 0;
     if (!content->lecture.page)
         return;
-    if (mouse->zone == ZONE_CARD || stage)
+    if (idle && (mouse->zone == ZONE_CARD || stage))
         colour = find_term_near(&paper->canvas, mouse->pixel,
                                 (int)(MOUSE_REACH * paper->em));
     bool plain =
-        content->view->hovered.kind == PICK_SWITCH && !(layers & LAYER_KINDS);
+        over == PICK_NODE || (over == PICK_SWITCH && !(layers & LAYER_KINDS));
     if (plain || (colour == COLOUR_X && stage) || layers & LAYER_CURVES)
-        colour = 0; /* no term: a switch, springs of the square, curves of g */
+        colour = 0; /* no term: a node, a switch, springs, curves of g */
     if (!colour && trace && frame_has_card(content, "listing"))
         colour = of_line[trace->at_line];
     if (colour)

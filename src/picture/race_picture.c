@@ -9,19 +9,19 @@ enum { HALVED_COLUMNS = 2 }; /* table columns of halved time steps */
 static const double NAMES_WIDTH = 20;    /* ems; a narrower plot has no names */
 static const double TARGET_ERROR = 0.01; /* m, largest error of a fast run */
 
-/* Returns bounds in powers of ten: h or run time, and error.  Errors
+/* Returns bounds in powers of ten: h or run time, ms, and error.  Errors
  * below 1e-8 m and above 10 m may be outside. */
 void race_bounds(const Plot *stage, double bounds[4])
 {
     const Race *race = &stage->simulation->exhibit.race;
     bool over_h = stage->simulation->exhibit.switches;
-    bounds[0] = over_h ? -4.8 : -6.4;
+    bounds[0] = over_h ? -1.8 : -3.4;
     bounds[1] = -7.4;
-    bounds[2] = over_h ? -1.9 : -0.9; /* names */
-    bounds[3] = 1.2; /* room for the switch above */
+    bounds[2] = over_h ? 1.1 : 2.1; /* names */
+    bounds[3] = 1.2;                /* room for the switch above */
     for (int i = 0; i < race->count; i++) {
         const RacePoint *point = &race->point[i];
-        double x = log10(over_h ? point->h : point->seconds);
+        double x = log10(1e3 * (over_h ? point->h : point->seconds));
         double y = fmin(fmax(log10(point->error), -8), 1);
         if (!(point->error > 0))
             continue;
@@ -43,7 +43,7 @@ void race_draw(Plot *stage)
     bool wide = stage->has_text && stage->box.width > NAMES_WIDTH * stage->em;
     Plot plot = plot_create_on_stage(
         stage,
-        (Axis){.is_log = true, .label = over_h ? "h in s" : "run time in s"},
+        (Axis){.is_log = true, .label = over_h ? "h in ms" : "run time in ms"},
         (Axis){.is_log = true});
     const double at[2][2] = {{plot.x.low, TARGET_ERROR},
                              {plot.x.high, TARGET_ERROR}};
@@ -55,8 +55,8 @@ void race_draw(Plot *stage)
         named[method][0] = named[method][1] = NAN;
         for (int i = method; i < race->count; i += RACE_METHODS) {
             const RacePoint *point = &race->point[i];
-            const double now[2] = {over_h ? point->h : point->seconds,
-                                   point->error};
+            double seconds = over_h ? point->h : point->seconds;
+            const double now[2] = {1e3 * seconds, point->error};
             if (!(point->error > 0))
                 continue;
             plot_line(&plot, last, now, 2.2, colour);
@@ -66,7 +66,7 @@ void race_draw(Plot *stage)
         }
     }
     for (int order = 1; over_h && wide && order <= 2; order++) {
-        const double from[2] = {2.5e-5, 0.03}, way = 4.5;
+        const double from[2] = {0.025, 0.03}, way = 4.5;
         const double to[2] = {from[0] * way, from[1] * pow(way, order)};
         plot_dashes(&plot, from, to, 1.2, NULL, COLOUR_GREY);
         plot_label(&plot, 1, to, COLOUR_GREY, "order %d", order);
@@ -96,8 +96,6 @@ void race_add_values(const Simulation *simulation, LiveValues *values)
         values_add(values, names[i][1], best ? 1e3 * best->seconds : NAN);
         values_add_flag(values, i ? "" : "no explicit", !best && all);
     }
-    values_add_flag(values, all ? "all runs" : "some runs",
-                    !simulation->status);
     values_add_flag(
         values, simulation->exhibit.switches ? "over h" : "over time", true);
     values_add(values, "methods", RACE_METHODS);

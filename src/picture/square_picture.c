@@ -398,12 +398,14 @@ static void draw_node_arrows(const SquarePen *pen, const double *d,
     double longest = 1e-300, most = 0.9 * pen->simulation->mesh.spacing;
     for (int i = 0; i < nodes; i++)
         longest = fmax(longest, vector_length(d + 2 * i));
-    if (factor == 0)
-        factor = most / longest;
-    for (int i = 0; i < nodes; i++)
-        plot_arrow(pen->stage, pen->x + 2 * i, d + 2 * i,
-                   fmin(factor, most / fmax(vector_length(d + 2 * i), 1e-300)),
-                   2.6, colour);
+    factor = factor == 0 ? most / longest : factor;
+    for (int k = 0; k < 2 * nodes; k++) { /* first the white rims */
+        const double *di = d + k % nodes * 2;
+        plot_arrow(pen->stage, pen->x + k % nodes * 2, di,
+                   fmin(factor, most / fmax(vector_length(di), 1e-300)) *
+                       (k < nodes ? 1.15 : 1),
+                   k < nodes ? 10 : 3, k < nodes ? COLOUR_WHITE : colour);
+    }
     plot_legend(pen->stage, colour, "%s%s", word,
                 factor * longest > 1.001 * most ? "; long ones are cut" : "");
 }
@@ -582,6 +584,8 @@ void square_draw(Plot *stage)
         square_draw_springs(pen);
     else
         square_draw_faces(pen);
+    if (!content->is_bare)
+        draw_page_arrows(pen);
     if (!solid)
         square_draw_nodes(pen);
     if (content->is_bare)
@@ -597,7 +601,6 @@ void square_draw(Plot *stage)
         plot_legend(stage, COLOUR_PROJECT, "projected spring");
     draw_direction(pen);
     mark_under_mouse(pen);
-    draw_page_arrows(pen);
     add_warnings(pen, folded);
     if (stage->revealed && layers & LAYER_NUMBERS &&
         (simulation->steps == 0 ||
@@ -665,7 +668,7 @@ void square_add_values(const Simulation *simulation, LiveValues *values)
     const System *system = &simulation->system;
     const Options *options = &simulation->options;
     double start[2 * MAX_NUMBERED], mode[2 * SIMULATION_MODE_NODES];
-    int n = (int)options->segments, nodes = system->nodes, shorter = 0;
+    int nodes = system->nodes, shorter = 0;
     const double *x = simulation->run[0].x;
     if (!options->page)
         return;
@@ -674,11 +677,10 @@ void square_add_values(const Simulation *simulation, LiveValues *values)
         shorter += spring_strain(d2, system->l2[s]) < -1e-9;
     }
     values_add(values, "masses", nodes);
-    values_add(values, "mass", nodes * system->m[0]);
     values_add(values, "node mass", system->m[0]);
     values_add(values, "places", 4 * (nodes + 2.0 * system->springs));
     values_add(values, "short", shorter);
-    values_add(values, "segments", n);
+    values_add(values, "segments", options->segments);
     values_add(values, "side", simulation->mesh.side);
     values_add(values, "k", options->stiffness);
     values_add(values, "stretch", options->stretch);

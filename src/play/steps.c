@@ -197,11 +197,12 @@ static void report_at_rest(Player *player)
                     : "");
 }
 
-/* Reports the first step in which the total energy has risen without work. */
+/* Reports, except on pages, the first step that gains energy without work. */
 static void report_energy_gain(Player *player)
 {
     const Past *past = &player->past;
-    if (player->setup.options[0].steps >= 0 || !player->setup.is_attended)
+    if (player->setup.options[0].steps >= 0 || !player->setup.is_attended ||
+        player_active_options(player)->page)
         return;
     for (int p = 0; p < past_panes(past) && !player->play.reported_gain; p++) {
         const Simulation *simulation = &past->pane[p].simulation;
