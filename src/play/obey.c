@@ -122,10 +122,23 @@ Status player_obey_queue(Player *player, bool now)
     return STATUS_OK;
 }
 
-/* Abandons the step being made, and obeys the commands that waited for it. */
+/* Whether the new step still comes to its end before this command. */
+static bool comes_after_step(const Past *past, CommandKind kind)
+{
+    return past_makes_step(past) &&
+           (kind == COMMAND_PAUSE || kind == COMMAND_PLAY);
+}
+
+/* Abandons the step being made, and obeys the commands that waited for it.  A
+ * pause in the journal then belongs to the step that is shown. */
 static Status abandon_step(Player *player)
 {
     int gesture = player->commands.gesture;
+    const Script *done = &player->commands.journal;
+    for (size_t i = done->lines;
+         i-- > 0 && done->line[i].due_step == player->past.step + 1 &&
+         comes_after_step(&player->past, done->line[i].command.kind);)
+        done->line[i].due_step--;
     past_set_goal(&player->past, player->past.step, false);
     player->play.after_work = AFTER_NOTHING;
     Status status =
@@ -197,7 +210,8 @@ Status player_obey(Player *player, const Command *command)
     else if (!status)
         status = functions[meant.kind](player, &meant);
     if (flags & IN_SCRIPT && status != STATUS_INVALID_INPUT &&
-        script_add(&player->commands.journal, step, &meant,
+        script_add(&player->commands.journal,
+                   step + comes_after_step(past, meant.kind), &meant,
                    player->commands.gesture))
         return STATUS_OUT_OF_MEMORY;
     bool worked = past_is_working(past);
