@@ -142,9 +142,14 @@ static Status write_journal(Player *player, const char *name, const char *line)
 }
 
 /* Reports the hash of the state and the command line that leads to it, and
- * saves the script of this line if there were commands. */
+ * saves the script of this line if there were commands.  A step that is being
+ * made ends before, since its panes have states of two steps. */
 Status obey_hash(Player *player, const Command *command)
 {
+    if (past_is_working(&player->past)) {
+        player_enqueue(player, command);
+        return STATUS_OK;
+    }
     char name[80], hash[64];
     bool commands = player->commands.journal.lines > 0;
     find_free_file_name(player, ".script", name, sizeof name);
