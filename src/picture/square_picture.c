@@ -18,7 +18,6 @@ static const double MAX_GROWTH = 1e303; /* limit of the view's growth */
 /* Sizes of the first view over that of the square: with words, and bare. */
 static const double VIEW_SIZE = 1.14, BARE_VIEW_SIZE = 1.75;
 static const double MAGNIFIER_SIDE = 11; /* ems */
-static const double VELOCITY_TIME = 0.1; /* s, duration of the arrow's way */
 /* Balls, grounds and a pull are shown up to here, in halves of the view. */
 static const double BALL_REACH = 4, GROUND_REACH = 2, PULL_REACH = 16;
 
@@ -443,29 +442,6 @@ static void draw_page_arrows(const SquarePen *pen)
                    "node %d", system->nodes - 1);
 }
 
-/* Draws the velocity of the centre of mass as its way in VELOCITY_TIME. */
-static void draw_mean_velocity(const SquarePen *pen)
-{
-    const System *system = pen->system;
-    double mass = 0, x[2] = {0}, v[2] = {0};
-    for (int i = 0; i < system->nodes; i++) {
-        mass += system->m[i];
-        for (int c = 0; c < 2; c++) {
-            x[c] += system->m[i] * pen->x[2 * i + c];
-            v[c] += system->m[i] * pen->v[2 * i + c];
-        }
-    }
-    for (int c = 0; c < 2; c++) {
-        x[c] /= mass;
-        v[c] /= mass;
-    }
-    const Point tip = point_along(x, VELOCITY_TIME, v);
-    plot_arrow(pen->stage, x, v, VELOCITY_TIME, 4, COLOUR_VELOCITY);
-    plot_label(pen->stage, 1, tip.xy, COLOUR_VELOCITY, "%s m/s",
-               format_digits(vector_length(v), 2).text);
-    plot_legend(pen->stage, COLOUR_VELOCITY, "velocity of the centre of mass");
-}
-
 /* Draws springs in the colours of their kinds.  A page with switches for the
  * kinds has wider springs of the newest spring's kind. */
 static void draw_springs_by_kind(const SquarePen *pen)
@@ -609,8 +585,6 @@ void square_draw(Plot *stage)
         draw_node_numbers(pen);
     if (pen->colour_range > 0)
         add_colour_legend(pen);
-    if (layers & LAYER_VELOCITY)
-        draw_mean_velocity(pen);
     for (int body = 1; body < simulation->mesh.bodies; body++)
         draw_slid_distance(stage, body);
     draw_magnifier(pen);

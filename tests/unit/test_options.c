@@ -188,10 +188,14 @@ TEST(texts_become_one_line)
     }
 }
 
-/* Rows of 80 with every scene and option. */
+/* Rows of 80 with every scene, its number, and every option; a value that it
+ * says to be the default is. */
 TEST(help_fits_a_terminal)
 {
-    char line[128], text[8192] = "";
+    char line[128], text[8192] = "", word[40], message[512];
+    char *argv[] = {"elasto", word, NULL};
+    Options options, usual;
+    CHECK_OK(options_parse(1, argv, false, &usual, MESSAGE(message)));
     const char *help = text;
     FILE *file = tmpfile();
     options_help(file);
@@ -203,12 +207,25 @@ TEST(help_fits_a_terminal)
         snprintf(line, sizeof line, "\n  --%s%s%s", row->name,
                  row->placeholder ? " " : "",
                  row->placeholder ? row->placeholder : "");
-        CHECK(strstr(help, row->name[0] ? line : row->help) != NULL);
+        const char *at = strstr(help, row->name[0] ? line : row->help);
+        CHECK(at != NULL);
+        const char *next = strstr(at + 1, "\n  --");
+        const char *value = strstr(at, " [");
+        if (row->name[0] && value && next && value < next && value[2] != 'P') {
+            snprintf(word, sizeof word, "--%s=%.*s", row->name,
+                     (int)strcspn(value, "]") - 2, value + 2);
+            /* alone it may make no sense */
+            options_parse(2, argv, false, &options, MESSAGE(message));
+            CHECK(options.number[row->slot] == usual.number[row->slot]);
+        }
     }
     for (const Scene *scene = scenes; scene->name; scene++) {
         snprintf(line, sizeof line, " %-15s  %s\n", scene->name,
                  scene->sentence);
         CHECK(strstr(help, line) != NULL);
+        sscanf(strstr(help, line) - 2, "%39s", word);
+        CHECK_OK(options_parse(2, argv, false, &options, MESSAGE(message)));
+        CHECK(options.scene == scene);
     }
     for (const char *end; *help; help = end + 1) {
         end = strchr(help, '\n');

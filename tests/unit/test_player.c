@@ -97,6 +97,9 @@ TEST(steps_are_due_at_the_speed_that_was_asked_for)
         const double every = ldexp(1, speed < 0 ? -speed : 0) / 60;
         CHECK_NEAR(player_find_wait_time(&player), fmin(1e3 * every, 200), 1);
         const long before = player.past.step;
+        wound += 9 * every;
+        CHECK(player_find_wait_time(&player) == 0);
+        wound -= 9 * every;
         pass_time(3 * 240);
         CHECK_NEAR(player.past.step - before, 180 * ldexp(1, speed),
                    fmax(1, ldexp(1, speed)));

@@ -84,6 +84,7 @@ static Box column;
 static struct {
     size_t start; /* in `written` */
     double x, y;  /* pixels, where the text stands */
+    double size;  /* pixels */
     Colour colour;
 } texts[1024];
 static int text_count;
@@ -98,6 +99,7 @@ int __wrap_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
     texts[text_count].start = used;
     texts[text_count].x = x;
     texts[text_count].y = y + 0.5 * style->size;
+    texts[text_count].size = style->size;
     texts[text_count].colour = style->colour;
     text_count += text_count < 1023;
     snprintf(written + used, sizeof written - used, "%s\n", markup);
@@ -448,7 +450,7 @@ static void check_picture(const char *name)
 
 /* ---- what is seen -------------------------------------------------------- */
 
-static char facts[1 << 14]; /* a line each: "at 3"; "says", a tab, the text */
+static char facts[1 << 15]; /* a line each: "at 3"; "says", a tab, the text */
 
 static void fact(const char *format, ...)
 {
@@ -577,20 +579,30 @@ static void record_changes(const char *before, const char *now)
     }
 }
 
-/* Records a line of a session, and the facts that it has changed.  The texts of
- * a page change often, so they are left out. */
+/* Records a line of a session, and the facts and values that it has changed.
+ * The texts of a page change often, so they are left out. */
 static void record_facts(const char *line)
 {
     static char before[sizeof facts], head[160];
     const Energies ledger = simulation_energies(player_simulation(&player), 0);
     memcpy(before, facts, sizeof before);
     player_build_frame(&player);
+    const LiveValues *values = &active_pane(content)->values;
     collect_facts();
     for (int i = 0; i < ledger.rows; i++)
         fact("%s %.9g", ledger.row[i].name, ledger.row[i].value);
     if (content->lecture.page)
         for (char *at = facts; (at = strchr(at, '\t'));)
             memset(at, '.', strcspn(at, "\n"));
+    fact("values %d", values->count); /* some may be gone */
+    for (int i = 0; i < values->count; i++) {
+        const LiveValue *entry = &values->value[i];
+        if (entry->text)
+            fact("value %s %d: %s", entry->name, entry->run, entry->text);
+        else if (!strstr(entry->name, " ms")) /* of a clock */
+            fact("value %s %d: %.5g %.5g", entry->name, entry->run,
+                 entry->value[0], entry->value[1]);
+    }
     snprintf(head, sizeof head, "> %s\n", line);
     record_changes("", head);
     record_changes(before, facts);
@@ -626,13 +638,14 @@ static int write_ink(const Canvas *canvas, Box box, const char *name, char *out)
 }
 
 /* Writes the ink of the window without its words: of each part of the picture,
- * and of the cards that no page makes larger or smaller. */
+ * and of the cards, unless the text of a page makes them larger or smaller. */
 static int write_shapes(const Layout *layout, char *out)
 {
     enum { PARTS = 5 };
     Paper *paper = &player.screen.paper;
     Text *text = paper->text;
     const Box stage = layout->stage;
+    const bool has_text = content->lecture.page && content->cards.enlarged < 1;
     char name[32], *at = out;
     paper->text = NULL;
     player_paint_frame(&player, paper);
@@ -647,7 +660,7 @@ static int write_shapes(const Layout *layout, char *out)
         snprintf(name, sizeof name, "picture %d %d", column, row);
         at += write_ink(&paper->canvas, part, name, at);
     }
-    for (int c = 0; c < layout->cards && !content->lecture.page; c++)
+    for (int c = 0; c < layout->cards && !has_text; c++)
         at += write_ink(&paper->canvas, layout->card[c],
                         active_picture(content)->cards[c]->name, at);
     if (layout->has_list)
@@ -656,9 +669,9 @@ static int write_shapes(const Layout *layout, char *out)
     return (int)(at - out);
 }
 
-/* Records the shapes and the texts of the window that are new: places, colours
- * and words.  On a page, texts of cards have no place, and its own text is left
- * out; its code is there. */
+/* Records the shapes and the texts of the window that are new: places, sizes,
+ * colours and words.  On a page, texts of cards have no place, and its own text
+ * is left out; its code is there. */
 static void record_words(const char *unused)
 {
     static char before[sizeof window_texts];
@@ -679,9 +692,9 @@ static void record_words(const char *unused)
             !box_contains(*places, x, y)) {
             if (!card[0] || strcmp(card, "page") == 0)
                 continue;
-            now += sprintf(now, "%s", card);
+            now += sprintf(now, "%.0f %s", texts[i].size, card);
         } else
-            now += sprintf(now, "%.0f %.0f", x, y);
+            now += sprintf(now, "%.0f %.0f %.0f", x, y, texts[i].size);
         now += sprintf(now, " | %06x %.*s\n", colour, length, text);
         count++;
     }
