@@ -140,8 +140,7 @@ static Status update_run_options(Simulation *simulation, int r,
     return status;
 }
 
-/* Gives all runs the options.  A guess about the next step is discarded if the
- * step may lead elsewhere now. */
+/* Gives all runs the options. */
 static Status apply_options(Simulation *simulation, const Options *options)
 {
     const Options before = simulation->options;
@@ -149,9 +148,6 @@ static Status apply_options(Simulation *simulation, const Options *options)
     simulation->options = *options;
     for (int r = 0; r < simulation->runs && !status; r++)
         status = update_run_options(simulation, r, &before);
-    if (options->stiffness != before.stiffness ||
-        options->integrator != before.integrator)
-        simulation->prediction = (Prediction){0};
     if (simulation->scene->find_direction && !simulation->is_over &&
         (options->projection != before.projection ||
          options->line_search != before.line_search))

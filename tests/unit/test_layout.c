@@ -260,10 +260,10 @@ TEST(formulas_have_their_sizes)
         const char *markup, *other; /* at least so much wider, and higher */
         double wider, most_wider, higher, most_higher;
     } rows[] = {
-        {"frac{x over x}", "x", 0.2, 0.6, 0.2, 1.3},
+        {"frac{x over x}", "x", 0.4, 0.5, 0.9, 1.1},
         {"frac{xxxx over x}", "frac{x over xxxx}", 0, 0, 0, 0},
-        {"matrix{x & x; x & x}", "xx", 1.2, 2.5, 0.5, 1.4},
-        {"matrix{x; x; x}", "matrix{x; x}", 0, 0, 1, 1.3},
+        {"matrix{x & x; x & x}", "xx", 1.7, 1.9, 1.1, 1.2},
+        {"matrix{x; x; x}", "matrix{x; x}", 0, 0, 1.15, 1.3},
         {"#p{xx}", "xx", 0, 0, 0, 0},
         {"frac {x}", "frac x", 0, 0, 0, 0},
         {"matrix{;;&&&&&&&&&&&&&&;&}", "", 0, 99, 0, 9},
