@@ -24,10 +24,10 @@ typedef struct Fracture {
     unsigned char *has_new_break; /* [nodes] 1: a spring broke there */
 } Fracture;
 
-/* Fracture as a term; data: Fracture.  The option's number is s_c.  The term
- * has no value.  After a step it breaks springs and books the energy that they
- * and their cells had.  Fracture follows all terms whose energy breaks with
- * springs, which have then ended the step. */
+/* Fracture as a term; data: Fracture.  The option --tear has its number s_c.
+ * The term has no value.  The function end_step breaks springs and books the
+ * energy that these springs and their cells had.  Fracture follows all terms
+ * that lose energy when springs break: their end_step sees whole springs. */
 extern const TermKind fracture;
 
 /* Returns the strain at which spring s breaks. */

@@ -70,7 +70,7 @@ struct TermKind {
         RANK_CONTACT,
         RANK_FRICTION,
         RANK_CELLS,
-        RANK_FRACTURE, /* after all terms whose energy breaks with springs */
+        RANK_FRACTURE, /* after all terms that lose energy when springs break */
         RANK_HAND,
     } rank;
 

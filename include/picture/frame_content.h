@@ -181,7 +181,7 @@ typedef struct Setting {
 
 typedef struct SettingsRow {
     int count; /* number of settings */
-    Setting item[LAYOUT_SETTINGS];
+    Setting item[LAYOUT_MAX_SETTINGS];
 } SettingsRow;
 
 /* The bar of a step in the time line, as high as the step has updates. */
@@ -208,7 +208,7 @@ typedef struct Chip {
 
 typedef struct ChipRow {
     int count; /* number of chips */
-    Chip chip[LAYOUT_CHIPS];
+    Chip chip[LAYOUT_MAX_CHIPS];
 } ChipRow;
 
 /* Contents of the column: the cards, or instead a page's code or a list. */
@@ -238,7 +238,7 @@ typedef struct ListRow {
 
 typedef struct List {
     int rows; /* number of rows */
-    ListRow row[LAYOUT_ROWS];
+    ListRow row[LAYOUT_MAX_ROWS];
 } List;
 
 /* A scene in the overview of scenes. */
@@ -251,7 +251,7 @@ typedef struct SheetCell {
 /* The overview of scenes; without cells the overview is closed. */
 typedef struct SheetContent {
     int cells; /* number of cells */
-    SheetCell cell[LAYOUT_CELLS];
+    SheetCell cell[LAYOUT_MAX_CELLS];
 } SheetContent;
 
 /* The page of the lecture and the guesses at its question. */
@@ -278,9 +278,9 @@ typedef struct HandGrip {
 } HandGrip;
 
 typedef struct FrameContent {
-    int panes;       /* number of panes, 1 ... LAYOUT_PANES */
+    int panes;       /* number of panes, 1 ... LAYOUT_MAX_PANES */
     int active_pane; /* index of the pane whose numbers the cards show */
-    Pane pane[LAYOUT_PANES];
+    Pane pane[LAYOUT_MAX_PANES];
     const View *view;
     HandGrip hand;     /* hand of the mouse or of a script */
     bool shows_strain; /* springs are coloured by strain */

@@ -23,12 +23,12 @@
 #include "picture/canvas.h"
 
 enum {
-    LAYOUT_PANES = 6,
-    LAYOUT_CARDS = 14,
-    LAYOUT_SETTINGS = 16,
-    LAYOUT_CHIPS = 16,
-    LAYOUT_CELLS = 32,
-    LAYOUT_ROWS = 128 /* most rows of a list */
+    LAYOUT_MAX_PANES = 6,
+    LAYOUT_MAX_CARDS = 14,
+    LAYOUT_MAX_SETTINGS = 16,
+    LAYOUT_MAX_CHIPS = 16,
+    LAYOUT_MAX_CELLS = 32,
+    LAYOUT_MAX_ROWS = 128 /* most rows of a list */
 };
 
 /* The boxes of all parts.  A box without width is not drawn. */
@@ -38,14 +38,15 @@ typedef struct Layout {
     Box title_bar, stage, column, settings_row, time_line, chip_row;
     int panes, cards, settings, chips; /* numbers of boxes */
     bool has_list;          /* the column shows code or a list, not cards */
-    Box pane[LAYOUT_PANES]; /* the panes of the stage */
-    Box card[LAYOUT_CARDS]; /* the cards; a main card is on the stage */
-    Box setting[LAYOUT_SETTINGS];
-    Box chip[LAYOUT_CHIPS]; /* a chip that does not fit has no width */
+    Box pane[LAYOUT_MAX_PANES]; /* the panes of the stage */
+    Box card[LAYOUT_MAX_CARDS]; /* the cards; a main card is on the stage */
+    Box setting[LAYOUT_MAX_SETTINGS];
+    Box chip[LAYOUT_MAX_CHIPS]; /* a chip that does not fit has no width */
     int chips_left_out;     /* number of chips that do not fit */
     Box bars;               /* bars of the steps, inside the time line */
     int cells;              /* number of cells of the overview */
-    Box cell[LAYOUT_CELLS]; /* scene's square and name, without its heading */
+    Box cell[LAYOUT_MAX_CELLS]; /* scene's square and name, without its heading
+                                 */
 } Layout;
 
 typedef enum Zone {

@@ -12,7 +12,8 @@
 
 enum { COMMAND_TEXT_SIZE = 64 };
 
-/* Each command is explained in command_rows.def and by --help commands. */
+/* Each command is explained in command_rows.def, and by --help commands if it
+ * has a name. */
 typedef enum CommandKind {
     COMMAND_NONE,
 #define ROW(kind, ...) COMMAND_##kind,

@@ -49,8 +49,8 @@ typedef struct State {
 /* A point of the plots over time. */
 typedef struct EnergySample {
     double time; /* s */
-    int rows;    /* number of energies */
-    Energy row[HISTORY_SERIES]; /* [rows] energies of the plots */
+    int energy_count;
+    Energy energy[HISTORY_SERIES]; /* [energy_count] energies of the plots */
 } EnergySample;
 
 /* The summary of a step, which outlives its iterations. */
@@ -82,7 +82,7 @@ typedef struct Branch {
     long left_step; /* step that was shown when the user left the branch */
     long stride; /* every stride-th entry stores its state */
     int panes;   /* number of panes */
-    Entry *entry; /* [capacity][panes]; entry `entries` is being made */
+    Entry *entry; /* [capacity][panes]; entry[entries] is being made */
     int gesture;  /* id; edits of one gesture share a branch; 0: none */
     Command edit; /* edit that began the branch */
 } Branch;
@@ -125,15 +125,15 @@ typedef struct Past {
     long booked_step;      /* last with valid energies in the tables */
     size_t used_bytes, max_bytes; /* memory of states, samples; its limit */
     int line_energy_pane; /* pane in which E along p is drawn; -1: none */
-    WorkStage work_stage; /* stage of the work that leads to `aim_step` */
+    WorkStage work_stage; /* stage of the work that leads to `goal_step` */
     long goal_step;       /* step that is to be shown */
     long load_step;       /* step to which WORK_LOADING brings the panes */
-    bool samples_energy; /* samples E along p in each iteration of the aim */
+    bool samples_energy;  /* samples E along p in each iteration of that step */
     double end_time;     /* s, end of the new step */
     Status bad_status;   /* OK, or the last other status of the new step */
 } Past;
 
-/* Whether work is left before aim_step is shown. */
+/* Whether work is left before goal_step is shown. */
 static inline bool past_is_working(const Past *past)
 {
     return past->work_stage != WORK_DONE;
@@ -168,13 +168,13 @@ Status past_begin_runs(Past *past, const Options *options, int panes,
 Status past_edit(Past *past, const Command *edit, int pane, bool again,
                  int gesture);
 
-/* Sets aim_step, cut to 0 ... newest + 1; abandons the present work.
+/* Sets goal_step, cut to 0 ... newest + 1; abandons the present work.
  *   again  the step is made once more, with samples of E in each iteration */
 void past_set_goal(Past *past, long step, bool again);
 
 /* Does a part of the work: makes a Newton iteration, or begins a step.  Returns
- * RUNNING while there is more work; OK or an unconverged status when the aim is
- * shown; after a failure its status, and the last whole step is shown. */
+ * RUNNING while there is more work; OK or an unconverged status when the goal
+ * is shown; after a failure its status, and the last whole step is shown. */
 Status past_do_work(Past *past);
 
 /* Repeats past_do_work while it returns RUNNING; returns its last status. */

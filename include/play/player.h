@@ -31,8 +31,8 @@ typedef struct Setup {
 } Setup;
 
 enum {
-    SPEED_LEAST = -6, /* lowest speed: a step every 64 frames, about 1 s */
-    SPEED_MOST = 10   /* highest speed: 1024 steps a frame */
+    MIN_LOG_SPEED = -6, /* lowest speed: a step every 64 frames, about 1 s */
+    MAX_LOG_SPEED = 10  /* highest speed: 1024 steps a frame */
 };
 
 /* Whether steps are made by themselves, and why not. */
@@ -54,7 +54,7 @@ typedef enum AfterWork {
 
 /* How a pane shows the present step. */
 typedef struct PaneView {
-    int position; /* index in StepTrace.position; -1: end of the step */
+    int trace_index; /* index in StepTrace.position; -1: end of the step */
     double *ghost;         /* [2n] m, positions before an edit, or NULL */
     char ghost_label[256]; /* the edited setting, and the outcome before it */
 } PaneView;
@@ -72,12 +72,12 @@ typedef struct Playback {
     bool reported_gain; /* a rise of the total energy was reported */
 } Playback;
 
-enum { QUEUE_MOST = 16 };
+enum { MAX_QUEUED = 16 };
 
 /* Commands that wait until the present one is obeyed and no step is being made:
  * the parts of a command, and drags while a step is made. */
 typedef struct CommandQueue {
-    Command command[QUEUE_MOST];
+    Command command[MAX_QUEUED];
     int count;           /* number of commands */
     bool is_from_page;   /* the commands belong to a page */
     const Control *pins; /* pins to be set at the end of the queue, or NULL */
@@ -112,10 +112,10 @@ enum { LABEL_SIZE = 64 }; /* bytes */
 /* Contents of the last frame; `content` points to the other fields. */
 typedef struct Frame {
     FrameContent content;
-    History history[LAYOUT_PANES];
-    Trace trace[LAYOUT_PANES];
-    char label[LAYOUT_PANES][LABEL_SIZE];   /* values that differ by pane */
-    CommandKind chip_command[LAYOUT_CHIPS]; /* command of a click on it */
+    History history[LAYOUT_MAX_PANES];
+    Trace trace[LAYOUT_MAX_PANES];
+    char label[LAYOUT_MAX_PANES][LABEL_SIZE];   /* values that differ by pane */
+    CommandKind chip_command[LAYOUT_MAX_CHIPS]; /* command of a click on it */
     int options;                            /* number of options in the row */
     const OptionRow *option[OPTIONS_MAX_ROWS];
 } Frame;

@@ -44,14 +44,14 @@ static inline bool film_is_open(const Film *film)
 }
 
 typedef enum RecordingTable {
-    RECORDING_STATES,
-    RECORDING_LOG,
-    RECORDING_ENERGIES,
-    RECORDING_SPRINGS,
-    RECORDING_TABLES
+    TABLE_STATES,
+    TABLE_LOG,
+    TABLE_ENERGIES,
+    TABLE_SPRINGS,
+    TABLE_COUNT
 } RecordingTable;
 
-enum { FRAMES_MOST = 1000000 }; /* frames have numbers of six digits */
+enum { MAX_FRAMES = 1000000 }; /* frames have numbers of six digits */
 
 typedef struct Recording {
     const char *folder; /* folder of the frames, or NULL */
@@ -59,7 +59,7 @@ typedef struct Recording {
     unsigned char *old_frame; /* [step] 1: is of an earlier run; or NULL */
     Film film;
     int panes; /* number of panes at the start */
-    Table table[RECORDING_TABLES];
+    Table table[TABLE_COUNT];
     bool has_tables;              /* a table is open */
     bool uses_stdout;             /* a table goes to standard output */
     char message[MESSAGE_BYTES];  /* the first failure, or "" */

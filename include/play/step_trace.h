@@ -1,6 +1,7 @@
 /* step_trace.h - the iterates of a step, for cards and for a walk through it.
  *
- * A place is a line of Algorithm 3 at an iterate x^i, where a walk can stop. */
+ * A position is a line of Algorithm 3 at an iterate x^i, where a walk can stop.
+ */
 #pragma once
 
 #include "picture/frame_content.h"
@@ -45,7 +46,7 @@ typedef struct TracePosition {
 } TracePosition;
 
 typedef struct StepTrace {
-    Trace start_trace; /* h and tolerance, which all places show */
+    Trace start_trace; /* h and tolerance, which all positions show */
     int x_length;      /* 2n; 0: no iterates are stored */
     Records records;   /* Newton's record at each iterate */
     TraceIterate *iterate;     /* [records.count] */
@@ -55,8 +56,8 @@ typedef struct StepTrace {
     double *x_tilde;         /* [x_length] m, or NULL */
     double *end_x;     /* [x_length] m, x after the last iteration, or NULL */
     size_t used_bytes; /* memory of the iterates */
-    TracePosition *position; /* [place_count] in the order of the walk */
-    int position_count;      /* number of places; 0 if memory is missing */
+    TracePosition *position; /* [position_count] in the order of the walk */
+    int position_count;      /* number of positions; 0 if memory is missing */
 } StepTrace;
 
 /* Begins the trace of a step.  E along p is sampled in each iteration (`all`,
@@ -64,35 +65,39 @@ typedef struct StepTrace {
 void step_trace_begin(StepTrace *trace, const Simulation *simulation, bool all,
                       bool last);
 
-/* Whether samples of E along p are missing at the iterate of a place.
- *   place  index of the place; -1: the last iterate */
-bool step_trace_lacks_samples(const StepTrace *trace, int place);
+/* Whether samples of E along p are missing at the iterate of a position.
+ *   position  index of the position; -1: the last iterate */
+bool step_trace_lacks_samples(const StepTrace *trace, int position);
 
 /* Adds a Newton iteration, or only its record if memory is missing. */
 void step_trace_add_iterate(StepTrace *trace, const Newton *newton,
                             const NewtonRecord *record);
 
-/* Ends the trace of a step: lists its places. */
+/* Ends the trace of a step: lists its positions. */
 void step_trace_end(StepTrace *trace, const Options *options);
 
 /* Empties the trace, but keeps the memory of its arrays. */
 void step_trace_clear(StepTrace *trace);
 void step_trace_free(StepTrace *trace);
 
-/* Finds the next place (way 1) or the place before (-1).
- *   unit  in, UNIT_UPDATE stops at ends of updates, UNIT_LINE at each place
- * Returns the index of this place, or `place` if the walk ends there. */
-int step_trace_walk(const StepTrace *trace, TimeUnit unit, int place, int way);
+/* Finds the next position (way 1) or the position before (-1).
+ *   unit  in, UNIT_UPDATE stops at ends of updates, UNIT_LINE at each position
+ * Returns the index of this position, or `position` if the walk ends there. */
+int step_trace_walk(const StepTrace *trace, TimeUnit unit, int position,
+                    int way);
 
-/* Returns the index of the last place at an iterate whose line is at most
- * `line`; if there is no such place, that of the last place of the step. */
+/* Returns the index of the last position at an iterate whose line is at most
+ * `line`; if there is no such position, that of the last position of the step.
+ */
 int step_trace_find_position(const StepTrace *trace, int i, StepLine line);
 
-/* Returns the index of the place where E was highest, if E exploded: E rose by
- * more than ten times its change in the whole step.  -1: E did not explode. */
+/* Returns the index of the position where E was highest, if E exploded: E rose
+ * by more than ten times its change in the whole step.  -1: E did not explode.
+ */
 int step_trace_find_peak(const StepTrace *trace);
 
-/* Fills what a picture shows at a place; place -1: after the step.  Pointers of
- * `shown` lead into the trace.  Returns positions to draw, [x_length] m; NULL:
- * the positions after the step. */
-const double *step_trace_show(const StepTrace *trace, int place, Trace *shown);
+/* Fills what a picture shows at a position; position -1: after the step.
+ * Pointers of `shown` lead into the trace.  Returns positions to draw,
+ * [x_length] m; NULL: the positions after the step. */
+const double *step_trace_show(const StepTrace *trace, int position,
+                              Trace *shown);

@@ -1,4 +1,4 @@
-/* body.h - the body of the options, with mesh, start, obstacles and terms. */
+/* body.h - makes the mesh, start, obstacles and terms that options describe. */
 #pragma once
 
 #include "model/contact.h"

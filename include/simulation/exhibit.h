@@ -34,7 +34,7 @@ enum { DESCENT_MAX_RECORDS = 256 };
 typedef struct Descent {
     int count;                        /* number of records */
     NewtonRecord record[DESCENT_MAX_RECORDS]; /* first iterations */
-    double point[2];                  /* present iterate, m */
+    double iterate[2];                        /* present iterate, m */
     double value;                     /* f or E at the iterate */
     double start_value;               /* E at the start of the search */
     double direction[2];              /* p at the iterate, m; 0: none */

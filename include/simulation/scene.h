@@ -78,7 +78,8 @@ typedef struct Scene {
     const char *step_name; /* name of a step, "iteration"; NULL: a time step */
     bool starts_paused;    /* the window waits at step 0 */
     const char *group_heading; /* heading of the group, in its first scene */
-    bool only_by_name;     /* has no key, and no cell in the overview */
+    bool is_hidden; /* has no key and no cell in the overview; the table ends
+                       with these scenes */
     const char *pin;       /* value of --pin */
     SceneBody body;
     /* Makes one step; NULL: a step in time of each run. */

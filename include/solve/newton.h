@@ -166,7 +166,8 @@ void newton_start(Newton *newton, const double *x_n, const double *u,
  * next pause.  At least one update is made, if one lowers E.  u and x are the
  * last iterate; with a line search E is not higher there than at the start.
  * Returns RUNNING after a pause; OK if the last p passed the test, used or not,
- * or if the next p is negligible; otherwise how the minimisation failed. */
+ * or if a bound of the next p does (multigrid) or is negligible; otherwise how
+ * the minimisation failed. */
 Status newton_minimise(Newton *newton);
 
 /* Returns the limit of iterations: max_iterations, or less on large squares. */

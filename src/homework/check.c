@@ -48,7 +48,7 @@ enum {
     MAX_TEXT = 400,    /* limit of the bytes of a sentence */
     MAX_NUMBERS = 400, /* limit of the numbers of a result */
     MAX_NODES = 9,     /* number of nodes of the largest case */
-    UNKNOWNS = 2 * MAX_NODES
+    MAX_UNKNOWNS = 2 * MAX_NODES
 };
 
 /* Memory that the process of a check shares with its parent. */
@@ -109,8 +109,8 @@ typedef struct Case {
     Vec2 x[MAX_NODES], x_new[MAX_NODES]; /* x is a copy of solid.x */
     Vec2 *g, g_before[MAX_NODES]; /* gradient before and after the call */
     double block[4][4];           /* argument of make_psd */
-    int row[40 * UNKNOWNS], column[40 * UNKNOWNS];
-    double value[40 * UNKNOWNS];
+    int row[40 * MAX_UNKNOWNS], column[40 * MAX_UNKNOWNS];
+    double value[40 * MAX_UNKNOWNS];
     cholmod_triplet H; /* Hessian, in the arrays row, column and value */
     double h, tol;
 } Case;
@@ -189,14 +189,15 @@ static void make_arguments(const Task *task, int case_number, Case *c)
     memcpy(c->x, c->solid.x, (size_t)c->solid.nodes * sizeof *c->x);
     c->H = (cholmod_triplet){.nrow = 2 * (size_t)c->solid.nodes,
                              .ncol = 2 * (size_t)c->solid.nodes,
-                             .nzmax = 40 * UNKNOWNS,
+                             .nzmax = 40 * MAX_UNKNOWNS,
                              .i = c->row,
                              .j = c->column,
                              .x = c->value,
                              .stype = 1};
 }
 
-/* Stores the matrix that a function added to H, in rows of UNKNOWNS numbers. */
+/* Stores the matrix that a function added to H, in rows of MAX_UNKNOWNS
+ * numbers. */
 static void store_matrix(const Case *c, double *result)
 {
     int n = (int)c->H.nrow;
@@ -208,9 +209,9 @@ static void store_matrix(const Case *c, double *result)
                    row, column, n);
             return;
         }
-        result[row * UNKNOWNS + column] += c->value[t];
+        result[row * MAX_UNKNOWNS + column] += c->value[t];
         if (row != column)
-            result[column * UNKNOWNS + row] += c->value[t];
+            result[column * MAX_UNKNOWNS + row] += c->value[t];
     }
 }
 
@@ -220,7 +221,7 @@ static void store_result(const Task *task, const Case *c, FILE *table,
 {
     size_t bytes = (size_t)c->solid.nodes * sizeof(Vec2);
     for (int r = 0; r < 4 && task->index == TASK_make_psd; r++)
-        memcpy(result + r * UNKNOWNS, c->block[r], sizeof c->block[r]);
+        memcpy(result + r * MAX_UNKNOWNS, c->block[r], sizeof c->block[r]);
     if (task->index != TASK_make_psd && task->kind == MATRIX)
         store_matrix(c, result);
     for (int i = 0; i < 2 * c->solid.nodes && task->kind == POINTS; i++)
@@ -232,9 +233,9 @@ static void store_result(const Task *task, const Case *c, FILE *table,
     if (task->kind != STATE)
         return;
     memcpy(result, c->solid.x, bytes);
-    memcpy(result + UNKNOWNS, c->solid.v, bytes);
+    memcpy(result + MAX_UNKNOWNS, c->solid.v, bytes);
     rewind(table);
-    for (double *to = result + 2 * UNKNOWNS; to + 4 <= result + MAX_NUMBERS;
+    for (double *to = result + 2 * MAX_UNKNOWNS; to + 4 <= result + MAX_NUMBERS;
          to += 4)
         if (fscanf(table, "%lf,%lf,%lf,%lf", to, to + 1, to + 2, to + 3) != 4)
             break;
@@ -324,20 +325,20 @@ enum { TASKS = sizeof tasks / sizeof *tasks };
 static const char *describe_number(ResultKind kind, int i)
 {
     static char text[60];
-    bool v = kind == STATE && i >= UNKNOWNS;
+    bool v = kind == STATE && i >= MAX_UNKNOWNS;
     if (kind == NUMBER)
         return "the result";
     if (kind == SEARCH && i-- == 0)
         return "alpha";
     if (kind == MATRIX)
         snprintf(text, sizeof text, "the number in row %d, column %d",
-                 i / UNKNOWNS, i % UNKNOWNS);
-    else if (i >= 2 * UNKNOWNS)
+                 i / MAX_UNKNOWNS, i % MAX_UNKNOWNS);
+    else if (i >= 2 * MAX_UNKNOWNS)
         snprintf(text, sizeof text, "number %d in line %d of table", i % 4 + 1,
-                 (i - 2 * UNKNOWNS) / 4 + 1);
+                 (i - 2 * MAX_UNKNOWNS) / 4 + 1);
     else
         snprintf(text, sizeof text, "%s%s of node %d", v ? "v_" : "",
-                 i % 2 ? "y" : "x", i % UNKNOWNS / 2);
+                 i % 2 ? "y" : "x", i % MAX_UNKNOWNS / 2);
     return text;
 }
 

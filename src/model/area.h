@@ -80,9 +80,9 @@ bool area_project_hessian(const double f[4], double unit, double on_plus,
 /* Writes the numbers of H.  H [4][4] out. */
 void area_assemble_hessian(const AreaHessian *area, double H[4][4]);
 
-/* Writes Hv = H v from the eigenvectors.  Where f- is small, a rotation v = S f
- * is multiplied by little more than on_plus, which the entries of H may hide by
- * their rounding.
+/* Writes Hv = H v, computed from eigenvectors.  Where H v is small, as for a
+ * rotation v of a triangle at rest, a product with the rounded entries of H
+ * would have no right digit.
  *   v, Hv  [4] in, out */
 void area_multiply_hessian(const AreaHessian *area, const double v[4],
                            double Hv[4]);

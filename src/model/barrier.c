@@ -21,7 +21,7 @@ double barrier_curvature(double s)
 }
 
 /* r = z/(2 + z): log1p(z) = 2 (r + r^3/3 + r^5/5 + ...), and 2r - z = -z r. */
-double log1p_minus(double z)
+double log1p_minus_z(double z)
 {
     if (!(fabs(z) < 0.25))
         return math_log1p(z) - z;
@@ -41,7 +41,7 @@ double barrier_taylor_remainder(double s, double t)
         return INFINITY;
     if (s < 1 && end < 1) {
         double z = t / s;
-        return (s - 1) * log1p_minus(z) + t * math_log1p(z);
+        return (s - 1) * log1p_minus_z(z) + t * math_log1p(z);
     }
     if (s < 1)
         return -(end - 1) * math_log(s) + (1 - s) * t / s;

@@ -19,4 +19,4 @@ double barrier_curvature(double s); /* f''(s) */
 double barrier_taylor_remainder(double s, double t);
 
 /* Returns log1p(z) - z, z > -1, without cancellation for small z. */
-double log1p_minus(double z);
+double log1p_minus_z(double z);

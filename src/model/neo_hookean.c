@@ -27,7 +27,7 @@ static double squared_length(const double a[2])
 /* Returns J - 1 - ln J >= 0, without cancellation near 1. */
 static double compute_volume_energy(double J)
 {
-    return J > 0.5 ? -log1p_minus(J - 1) : J - 1 - math_log(J);
+    return J > 0.5 ? -log1p_minus_z(J - 1) : J - 1 - math_log(J);
 }
 
 /* W = A0 (mu (|F-|^2 + J - 1 - ln J) + lambda/2 (ln J)^2) follows from
@@ -98,7 +98,7 @@ static bool neo_hookean_product(const EvalPoint *at, const Element *element,
 }
 
 /* J + alpha J1 + alpha^2 J2 = J (1 + z).  Subtracting the part of degree 1 from
- * ln(1 + z) by log1p_minus avoids cancellation. */
+ * ln(1 + z) by log1p_minus_z avoids cancellation. */
 static double neo_hookean_line_remainder(const EvalPoint *at,
                                          const Element *element,
                                          const double P[4], double alpha)
@@ -111,7 +111,7 @@ static double neo_hookean_line_remainder(const EvalPoint *at,
     double bent = alpha * alpha * J2 / J, z = alpha * J1 / J + bent;
     if (!(z > -1))
         return INFINITY;
-    double L = math_log1p(z), curved = log1p_minus(z), t = curved + bent;
+    double L = math_log1p(z), curved = log1p_minus_z(z), t = curved + bent;
     double straight =
         alpha * alpha * unit / J *
         ((J - 1) * squared_length(plus) + (J + 1) * squared_length(minus));

@@ -52,9 +52,9 @@ static bool obstacle_is_pressed(const Contact *contact, const System *system,
     return false;
 }
 
-/* Whether the obstacle may move to o [2].  The obstacle may not come nearer
- * than KEPT to a pinned node without contact, unless it was nearer before, and
- * the centre of a ball may not enter a cell. */
+/* Whether the obstacle may move to o [2].  The distance from a
+ * pinned node that has no contact may not fall below KEPT d_hat.  The centre of
+ * a ball may not enter a cell. */
 static bool obstacle_has_room(const Contact *contact, const System *system,
                               const double *x, const double o[2])
 {

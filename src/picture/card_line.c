@@ -110,7 +110,7 @@ void line_energy_draw(const Plot *card)
         card_write_hint(card, text_undrawn);
         return;
     }
-    bool both = text_has_line(&pane->values, "{directions}");
+    bool both = text_has_known_line(&pane->values, "{directions}");
     if (both)
         descent_direction(card->simulation, PROJECTION_CLAMP, other.start,
                           other.p);

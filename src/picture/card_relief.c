@@ -186,7 +186,7 @@ static void draw_surface_point(const Relief *relief, const double *x,
 static void draw_newton_path(const Relief *relief)
 {
     const Descent *descent = &relief->simulation->descent;
-    const double *x = descent->point;
+    const double *x = descent->iterate;
     for (int i = 0; i < descent->count; i++) {
         const NewtonRecord *record = &descent->record[i];
         Colour colour = record->slope > 0 ? COLOUR_WARNING : COLOUR_P;

@@ -12,8 +12,8 @@ static const double CARD_ROW = 1.45; /* ems, least height of a table's row */
 /* A line of an algorithm.  The strings are texts of live_values.h. */
 typedef struct ListingRow {
     /* The row is shown if the text shown_if has a line with known values,
-     * struck out if struck_if has one.  shown_if NULL: end of rows. */
-    const char *shown_if, *struck_if;
+     * struck out if crossed_out_if has one.  shown_if NULL: end of rows. */
+    const char *shown_if, *crossed_out_if;
     StepLine at_line; /* line of Algorithm 3 that the row is */
     bool indented;    /* begins further right */
     const char *text;

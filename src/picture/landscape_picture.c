@@ -174,7 +174,7 @@ static void draw_directions(const Plot *plot, bool both)
     const Descent *descent = &simulation->descent;
     bool raw = simulation->options.projection == PROJECTION_NONE;
     bool alone = simulation->exhibit.switches != PART_BOTH;
-    const double *own = descent->direction, *from = descent->point;
+    const double *own = descent->direction, *from = descent->iterate;
     double p[2], slope;
     if (own[0] == 0 && own[1] == 0)
         return;
@@ -211,7 +211,7 @@ static double length_beyond_view(const Plot *plot)
 static void draw_forces(const Plot *plot, const LocalModel *E)
 {
     const Simulation *simulation = plot->simulation;
-    const double *x = simulation->descent.point, *m = simulation->system.m;
+    const double *x = simulation->descent.iterate, *m = simulation->system.m;
     const double *target = simulation->exhibit.x_tilde;
     unsigned parts = simulation->exhibit.switches;
     double inertia[2], springs[2];
@@ -248,7 +248,7 @@ static void add_newton_values(const Simulation *simulation, LiveValues *values)
     const Descent *descent = &simulation->descent;
     double h = simulation->options.timestep, x[2], p[2], v[2];
     const double *start =
-        descent->count > 0 ? descent->record[0].x_before : descent->point;
+        descent->count > 0 ? descent->record[0].x_before : descent->iterate;
     int updates = 0;
     memcpy(x, start, sizeof x);
     while (updates < DESCENT_MAX_RECORDS &&
@@ -261,7 +261,7 @@ static void add_newton_values(const Simulation *simulation, LiveValues *values)
     }
     values_add(values, "updates", updates);
     for (int k = 0; k < 2; k++)
-        v[k] = (descent->point[k] - start[k]) / h;
+        v[k] = (descent->iterate[k] - start[k]) / h;
     if (simulation->is_over)
         values_add_point(values, "v end", v);
 }
@@ -273,7 +273,7 @@ void landscape_add_values(const Simulation *simulation, LiveValues *values)
     const Descent *descent = &simulation->descent;
     unsigned parts = simulation->exhibit.switches;
     double h = simulation->run[0].h;
-    const double *x = descent->point;
+    const double *x = descent->iterate;
     LocalModel E = evaluate_energy(simulation, x);
     values_add_point(values, "place", x);
     values_add_point(values, "x tilde", simulation->exhibit.x_tilde);
@@ -318,7 +318,7 @@ static void draw_model_ellipses(const Plot *plot, const LocalModel *E)
 {
     static const double levels[] = {1, 0.6, 0.25};
     const Descent *descent = &plot->simulation->descent;
-    const double *x = descent->point, *p = descent->direction;
+    const double *x = descent->iterate, *p = descent->direction;
     double low = E->H[0], lift = E->H[1] / E->H[0];
     double rest = E->H[2] - lift * E->H[1]; /* H = L D L^T */
     double q = p[0] + lift * p[1];
@@ -336,7 +336,7 @@ static void draw_model_ellipses(const Plot *plot, const LocalModel *E)
  * the answer a ring where they meet. */
 static void draw_linearised_zeros(const Plot *plot, const LocalModel *E)
 {
-    const double *x = plot->simulation->descent.point;
+    const double *x = plot->simulation->descent.iterate;
     for (int k = 0; k < 2; k++) {
         const double *slope = E->H + k, across[2] = {-slope[1], slope[0]};
         double square = slope[0] * slope[0] + slope[1] * slope[1];
@@ -355,7 +355,7 @@ static void draw_linearised_zeros(const Plot *plot, const LocalModel *E)
 /* Draws the half plane g . p < 0 of the directions that point downhill. */
 static void draw_downhill(const Plot *plot, const LocalModel *E)
 {
-    const double *x = plot->simulation->descent.point;
+    const double *x = plot->simulation->descent.iterate;
     const double across[2] = {-E->g[1], E->g[0]};
     double far = length_beyond_view(plot) / vector_length(E->g);
     const Point a = point_along(x, far, across),
@@ -376,7 +376,7 @@ void landscape_draw(Plot *stage)
     const Simulation *simulation = stage->simulation;
     const LectureContent *lecture = &stage->content->lecture;
     const Descent *descent = &simulation->descent;
-    const LocalModel E = evaluate_energy(simulation, descent->point);
+    const LocalModel E = evaluate_energy(simulation, descent->iterate);
     Plot plot = draw_map(stage);
     unsigned layers = simulation->options.layers;
     bool halves = layers & LAYER_DOWNHILL && !simulation->is_over;
@@ -405,14 +405,14 @@ void landscape_draw(Plot *stage)
         draw_directions(&plot, plot.has_text && both);
     if (halves) {
         double far = 6 * plot.em / plot.camera.scale[0] / vector_length(E.g);
-        plot_arrow(&plot, descent->point, E.g, -far, 2.2, COLOUR_TEXT);
-        plot_label(&plot, 1, point_along(descent->point, -far, E.g).xy,
+        plot_arrow(&plot, descent->iterate, E.g, -far, 2.2, COLOUR_TEXT);
+        plot_label(&plot, 1, point_along(descent->iterate, -far, E.g).xy,
                    COLOUR_TEXT, "\u2212\u2207E");
     }
     if (stage->revealed && plot.has_text && !curves &&
         simulation->exhibit.switches != PART_INERTIA)
         mark_stationary_points(&plot);
-    plot_disc(&plot, descent->point, 7, COLOUR_TEXT);
+    plot_disc(&plot, descent->iterate, 7, COLOUR_TEXT);
     plot_label(&plot, 1, simulation->exhibit.x_tilde, COLOUR_X_TILDE, "{xt}");
 }
 

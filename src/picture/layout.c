@@ -108,7 +108,8 @@ static int count_letters(const char *text)
 static void place_settings(const SettingsRow *row, Layout *layout, bool low,
                            Box *rest)
 {
-    int width[LAYOUT_SETTINGS] = {0}, left = ems_to_pixels(layout, GAP + 0.5);
+    int width[LAYOUT_MAX_SETTINGS] = {0},
+        left = ems_to_pixels(layout, GAP + 0.5);
     for (int i = 0; i < row->count; i++) {
         const Setting *setting = &row->item[i];
         int value = count_letters(setting->value);
@@ -144,7 +145,7 @@ static void place_settings(const SettingsRow *row, Layout *layout, bool low,
 static void place_chips(const ChipRow *chips, bool lecture, Layout *layout)
 {
     int gap = ems_to_pixels(layout, 0.6), last = chips->count - 1;
-    int width[LAYOUT_CHIPS];
+    int width[LAYOUT_MAX_CHIPS];
     Box room = box_inset(layout->chip_row, ems_to_pixels(layout, 0.35));
     for (int i = 0; i <= last; i++) {
         double letters = BOLD * count_letters(chips->chip[i].key) +
@@ -228,7 +229,7 @@ static int find_main_card(const FrameContent *content)
 
 /* Finds the rows of all visible cards.  If `pairs`, two cards of half width
  * share a row.  Returns the number of rows.
- *   rows  [LAYOUT_CARDS] out */
+ *   rows  [LAYOUT_MAX_CARDS] out */
 static int find_card_rows(const FrameContent *content, const Layout *layout,
                           double wide, bool pairs, CardRow *rows)
 {
@@ -263,11 +264,12 @@ static int find_card_rows(const FrameContent *content, const Layout *layout,
 /* Gives each row its minimum height, lets the texts of a page grow to their
  * usual size, and shares the rest of the free height by the weights.
  * If the column is too low, closes rows from the last one on, unless cards
- * stand in pairs; then shrinks all heights alike, but not the page's texts.
- * Returns whether the column is high enough; in large type, for the texts. */
+ * stand in pairs.  If the column is still too low, shrinks all heights but
+ * those of the page's texts.  Returns whether the column was high enough for
+ * all cards; in large type, for the page's texts. */
 static bool place_cards(const FrameContent *content, Layout *layout)
 {
-    CardRow rows[LAYOUT_CARDS] = {{0}};
+    CardRow rows[LAYOUT_MAX_CARDS] = {{0}};
     int gap = ems_to_pixels(layout, GAP * 0.75),
         bar = ems_to_pixels(layout, TITLE_BAR);
     bool big = active_pane(content)->simulation->options.big;
@@ -553,7 +555,7 @@ WindowHit layout_hit(const Layout *layout, double x, double y)
 
 const Lens LENS_FITS = {1, {0, 0}};
 
-static const double ZOOM_LEAST = 1e-3, ZOOM_MOST = 1e6;
+static const double MIN_ZOOM = 1e-3, MAX_ZOOM = 1e6;
 
 Camera camera_create(Box box, const double bounds[4], bool stretched,
                      const Lens *lens)
@@ -585,7 +587,7 @@ void camera_to_world(const Camera *camera, double x, double y, double world[2])
 void lens_zoom(Lens *lens, Box box, double x, double y, double factor)
 {
     double zoom = lens->zoom > 0 ? lens->zoom : 1;
-    lens->zoom = fmin(fmax(zoom * factor, ZOOM_LEAST), ZOOM_MOST);
+    lens->zoom = fmin(fmax(zoom * factor, MIN_ZOOM), MAX_ZOOM);
     double growth = lens->zoom / zoom - 1;
     lens_pan(lens, box, -growth * (x - box.x - 0.5 * box.width),
              -growth * (y - box.y - 0.5 * box.height));

@@ -108,7 +108,7 @@ static void add_setting_values(const Simulation *simulation, LiveValues *values)
     values_add_flag(values, "done", simulation->is_over);
     if (simulation->is_over && scene->step == step_descent &&
         descent->residual <= options->tolerance) { /* x is stationary */
-        const double *x = descent->point;
+        const double *x = descent->iterate;
         int down = descent_hessian_index(simulation, x[0], x[1]);
         values_add_flag(values, "saddle", down == 1);
         values_add_flag(values, "maximum", down == 2);
@@ -192,7 +192,7 @@ static const Trace *make_descent_trace(const Simulation *simulation,
     bool given_up = last >= 0 && !made; /* the line search refused all trials */
     *space = (DescentTrace){.simulation = simulation};
     for (int k = 0; k < (descent->scalar ? 1 : 2); k++) {
-        space->start[k] = made ? record->x_before[k] : descent->point[k];
+        space->start[k] = made ? record->x_before[k] : descent->iterate[k];
         space->p[k] =
             made ? (record->x_after[k] - record->x_before[k]) / record->alpha
                  : descent->direction[k];
@@ -383,7 +383,7 @@ TextLine text_first_line(const LiveValues *values, const char *text)
     return line;
 }
 
-bool text_has_line(const LiveValues *values, const char *text)
+bool text_has_known_line(const LiveValues *values, const char *text)
 {
     TextLine line = text_begin(values, text);
     return text_next_line(&line);

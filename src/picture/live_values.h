@@ -52,7 +52,7 @@ bool text_next_line(TextLine *line);
 /* Returns the first line that has known values; empty if there is none. */
 TextLine text_first_line(const LiveValues *values, const char *text);
 /* Whether a text has a line with known values. */
-bool text_has_line(const LiveValues *values, const char *text);
+bool text_has_known_line(const LiveValues *values, const char *text);
 
 /* Writes all lines with known values into a card, as large as they fit: up to
  * the size of plain text, on a page up to 1.2, in its main card 1.6 times. */

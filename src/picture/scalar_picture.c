@@ -24,7 +24,7 @@ typedef struct ScalarUpdate {
     bool shows_derivative; /* draws f' and tangent, not f and model */
 } ScalarUpdate;
 
-static LocalModel evaluate_scalar(const Simulation *simulation, double x)
+static LocalModel evaluate_scalar_model(const Simulation *simulation, double x)
 {
     return descent_evaluate(simulation, PROJECTION_NONE, x, 0);
 }
@@ -35,7 +35,7 @@ static ScalarUpdate find_update(const Simulation *simulation, int i)
     const Descent *descent = &simulation->descent;
     bool whole = simulation->options.line_search == LINE_SEARCH_NONE;
     ScalarUpdate update = {
-        .simulation = simulation, .x0 = descent->point[0], .alpha = whole};
+        .simulation = simulation, .x0 = descent->iterate[0], .alpha = whole};
     if (i >= 0) {
         const NewtonRecord *record = &descent->record[i];
         update.x0 = record->x_before[0];
@@ -44,7 +44,7 @@ static ScalarUpdate find_update(const Simulation *simulation, int i)
         update.iterate = i;
         update.is_made = true;
     }
-    LocalModel at = evaluate_scalar(simulation, update.x0);
+    LocalModel at = evaluate_scalar_model(simulation, update.x0);
     update.f = at.energy;
     update.slope = at.g[0];
     update.curvature = at.H[0];
@@ -56,7 +56,7 @@ static ScalarUpdate find_update(const Simulation *simulation, int i)
 static double evaluate_f(const void *data, double x)
 {
     const ScalarUpdate *update = data;
-    LocalModel at = evaluate_scalar(update->simulation, x);
+    LocalModel at = evaluate_scalar_model(update->simulation, x);
     return update->shows_derivative ? at.g[0] : at.energy;
 }
 
@@ -73,7 +73,7 @@ static double evaluate_model_at(const void *data, double x)
 /* Returns iterate i of 0 ... count; the last one is the present point. */
 static double get_iterate(const Descent *descent, int i)
 {
-    return i == descent->count ? descent->point[0]
+    return i == descent->count ? descent->iterate[0]
                                : descent->record[i].x_before[0];
 }
 
@@ -149,7 +149,8 @@ static double find_first_alpha(const Simulation *simulation)
     ScalarUpdate from = find_update(simulation, -1);
     double alpha = 1, p = from.x1 - from.x0;
     while (alpha > DBL_EPSILON &&
-           evaluate_scalar(simulation, from.x0 + alpha * p).energy > from.f)
+           evaluate_scalar_model(simulation, from.x0 + alpha * p).energy >
+               from.f)
         alpha /= 2;
     return alpha;
 }
@@ -183,7 +184,7 @@ void scalar_add_values(const Simulation *simulation, LiveValues *values)
 
 void tangent_bounds(const Plot *stage, double bounds[4])
 {
-    double x = stage->simulation->descent.point[0];
+    double x = stage->simulation->descent.iterate[0];
     bounds_make_square(TANGENT_REACH, 1.05 * fabs(x), 2, bounds);
 }
 
@@ -195,7 +196,7 @@ static Plot create_tangent_plot(const Plot *stage, int half)
     double high = half ? 2 : 4;
     for (int i = 0; i <= descent->count; i++) {
         LocalModel at =
-            evaluate_scalar(stage->simulation, get_iterate(descent, i));
+            evaluate_scalar_model(stage->simulation, get_iterate(descent, i));
         high = fmax(high, half ? at.energy : fabs(at.g[0]));
     }
     high = plot_round_axis_end(fmin(high, 1e12));
@@ -242,10 +243,10 @@ void tangent_draw(Plot *stage)
 /* Returns the zero of g that full updates find; NaN: no convergence. */
 static double find_root(const Simulation *simulation)
 {
-    double x = simulation->descent.point[0], p = INFINITY;
+    double x = simulation->descent.iterate[0], p = INFINITY;
     for (int i = 0; i < ROOT_UPDATES && fabs(p) > 1e-14 * fmax(1, fabs(x));
          i++) {
-        LocalModel at = evaluate_scalar(simulation, x);
+        LocalModel at = evaluate_scalar_model(simulation, x);
         p = -at.g[0] / at.H[0];
         x += p;
     }

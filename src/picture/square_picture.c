@@ -437,7 +437,7 @@ static void draw_page_arrows(const SquarePen *pen)
     for (int i = 0; i < 2 * system->nodes; i++)
         arrow[i] *= system->m[i / 2];
     draw_node_arrows(pen, arrow, 0, COLOUR_FORCE, "force on each node");
-    if (!(layers & LAYER_KINDS)) /* the page names the last node's force */
+    if (!(layers & LAYER_KINDS)) /* the page's text speaks of the last node */
         plot_label(pen->stage, 1, pen->x + 2 * system->nodes - 2, COLOUR_TEXT,
                    "node %d", system->nodes - 1);
 }

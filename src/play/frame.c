@@ -186,7 +186,8 @@ static void build_chip_row(const Player *player, Frame *frame)
 
 /* ---- the picture --------------------------------------------------------- */
 
-_Static_assert((int)OPTIONS_MAX_DRAWN == (int)LAYOUT_PANES, "all are drawn");
+_Static_assert((int)OPTIONS_MAX_DRAWN == (int)LAYOUT_MAX_PANES,
+               "all are drawn");
 
 /* Writes the value that an option has in a pane at the step that is shown. */
 static void format_pane_value(const Player *player, int pane,
@@ -257,7 +258,7 @@ static void build_pane_content(const Player *player, int p, Frame *frame)
     if (shown->has_trace && simulation_has_updates(simulation)) {
         pane->trace = &frame->trace[p];
         pane->x =
-            step_trace_show(&shown->trace, view->position, &frame->trace[p]);
+            step_trace_show(&shown->trace, view->trace_index, &frame->trace[p]);
     }
 }
 
@@ -359,8 +360,8 @@ static void build_frame_content(const Player *player, Frame *frame)
     content->is_stage_only = window && window->has_document;
     content->has_document = content->is_stage_only && window->has_document();
     content->panes = past_panes(past);
-    if (content->panes > LAYOUT_PANES) /* scripts can have more panes */
-        content->panes = LAYOUT_PANES;
+    if (content->panes > LAYOUT_MAX_PANES) /* scripts can have more panes */
+        content->panes = LAYOUT_MAX_PANES;
     content->active_pane = active < content->panes ? active : 0;
     for (int i = 0; i < content->panes; i++)
         build_pane_content(player, i, frame);
@@ -369,7 +370,7 @@ static void build_frame_content(const Player *player, Frame *frame)
     build_chip_row(player, frame);
     const Control *control = past_control(past, active);
     if (control_hand_holds(control) &&
-        player->view_of_pane[active].position < 0)
+        player->view_of_pane[active].trace_index < 0)
         content->hand = (HandGrip){true,
                                    control->held_node,
                                    control->held_obstacle,

@@ -119,7 +119,7 @@ Status obey_set(Player *player, const Command *command)
             continue;
         status =
             options_set(&options[p], row, command->text, command->x, message);
-        if (!status && row->max_times) /* obstacles may overlap a body */
+        if (!status && row->max_times) /* no obstacle may overlap a body */
             status = simulation_check_clearance(
                 &player->past.pane[p].simulation, &options[p], message);
     }
@@ -134,7 +134,7 @@ Status obey_set(Player *player, const Command *command)
                   (player_active_options(player)->law_name &&
                    player->past.step > 0 && player_is_stopped(player)) ||
                   (player->play.walk_unit != UNIT_STEP &&
-                   player->view_of_pane[player->active].position >= 0));
+                   player->view_of_pane[player->active].trace_index >= 0));
     if (simulation_find_option_effect(simulation, row) == EFFECT_NEW_RUN)
         return player_restart_runs(player, options, panes, command);
     if (again && change.x != old)

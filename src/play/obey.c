@@ -168,8 +168,9 @@ static void begin_command(Player *player, const Command *command)
         player->note[0] = '\0';
 }
 
-/* Whether a command only waits for the step that is being made: "next" leads to
- * this step anyway, and a drag goes into the queue. */
+/* Whether a command does nothing but wait for the work.  While a step is loaded
+ * or made, "next" leads to this step.  While a step is made, a drag goes into
+ * the queue. */
 static bool waits_for_step(Player *player, const Command *command)
 {
     bool drags =

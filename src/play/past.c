@@ -201,7 +201,8 @@ void past_fill_history(const Past *past, int pane, History *history)
         const EnergySample *sample =
             find_entry(past, pane, step < last ? step : last)->sample;
         if (sample)
-            history_add_point(history, sample->time, sample->rows, sample->row);
+            history_add_point(history, sample->time, sample->energy_count,
+                              sample->energy);
     }
 }
 
@@ -391,10 +392,10 @@ static Status pane_set_step(Past *past, int p, long step)
     if (entry->sample) {
         const Picture *picture = picture_of_scene(pane->simulation.scene);
         entry->sample->time = simulation_time(&pane->simulation);
-        entry->sample->rows = 0;
+        entry->sample->energy_count = 0;
         if (picture->sample)
-            entry->sample->rows =
-                picture->sample(&pane->simulation, entry->sample->row);
+            entry->sample->energy_count =
+                picture->sample(&pane->simulation, entry->sample->energy);
     }
     return STATUS_OK;
 }
@@ -408,7 +409,8 @@ static Status pane_load_state(PastPane *pane, const State *state)
 }
 
 /* Brings a pane near the step `goal`, if need be to the last stored state
- * before it.  If states are not stored, the pane is at that step already. */
+ * at or before it.  If states are not stored, the pane is at that step already.
+ */
 static Status pane_seek(Past *past, int p, long goal)
 {
     PastPane *pane = &past->pane[p];
@@ -623,7 +625,7 @@ static Status begin_new_step(Past *past)
     return STATUS_RUNNING;
 }
 
-/* Ends the work when all panes are at `aim_step`.  If no pane could make a new
+/* Ends the work when all panes are at `goal_step`.  If no pane could make a new
  * step, as its scene is over or it has failed, the newest step is shown. */
 static Status end_past_work(Past *past)
 {
@@ -655,12 +657,12 @@ Status past_do_work(Past *past)
         past->work_stage = WORK_REPEATING;
     /* First each pane repeats steps up to newest, then each makes the next. */
     long newest = past_newest(past);
-    long aim = past->goal_step,
-         goal = past_makes_step(past) || aim < newest ? aim : newest;
+    long goal = past->goal_step,
+         limit = past_makes_step(past) || goal < newest ? goal : newest;
     for (pane = 0; pane < panes; pane++)
-        if (past->pane[pane].is_iterating || past->pane[pane].step < goal)
+        if (past->pane[pane].is_iterating || past->pane[pane].step < limit)
             return pane_iterate(past, pane);
-    return goal < past->goal_step ? begin_new_step(past) : end_past_work(past);
+    return limit < goal ? begin_new_step(past) : end_past_work(past);
 }
 
 Status past_finish_work(Past *past)
@@ -671,7 +673,7 @@ Status past_finish_work(Past *past)
     return status;
 }
 
-/* Whether the trace of `aim_step` is missing and is quick to make. */
+/* Whether the trace of `goal_step` is missing and is quick to make. */
 static bool can_trace_goal(const Past *past)
 {
     enum { SHORT_STEP_WORK = 400000 }; /* limit of nodes times updates */

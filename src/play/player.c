@@ -23,7 +23,7 @@ Status player_draw(Player *player)
     if (!player->screen.draws_frames)
         return STATUS_OK;
     if (past_is_working(&player->past) && !past_makes_step(&player->past)) {
-        /* The frame is drawn when the work has led to its step. */
+        /* The frame of the step is drawn when the work is done. */
         player->screen.must_redraw = true;
         return STATUS_OK;
     }
@@ -238,7 +238,7 @@ Status player_create(const Options *options, char *const *words,
                 player->setup.is_attended && options->steps < 0, &player->past);
     if (!status)
         status = player_begin_runs(player, options, options->panes, &begin);
-    /* A script starts running, so the journal needs the pause. */
+    /* The journal is a script, and a script does not begin paused. */
     if (!status && player_is_stopped(player))
         status = script_add(&player->commands.journal, 0, &pause, 0);
     bool nodes = !status && player_simulation(player)->mesh.nodes > 0;

@@ -49,7 +49,7 @@ bool player_panes_differ(const Player *player, const OptionRow *row);
 /* Whether steps are made only after commands. */
 bool player_is_stopped(const Player *player);
 
-/* Whether a single factorisation takes longer than SLICE. */
+/* Whether a factorisation of --solver newton takes longer than SLICE. */
 bool player_is_slow(const Player *player);
 
 /* Lets E along p be sampled from now on if a card draws it.  Prepares to make
@@ -116,7 +116,7 @@ Status player_edit_step(Player *player, const Command *change, int pane,
 /* Iterates until the chosen step is shown; in a window at most for SLICE. */
 Status player_work(Player *player);
 
-/* Sets the step to show, 0 ... newest + 1.  player_work makes it;
+/* Sets the step to show, cut to 0 ... newest + 1.  player_work makes it;
  * player_obey calls it unless KEEPS_STEP keeps a step that is being made. */
 Status player_seek(Player *player, long step, AfterWork after);
 

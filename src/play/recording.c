@@ -82,7 +82,7 @@ static const struct {
     const char *columns; /* names of columns, for table_add_columns */
     void (*write_rows)(Table *table, const RunAtStep *at); /* adds the rows of
                                 a step; NULL: the log, a row an iteration */
-} kinds[RECORDING_TABLES] = {
+} kinds[TABLE_COUNT] = {
     {offsetof(Options, states), "step:whole,time,node:whole,x,y,vx,vy",
      add_states},
     {offsetof(Options, log),
@@ -139,7 +139,7 @@ static void find_old_frames(Recording *recording)
 {
     DIR *folder = opendir(recording->folder);
     struct dirent *file;
-    recording->old_frame = calloc(FRAMES_MOST, 1);
+    recording->old_frame = calloc(MAX_FRAMES, 1);
     while (folder && recording->old_frame && (file = readdir(folder))) {
         int end = 0, step = 0;
         if (sscanf(file->d_name, "frame_%6d.png%n", &step, &end) == 1 &&
@@ -164,11 +164,11 @@ static Status open_table(const Options *options, Recording *recording, int t)
     table->get_text = name_log_code;
     table_add_columns(table, kinds[t].columns);
     for (const OptionRow *row = option_rows; row->name; row++)
-        if (t == RECORDING_ENERGIES && row->term) {
+        if (t == TABLE_ENERGIES && row->term) {
             table_add_columns(table, row->term->energy_name);
             table_add_columns(table, row->term->loss_name);
         }
-    if (t == RECORDING_ENERGIES)
+    if (t == TABLE_ENERGIES)
         table_add_columns(table, "work,dissipated,run:whole");
     else if (recording->panes > 1)
         table_add_columns(table, "pane:whole");
@@ -187,7 +187,7 @@ Status recording_open(const Options *options, Recording *recording)
         find_old_frames(recording);
     if (!status && options->film)
         status = film_open(options->film, message, &recording->film);
-    for (int t = 0; t < RECORDING_TABLES && !status; t++)
+    for (int t = 0; t < TABLE_COUNT && !status; t++)
         status = open_table(options, recording, t);
     return status;
 }
@@ -203,7 +203,7 @@ Status recording_write_frame(Recording *recording, const Canvas *canvas,
         return status;
     snprintf(name, sizeof name, "%s/frame_%06ld.png", recording->folder, step);
     recording->frames++;
-    if (recording->old_frame && step < FRAMES_MOST)
+    if (recording->old_frame && step < MAX_FRAMES)
         recording->old_frame[step] = 0;
     return png_file_write(name, recording->message, canvas);
 }
@@ -221,15 +221,15 @@ Status recording_write_states(Recording *recording, bool energies_only,
             at.time = simulation_time(simulation[i]);
             at.run_index = r;
             at.pane = i + 1;
-            for (int t = 0; t < RECORDING_TABLES; t++)
+            for (int t = 0; t < TABLE_COUNT; t++)
                 if (kinds[t].write_rows && recording->table[t].output.file &&
-                    (!energies_only || t == RECORDING_ENERGIES))
+                    (!energies_only || t == TABLE_ENERGIES))
                     kinds[t].write_rows(&recording->table[t], &at);
             at.first_run++;
             at.first_node += at.run->system->nodes;
             at.first_spring += at.run->system->springs;
         }
-    for (int t = 0; t < RECORDING_TABLES && !status; t++)
+    for (int t = 0; t < TABLE_COUNT && !status; t++)
         status = table_check(&recording->table[t]);
     return status;
 }
@@ -237,7 +237,7 @@ Status recording_write_states(Recording *recording, bool energies_only,
 Status recording_write_iteration(Recording *recording, const NewtonRecord *at,
                                  int pane)
 {
-    Table *log = &recording->table[RECORDING_LOG];
+    Table *log = &recording->table[TABLE_LOG];
     /* An iteration below 0 is the end of a step by a prescribed motion. */
     double iteration = at->iteration < 0 ? NAN : at->iteration;
     double step = (double)at->step_number;
@@ -254,7 +254,7 @@ Status recording_write_iteration(Recording *recording, const NewtonRecord *at,
 Status recording_close(Recording *recording, CloseAction keep)
 {
     bool failed = recording->message[0];
-    for (int t = 0; t < RECORDING_TABLES; t++) {
+    for (int t = 0; t < TABLE_COUNT; t++) {
         FILE *file = recording->table[t].output.file;
         if (file)
             fflush(file);
@@ -262,7 +262,7 @@ Status recording_close(Recording *recording, CloseAction keep)
     }
     keep = failed && !keep ? KEEP_PART : keep;
     failed = film_close(&recording->film, keep) || failed;
-    for (int t = 0; t < RECORDING_TABLES; t++) {
+    for (int t = 0; t < TABLE_COUNT; t++) {
         keep = failed && !keep ? KEEP_PART : keep;
         failed = output_close(&recording->table[t].output, keep) || failed;
     }

@@ -19,9 +19,9 @@ Status obey_screen(Player *player, const Command *command)
     const Window *window = player->screen.window;
     CommandKind kind = command->kind;
     if (kind == COMMAND_FASTER)
-        player->play.log_speed += player->play.log_speed < SPEED_MOST;
+        player->play.log_speed += player->play.log_speed < MAX_LOG_SPEED;
     else if (kind == COMMAND_SLOWER)
-        player->play.log_speed -= player->play.log_speed > SPEED_LEAST;
+        player->play.log_speed -= player->play.log_speed > MIN_LOG_SPEED;
     else if (kind == COMMAND_COLOURS)
         player->screen.has_toggled_strain = !player->screen.has_toggled_strain;
     else if (kind == COMMAND_BARE)

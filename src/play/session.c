@@ -63,7 +63,7 @@ int player_list_options(const Player *player, bool all,
         if (more)
             found[count++] = row;
     }
-    return all || count < LAYOUT_SETTINGS ? count : LAYOUT_SETTINGS - 1;
+    return all || count < LAYOUT_MAX_SETTINGS ? count : LAYOUT_MAX_SETTINGS - 1;
 }
 
 const Options *player_find_page_options(const Player *player,
@@ -158,8 +158,8 @@ void player_sample_line_energy(Player *player)
     past->line_energy_pane = is_drawn ? player->active : -1;
     bool lacks =
         is_drawn && pane->has_trace && !past_is_working(past) &&
-        step_trace_lacks_samples(&pane->trace,
-                                 player->view_of_pane[player->active].position);
+        step_trace_lacks_samples(
+            &pane->trace, player->view_of_pane[player->active].trace_index);
     for (int p = 0; p < past_panes(past); p++)
         lacks = lacks && !past->pane[p].has_failed;
     if (lacks)
@@ -172,7 +172,8 @@ int player_initial_speed(const Player *player, const Options *options)
     if (speed == 0 && !options->page && player->setup.is_attended)
         speed = options->scene->speed;
     if (speed > 0)
-        return (int)lrint(fmin(fmax(log2(speed), SPEED_LEAST), SPEED_MOST));
+        return (int)lrint(
+            fmin(fmax(log2(speed), MIN_LOG_SPEED), MAX_LOG_SPEED));
     return options->scene->parts & HAS_TIME ? 0 : UPDATE_SPEED;
 }
 
@@ -253,7 +254,7 @@ void player_enqueue(Player *player, const Command *command)
     Command *last = queue->command + (queue->count > 0 ? queue->count - 1 : 0);
     if (queue->count > 0 && command_replaces(command, last))
         *last = *command;
-    else if (queue->count < QUEUE_MOST)
+    else if (queue->count < MAX_QUEUED)
         queue->command[queue->count++] = *command;
 }
 
@@ -281,7 +282,7 @@ Status player_enqueue_lines(Player *player, const char *lines)
         snprintf(line, sizeof line, "& %.*s", (int)length, lines);
         lines += length + (lines[length] == ';');
         status = command_parse(line, &command, MESSAGE(player->message));
-        if (!status && player->commands.queue.count == QUEUE_MOST)
+        if (!status && player->commands.queue.count == MAX_QUEUED)
             status = player_refuse(player, "too many commands at once");
         if (!status)
             player_enqueue(player, &command);

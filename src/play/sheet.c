@@ -20,8 +20,8 @@ typedef struct Sheet {
     int cells;
     int next_cell; /* index of the cell that gets the next step */
     int next_page; /* index of the page that the first cell shows next */
-    int turns[LAYOUT_CELLS]; /* frames in which the cell had its turn */
-    Simulation simulation[LAYOUT_CELLS];
+    int turns[LAYOUT_MAX_CELLS]; /* frames in which the cell had its turn */
+    Simulation simulation[LAYOUT_MAX_CELLS];
 } Sheet;
 
 void sheet_close(Player *player)
@@ -46,10 +46,11 @@ Status obey_sheet(Player *player, const Command *command)
     if (!sheet)
         return STATUS_OUT_OF_MEMORY;
     const Scene *scene = scenes; /* scene of cell 1; cell 0 is the tour */
-    while (++sheet->cells < LAYOUT_CELLS && scene->name && !scene->only_by_name)
+    while (++sheet->cells < LAYOUT_MAX_CELLS && scene->name &&
+           !scene->is_hidden)
         scene++;
     player->screen.view.selected_cell =
-        options->page || options->scene->only_by_name
+        options->page || options->scene->is_hidden
             ? 0
             : (int)(options->scene - scenes) + 1;
     return STATUS_OK;

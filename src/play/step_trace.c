@@ -78,10 +78,10 @@ static void store_line_energy(StepTrace *trace, const Iterate *at)
             &along, i * iterate->first_trial / SAMPLE_INTERVALS);
 }
 
-bool step_trace_lacks_samples(const StepTrace *trace, int place)
+bool step_trace_lacks_samples(const StepTrace *trace, int position)
 {
     int last = trace->records.count - 1;
-    int i = place < 0 ? last : trace->position[place].iterate;
+    int i = position < 0 ? last : trace->position[position].iterate;
     if (last < 0)
         return false;
     const TraceIterate *iterate = &trace->iterate[i < last ? i : last];
@@ -97,11 +97,11 @@ static double evaluate_iterate_energy(const void *function, double alpha)
         return quartic_value(&iterate->polynomial, alpha);
     if (!iterate->has_samples && alpha == iterate->alpha)
         return iterate->energy_change;
-    double place = alpha / iterate->first_trial * SAMPLE_INTERVALS;
-    if (!iterate->has_samples || !(place >= 0 && place <= SAMPLE_COUNT - 1))
+    double at = alpha / iterate->first_trial * SAMPLE_INTERVALS;
+    if (!iterate->has_samples || !(at >= 0 && at <= SAMPLE_COUNT - 1))
         return NAN;
-    const double *value = iterate->energy_samples + (int)place;
-    double part = place - (int)place;
+    const double *value = iterate->energy_samples + (int)at;
+    double part = at - (int)at;
     return part == 0 ? value[0] : value[0] + part * (value[1] - value[0]);
 }
 
@@ -191,13 +191,13 @@ static void append_position(StepTrace *trace, int iterate, StepLine line,
 void step_trace_end(StepTrace *trace, const Options *options)
 {
     int count = trace->records.count;
-    TracePosition *place =
+    TracePosition *grown =
         realloc(trace->position,
-                ((size_t)count + 1) * (MAX_TRIALS + 8) * sizeof *place);
+                ((size_t)count + 1) * (MAX_TRIALS + 8) * sizeof *grown);
     trace->position_count = 0;
-    if (!place)
+    if (!grown)
         return;
-    trace->position = place;
+    trace->position = grown;
     append_position(trace, 0, LINE_START, 0);
     for (int i = 0; i < count; i++) {
         const NewtonRecord *record = &trace->records.record[i];
@@ -220,15 +220,17 @@ void step_trace_end(StepTrace *trace, const Options *options)
     append_position(trace, count, LINE_END, 0);
 }
 
-int step_trace_walk(const StepTrace *trace, TimeUnit unit, int place, int way)
+int step_trace_walk(const StepTrace *trace, TimeUnit unit, int position,
+                    int way)
 {
-    for (int i = place + way; 0 <= i && i < trace->position_count; i += way) {
+    for (int i = position + way; 0 <= i && i < trace->position_count;
+         i += way) {
         StepLine line = trace->position[i].at_line;
         if (unit == UNIT_LINE || line == LINE_START || line == LINE_TEST ||
             line == LINE_END)
             return i;
     }
-    return place;
+    return position;
 }
 
 int step_trace_find_position(const StepTrace *trace, int iterate, StepLine line)
@@ -258,7 +260,7 @@ int step_trace_find_peak(const StepTrace *trace)
     return far ? step_trace_find_position(trace, iterate, LINE_UPDATE) : -1;
 }
 
-/* Fills the values that the lines up to a place have computed at x^i. */
+/* Fills the values that the lines up to a position have computed at x^i. */
 static void show_iterate_values(const StepTrace *trace, const TracePosition *at,
                                 Trace *shown)
 {
@@ -283,16 +285,17 @@ static void show_iterate_values(const StepTrace *trace, const TracePosition *at,
     shown->difference_data = iterate;
 }
 
-const double *step_trace_show(const StepTrace *trace, int place, Trace *shown)
+const double *step_trace_show(const StepTrace *trace, int position,
+                              Trace *shown)
 {
     int count = trace->records.count;
     const NewtonRecord *row = trace->records.record;
     const NewtonRecord *last = count > 0 ? row + count - 1 : row;
-    bool over = place < 0 || place >= trace->position_count;
+    bool over = position < 0 || position >= trace->position_count;
     bool given_up = count > 0 && last->status != STATUS_OK &&
                     last->status != STATUS_RUNNING;
     const TracePosition at =
-        over ? (TracePosition){count, LINE_END, 0} : trace->position[place];
+        over ? (TracePosition){count, LINE_END, 0} : trace->position[position];
     bool end = at.at_line == LINE_END;
     TracePosition source = at;
     if (end && count > 0) /* the end shows the values of the last iterate */

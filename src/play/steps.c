@@ -89,7 +89,7 @@ Status player_write_remaining(Player *player)
 static void leave_algorithm_lines(Player *player)
 {
     for (int p = 0; p < OPTIONS_MAX_PANES; p++)
-        player->view_of_pane[p].position = -1;
+        player->view_of_pane[p].trace_index = -1;
 }
 
 void player_reset_view(Player *player)
@@ -275,7 +275,7 @@ static void enter_line_walk(Player *player, AfterWork after)
         if (place < 0)
             continue;
         player->play.mode = MODE_PAUSE;
-        player->view_of_pane[p].position = place;
+        player->view_of_pane[p].trace_index = place;
         const double *x = step_trace_show(trace, place, &shown);
         if (after != AFTER_SHOW_END)
             continue;
@@ -294,7 +294,7 @@ static bool walk_lines(Player *player, int way)
     bool moved = false;
     for (int p = 0; p < past_panes(&player->past); p++) {
         const StepTrace *trace = &player->past.pane[p].trace;
-        int *place = &player->view_of_pane[p].position;
+        int *place = &player->view_of_pane[p].trace_index;
         if (*place < 0)
             continue;
         int next = step_trace_walk(trace, player->play.walk_unit, *place, way);
@@ -337,7 +337,7 @@ static void compare_outcomes(Player *player)
     char has[256];
     if (at->iterate >= 0 && trace->position_count > 2) {
         player->play.mode = MODE_PAUSE;
-        player->view_of_pane[player->active].position =
+        player->view_of_pane[player->active].trace_index =
             step_trace_find_position(trace, at->iterate, at->at_line);
     }
     describe_outcome(player,
@@ -358,8 +358,9 @@ Status player_repeat_step(Player *player, const Command *change, int pane)
     bool failed = active->has_failed;
     long step = past->step + failed;
     player->play.wanted_position = (TracePosition){.iterate = -1};
-    if (view->position >= 0 && player->play.walk_unit != UNIT_STEP)
-        player->play.wanted_position = active->trace.position[view->position];
+    if (view->trace_index >= 0 && player->play.walk_unit != UNIT_STEP)
+        player->play.wanted_position =
+            active->trace.position[view->trace_index];
     player_reset_view(player);
     describe_outcome(player, row, view->ghost_label, sizeof view->ghost_label);
     if (row->effect == EFFECT_REPEAT && !failed && !simulation->scene->step)
@@ -494,7 +495,7 @@ Status obey_next(Player *player, const Command *command)
     if (after == AFTER_SHOW_FIRST && walk_lines(player, 1))
         return STATUS_OK;
     if (after == AFTER_SHOW_END &&
-        player->view_of_pane[player->active].position >= 0) {
+        player->view_of_pane[player->active].trace_index >= 0) {
         leave_algorithm_lines(player); /* to the end of the step */
         return STATUS_OK;
     }
@@ -510,7 +511,8 @@ static bool panes_use_newton(const Player *player)
 }
 
 /* Goes back by a step, an update or a line.  From the first line of a step,
- * goes to the end of the step before. */
+ * goes to the end of the step before.  At the end of a step without a trace the
+ * step is made once more, and its last line is shown. */
 Status obey_back(Player *player, const Command *command)
 {
     long step = player->past.step;
@@ -519,12 +521,12 @@ Status obey_back(Player *player, const Command *command)
         player_note(player, "this is step 0: nothing was before it");
     if (player->play.walk_unit == UNIT_STEP || !panes_use_newton(player))
         return player_seek(player, step - 1, AFTER_NOTHING);
-    if (player->view_of_pane[player->active].position < 0 && step > 0) {
+    if (player->view_of_pane[player->active].trace_index < 0 && step > 0) {
         if (!player_active_pane(player)->has_trace)
             return player_seek(player, step, AFTER_SHOW_LAST);
         enter_line_walk(player, AFTER_SHOW_LAST);
     }
-    if (player->view_of_pane[player->active].position >= 0 &&
+    if (player->view_of_pane[player->active].trace_index >= 0 &&
         walk_lines(player, -1))
         return STATUS_OK;
     return player_seek(player, step - 1, AFTER_SHOW_LAST);

@@ -152,7 +152,7 @@ static double descent_energy_difference(const void *function, double alpha)
 {
     const Simulation *simulation = function;
     const Descent *descent = &simulation->descent;
-    const double *x = descent->point, *p = descent->direction;
+    const double *x = descent->iterate, *p = descent->direction;
     return descent_evaluate(simulation, PROJECTION_NONE, x[0] + alpha * p[0],
                             x[1] + alpha * p[1])
                .energy -
@@ -163,7 +163,7 @@ static double descent_energy_difference(const void *function, double alpha)
  * Projection on demand clamps a Hessian that is not positive definite. */
 static LocalModel evaluate_local_model(const Simulation *simulation)
 {
-    const double *at = simulation->descent.point;
+    const double *at = simulation->descent.iterate;
     Projection projection = (Projection)simulation->options.projection;
     if (projection == PROJECTION_ON_DEMAND)
         projection = descent_hessian_index(simulation, at[0], at[1])
@@ -181,11 +181,11 @@ static Status evaluate_iterate(Simulation *simulation, Status status)
     TimeIntegrator *run = &simulation->run[0];
     Descent *descent = &simulation->descent;
     double *p = descent->direction;
-    memcpy(descent->point, run->x, sizeof descent->point);
+    memcpy(descent->iterate, run->x, sizeof descent->iterate);
     LocalModel E = evaluate_local_model(simulation);
     descent->value = E.energy;
     if (descent->scalar)
-        descent->point[1] = run->x[1] = E.energy;
+        descent->iterate[1] = run->x[1] = E.energy;
     descent->slope = newton_direction(&E, descent->scalar, p);
     descent->residual = descent->tests_g ? math_hypot(E.g[0], E.g[1])
                                          : (fabs(p[0]) + fabs(p[1])) / run->h;
@@ -228,15 +228,15 @@ Status step_descent(Simulation *simulation)
 {
     Descent *descent = &simulation->descent;
     choose_stopping_test(simulation);
-    NewtonRecord record = {.step_number = simulation->steps + 1,
-                           .iteration = (int)simulation->steps,
-                           .residual = descent->residual,
-                           .alpha = 1,
-                           .slope = descent->slope,
-                           .has_new_factor = true,
-                           .projected =
-                               evaluate_local_model(simulation).projected,
-                           .x_before = {descent->point[0], descent->point[1]}};
+    NewtonRecord record = {
+        .step_number = simulation->steps + 1,
+        .iteration = (int)simulation->steps,
+        .residual = descent->residual,
+        .alpha = 1,
+        .slope = descent->slope,
+        .has_new_factor = true,
+        .projected = evaluate_local_model(simulation).projected,
+        .x_before = {descent->iterate[0], descent->iterate[1]}};
     const double *p = descent->direction;
     double *x = simulation->run[0].x;
     Status status = STATUS_RUNNING;
@@ -352,19 +352,19 @@ void dial_restart(Simulation *simulation)
     DialCurve *dial = &simulation->exhibit.dial;
     double point[2], h = simulation->options.timestep;
     memcpy(point, simulation->exhibit.x_tilde, sizeof point);
-    memcpy(simulation->descent.point, point, sizeof point);
+    memcpy(simulation->descent.iterate, point, sizeof point);
     for (int i = 0; i < DIAL_POINTS; i++) {
         dial->h[i] = DIAL_FIRST * pow(10, i / DIAL_PER_TEN);
         minimise_landscape(simulation, dial->h[i], point);
         memcpy(dial->point[i], point, sizeof point);
         if (dial->h[i] <= h)
-            memcpy(simulation->descent.point, point, sizeof point);
+            memcpy(simulation->descent.iterate, point, sizeof point);
     }
-    minimise_landscape(simulation, h, simulation->descent.point);
-    memcpy(simulation->run[0].x, simulation->descent.point, sizeof point);
+    minimise_landscape(simulation, h, simulation->descent.iterate);
+    memcpy(simulation->run[0].x, simulation->descent.iterate, sizeof point);
     simulation->descent.value = landscape_evaluate_parts(
-        simulation, PART_BOTH, simulation->descent.point[0],
-        simulation->descent.point[1]);
+        simulation, PART_BOTH, simulation->descent.iterate[0],
+        simulation->descent.iterate[1]);
 }
 
 Status create_dial(Simulation *simulation)

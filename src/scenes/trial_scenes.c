@@ -30,7 +30,9 @@ static Status make_trial_run(const Options *options,
 
 /* ---- run time against error ---------------------------------------------- */
 
-enum { RACE_FIRST_STEPS = 8 }; /* steps of a run with the longest time step */
+enum {
+    RACE_COARSEST_STEPS = 8
+}; /* steps of a run with the longest time step */
 
 const IntegratorMethod *race_get_method(int i)
 {
@@ -195,7 +197,7 @@ Status step_race(Simulation *simulation)
     Race *race = &simulation->exhibit.race;
     const IntegratorMethod *method =
         race_get_method(race->count % RACE_METHODS);
-    long steps = (long)RACE_FIRST_STEPS << (race->count / RACE_METHODS);
+    long steps = (long)RACE_COARSEST_STEPS << (race->count / RACE_METHODS);
     TimeIntegrator run = {0};
     double seconds;
     RacePoint *point = &race->point[race->count];

@@ -44,8 +44,8 @@ bool control_hand_holds(const Control *control)
 }
 
 /* Returns the lift of an obstacle of a run, m.  Balls are not lifted. */
-static double get_run_lift(const Simulation *simulation, int run,
-                           const Obstacle *obstacle)
+static double get_height_offset(const Simulation *simulation, int run,
+                                const Obstacle *obstacle)
 {
     return obstacle->kind == OBSTACLE_WALL
                ? body_find_lift(&simulation->options, run)
@@ -58,7 +58,7 @@ void simulation_find_obstacle(const Simulation *simulation, int run, int number,
     const Contact *contact = contact_of(simulation->run[run].system);
     const Obstacle *obstacle = &contact->obstacle[number];
     at[0] = obstacle->o[0];
-    at[1] = obstacle->o[1] - get_run_lift(simulation, run, obstacle);
+    at[1] = obstacle->o[1] - get_height_offset(simulation, run, obstacle);
 }
 
 void control_store_obstacle(Control *control, int number,
@@ -202,7 +202,7 @@ static void apply_push(Simulation *simulation, const Control *control)
                    .mesh = simulation->mesh};
         if (contact->hand.is_held)
             contact->hand.target[1] +=
-                get_run_lift(simulation, r, &contact->obstacle[held]);
+                get_height_offset(simulation, r, &contact->obstacle[held]);
     }
 }
 

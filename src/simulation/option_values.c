@@ -117,8 +117,8 @@ void option_write(const OptionRow *row, double value, char *text, size_t size)
 void option_write_short(const OptionRow *row, const Options *options,
                         char *text, size_t size)
 {
-    /* Most digits of a number, most letters of several numbers. */
-    enum { MAX_DIGITS = 6, MAX_LETTERS = 20 };
+    /* Most digits of a number; most letters of a list of numbers. */
+    enum { MAX_DIGITS = 6, MAX_TOTAL_LENGTH = 20 };
     int count = row->count > 1 ? row->count : 1, times = 1;
     if (row->max_times)
         times = (int)options->number[row->count_slot];
@@ -134,7 +134,7 @@ void option_write_short(const OptionRow *row, const Options *options,
             for (int i = 0; i < count && used < size; i++)
                 used += (size_t)snprintf(text + used, size - used, "%s%.*g",
                                          i ? "," : "", digits, value[i]);
-            if (count == 1 || used <= MAX_LETTERS)
+            if (count == 1 || used <= MAX_TOTAL_LENGTH)
                 break;
         }
 }

@@ -26,17 +26,17 @@ RowLayout lay_out_rows(int nodes)
 
 void *memory_take_piece(Memory *memory, size_t bytes)
 {
-    char *piece = memory->base ? memory->base + memory->used : NULL;
+    char *piece = memory->base ? memory->base + memory->used_bytes : NULL;
     bytes = (bytes + SMALL_PAGE - 1) / SMALL_PAGE * SMALL_PAGE;
-    memory->used += bytes + STAGGER * CACHE_LINE;
+    memory->used_bytes += bytes + STAGGER * CACHE_LINE;
     return piece;
 }
 
 Status memory_create(Memory *memory)
 {
-    size_t page = memory->used < LARGE_PAGE ? SMALL_PAGE : LARGE_PAGE;
-    size_t bytes = (memory->used + page) / page * page;
-    memory->used = 0;
+    size_t page = memory->used_bytes < LARGE_PAGE ? SMALL_PAGE : LARGE_PAGE;
+    size_t bytes = (memory->used_bytes + page) / page * page;
+    memory->used_bytes = 0;
     memory->base = aligned_alloc(page, bytes);
     if (!memory->base)
         return STATUS_OUT_OF_MEMORY;

@@ -60,7 +60,7 @@ typedef struct Grid {
      * Node q in row i has the mass m[q + node_shift[i]]; the springs that start
      * there have the index q + spring_shift[i + 1]; [0] is for row -1. */
     int *node_shift, *spring_shift; /* [nodes + 1] index shifts */
-    double *c[KINDS];  /* [plane] 2 w k/l2 by kind of spring; 0: no spring */
+    double *c[KINDS];  /* [plane] 2 w k/l2, w: weight of P in E; 0: no spring */
     double *l2[KINDS]; /* [plane] squared rest length */
     double *m, *inverse_m; /* [plane] mass and 1/mass; inverse_m is 0 at pins */
     double min_mass;       /* smallest mass of a node that moves */
@@ -77,7 +77,7 @@ typedef struct Grid {
  * base NULL, to count the bytes, then to place the arrays. */
 typedef struct Memory {
     char *base;
-    size_t used;
+    size_t used_bytes;
 } Memory;
 
 /* Returns the next piece of the block; NULL while bytes are counted.  Pieces of

@@ -76,7 +76,7 @@ INLINE NodeRun nodes_in_row(const RowLayout *rows, int i, int odd)
 #ifdef __wasm_simd128__
 typedef float Floats __attribute__((vector_size(16), aligned(4)));
 typedef double Doubles __attribute__((vector_size(16), aligned(8)));
-enum { SECOND_DOUBLES = 2 };
+enum { SECOND_HALF_OFFSET = 2 };
 #define FLOATS(a, q)   (*(Floats *)((a) + (q)))
 #define DOUBLES(a, q)  (*(Doubles *)((a) + (q)))
 #define IN_ORDER(a, b) __asm__ volatile("" : "+r"(a), "+r"(b))
@@ -89,7 +89,7 @@ enum { SECOND_DOUBLES = 2 };
 #else
 typedef float Floats;
 typedef double Doubles;
-enum { SECOND_DOUBLES = 0 };
+enum { SECOND_HALF_OFFSET = 0 };
 #define FLOATS(a, q)        ((a)[q])
 #define DOUBLES(a, q)       ((a)[q])
 #define IN_ORDER(a, b)      (void)0
@@ -120,7 +120,7 @@ INLINE void narrow_array(const double *from, double factor, double middle,
         EACH_FLOATS (LANES)
             FLOATS(to, e) = narrow_to_single(
                 factor * (DOUBLES(from, e) - middle),
-                factor * (DOUBLES(from, e + SECOND_DOUBLES) - middle));
+                factor * (DOUBLES(from, e + SECOND_HALF_OFFSET) - middle));
 }
 
 /* Calls F for springs of a node, with the kind, the distance to the other node,

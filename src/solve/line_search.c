@@ -21,9 +21,9 @@ typedef struct SearchContext {
 } SearchContext;
 
 /* Returns E(x + alpha p) - E(x), or 0 without a line search; NaN where a term
- * does not allow the point, or where E, evaluated at both points, rises by more
- * than rounding although the change is negative.  u_trial and x_trial get
- * the point if it is accepted. */
+ * does not allow the point, or where E, evaluated at both points, changes by
+ * more than this difference plus rounding.  u_trial and x_trial get the point
+ * if it is accepted. */
 static double step_energy_difference(const void *function, double alpha)
 {
     const SearchContext *search = function;

@@ -44,8 +44,8 @@ struct Multigrid {
                                  the V-cycle's matrices were computed */
     double largest_change;   /* J s^2, largest change of E in this step, < 0 */
     Quartic line_E;          /* E(x + alpha p) - E(x), J s^2 */
-    unsigned version;        /* System.version in the grid */
-    double weight;           /* s^2, weight of P in the grid */
+    unsigned version;        /* System.version that the grid was made for */
+    double weight;           /* s^2, weight of P that the grid was made for */
     bool has_relaxed;        /* tiles relaxed in the last update */
     bool change_was_hidden;  /* rounding hid the last iteration's change of E,
                                 and p_bound did not fall */

@@ -4,15 +4,16 @@
 #include "solve/newton.h"
 
 /* The phases of an iteration, each of which may end it.  A phase reads and
- * writes newton->iterate and newton->record. */
+ * writes newton->record and the iterate: Newton's phases newton->iterate, those
+ * of multigrid their copy on the grid. */
 typedef struct NewtonPhases {
     /* Computes g and p at x, and the residual of p.  Sets newton->passes_test
-     * if the residual is at most the tolerance, unless a turn may follow
-     * (turns_may_follow) that turn_free_body does not make.  Returns OK, or
-     * why there is no p. */
+     * if the residual, with a bound of its error, is at most the tolerance.
+     * (In Newton's phase no turn may follow that turn_free_body does not make.)
+     * Returns OK, or why there is no p. */
     Status (*find_direction)(Newton *newton);
-    /* Computes alpha, trials, slope and change, and the end of the step in
-     * u_trial and x_trial.  Returns OK, or why no step lowers E:
+    /* Computes alpha, trials, slope and change; Newton's phase also the end of
+     * the step in u_trial and x_trial.  Returns OK, or why no step lowers E:
      * LINE_SEARCH_LIMIT, NOT_DESCENT, ROUNDING_LIMIT, NOT_FINITE; alpha and
      * change are then 0. */
     Status (*find_step_length)(Newton *newton);
@@ -36,7 +37,8 @@ Status find_direction(Newton *newton);
  * the test and is at most a millionth of the shortest spring. */
 double negligible_direction_size(const Newton *newton);
 
-/* Whether the next direction is negligible, by a bound.  Computes g. */
+/* Whether the next direction is negligible, by a bound from g, which is then
+ * computed; false without projection. */
 bool next_direction_is_negligible(Newton *newton);
 
 /* ---- line_search.c: how far to go along p (slide: Algorithm 2) */
@@ -57,7 +59,8 @@ void swap_iterates(Newton *newton);
 bool turns_may_follow(const Newton *newton);
 
 /* Turns all nodes to the angle at which E is lowest, if P stays the same in a
- * turn (system_turns_freely), and the scene is stiff or turns_may_follow.  Then
+ * turn (system_turns_freely), and the scene is stiff, or p passes the test and
+ * turns_may_follow.  Then
  * angular momentum is exact: sum m d x (u - u_tilde) = 0, with d the vector
  * from the pivot to a node.  Newton's directions are straight and stretch what
  * they turn, so a stiff body would turn by tiny steps, which pass the test.

@@ -208,9 +208,10 @@ void v_cycle_read_system(VCycle *cycle)
 
 /* Result of a pass over one colour of a row. */
 typedef enum PassKind {
-    PASS_FIRST,    /* x = D (b + K x' of springs to earlier colours); x was 0 */
-    PASS_RESIDUAL, /* w = b - A x after PASS_FIRST: sum K x', x' at far ends of
-                      springs to later colours */
+    PASS_FIRST,    /* x = D (b + sum of K x'), x was 0; x' at the far ends of
+                      springs to earlier colours */
+    PASS_RESIDUAL, /* w = b - A x after PASS_FIRST.  All terms cancel but the
+                      sum of K x' over springs to later colours */
     PASS_SMOOTH,   /* x += D (b - A x), a Gauss-Seidel pass */
     PASS_PRODUCT   /* w = A x; x.b and x.w are added to xb and xw */
 } PassKind;
@@ -358,7 +359,7 @@ static void run_v_cycle(const VCycle *cycle, const Level *level)
 
 /* Computes w = A x on one level.
  *   sums  [2] out, x.b and x.w */
-FAST static void multiply_level(const Level *level, double *sums)
+FAST static void multiply_by_level_matrix(const Level *level, double *sums)
 {
     sums[0] = sums[1] = 0;
     for (int i = 0; i < level->rows.nodes; i++) {
@@ -482,7 +483,7 @@ FAST bool v_cycle_solve(VCycle *cycle, const double *g, double square,
                 memset((float *[]){cycle->p, cycle->d, cycle->Ad}[k], 0,
                        (size_t)numbers * sizeof(float));
         }
-        multiply_level(cycle->level, sums);
+        multiply_by_level_matrix(cycle->level, sums);
         double xb = sums[0], beta = i > 0 ? xb / last : 0;
         double bend = sums[1] - beta * xb / alpha; /* d.A d */
         if (!(bend > 0 && xb > 0) || !isfinite(xb / bend))

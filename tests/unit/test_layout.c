@@ -80,7 +80,7 @@ TEST(zones_tile_every_size)
 {
     show_all();
     for (int s = 0; s < SIZES; s++)
-        for (content.panes = 1; content.panes <= LAYOUT_PANES;
+        for (content.panes = 1; content.panes <= LAYOUT_MAX_PANES;
              content.panes++) {
             Layout l = layout_create(&content, sizes[s][0], sizes[s][1]);
             const Box zones[] = {l.title_bar,    l.stage,     l.column,
