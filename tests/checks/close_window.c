@@ -1,7 +1,6 @@
-/* Asks a window to close, as the cross in its corner does.  Compiled by
- * check_window.sh and linked with libX11.so.6; its headers may be missing, so
- * what is needed of them is declared here.
- *   close_window WINDOW */
+/* close_window.c - asks a window to close, like the cross in its corner:
+ * close_window WINDOW. check_window.sh links libX11.so.6, whose headers may be
+ * missing; therefore its functions are declared here. */
 #include <stdlib.h>
 
 typedef struct Display Display;

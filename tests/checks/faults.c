@@ -1,10 +1,8 @@
-/* Makes calls fail, those of all libraries, too: it is preloaded (LD_PRELOAD).
+/* faults.c - makes library calls fail; LD_PRELOAD loads it.
  *
- *   FAULT       which call: memory, rename; hang: renaming never ends
- *   FAULT_AT    the number of the one that fails, from 1; 0: only count
- *   FAULT_FILE  the number of calls goes to this file at the end
- *
- * Counting begins with main. */
+ *   FAULT       kind of calls: memory, rename; hang: renaming never ends
+ *   FAULT_AT    number of the failing call, from 1 after main begins; 0: none
+ *   FAULT_FILE  file to which the number of calls is written at the end */
 #include <dlfcn.h>
 #include <errno.h>
 #include <stdio.h>
@@ -16,7 +14,7 @@ void *__libc_malloc(size_t size);
 void *__libc_calloc(size_t count, size_t size);
 void *__libc_realloc(void *old, size_t size);
 
-/* A function of the C library. */
+/* The function of this name in the C library */
 #define REAL(name) ((__typeof__(&name))dlsym(RTLD_NEXT, #name))
 
 static const char *fault_kind;
@@ -27,7 +25,7 @@ static int fault_is_of_kind(const char *kind)
     return fault_kind && strcmp(kind, fault_kind) == 0;
 }
 
-/* Whether this call is the one; errno is then the reason. */
+/* Counts a call, and returns 1 and sets errno if it is to fail. */
 static int call_fails(const char *kind, int reason)
 {
     if (!fault_is_of_kind(kind))
@@ -63,7 +61,7 @@ int rename(const char *from, const char *to)
     return REAL(rename)(from, to);
 }
 
-/* How many calls there were. */
+/* Writes the number of calls. */
 static void fault_report(void)
 {
     const char *name = getenv("FAULT_FILE");

@@ -1,6 +1,5 @@
-/* oracle_wide.c - the oracle's formulas once more with numbers of 34 digits,
- * where the compiler has them: stiff terms of a light body hide what turns it
- * from 19 digits, too. */
+/* oracle_wide.c - the formulas of the oracle with 34 digits where the compiler
+ * has them: with stiff terms and a light body even 19 digits hide rotations. */
 #define ORACLE_WIDE
 #include <float.h>
 #include <math.h>
@@ -40,7 +39,7 @@ static Real with_sign(Real size, Real sign)
     return sign < 0 ? -magnitude(size) : magnitude(size);
 }
 
-/* Newton's method from the root in extended precision. */
+/* Returns the square root: Newton's method from the root of a long double. */
 static Real square_root(Real a)
 {
     if (!(a > 0))
@@ -55,8 +54,8 @@ static Real vector_length(Real x, Real y)
     return square_root(x * x + y * y);
 }
 
-/* Of a = 1 ... 2: four roots, and 2 artanh((a - 1)/(a + 1)). */
-static Real log1p_of(Real a)
+/* Returns ln a for 1 <= a <= 2: four roots, then 2 artanh((a - 1)/(a + 1)). */
+static Real log_of_mantissa(Real a)
 {
     for (int i = 0; i < 4; i++)
         a = square_root(a);
@@ -72,7 +71,7 @@ static Real logarithm(Real a)
     if (!(a > 0))
         return a == 0 ? -(Real)INFINITY : (Real)NAN;
     frexpl((long double)a, &k);
-    return log1p_of(a / ldexpl(0.5L, k)) + (k - 1) * log1p_of(2);
+    return log_of_mantissa(a / ldexpl(0.5L, k)) + (k - 1) * log_of_mantissa(2);
 }
 
 #define fabsl     magnitude

@@ -13,23 +13,22 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Longer than any case may take, s of processor time. */
+/* s, processor time after which a case counts as endless */
 enum { CASE_LIMIT = 240 };
 
 static void on_alarm(int number)
 {
     static const char words[] = " does not end\n";
     (void)number;
-    ssize_t written =
-        write(STDERR_FILENO, stress_present, strlen(stress_present));
+    ssize_t written = write(STDERR_FILENO, stress_line, strlen(stress_line));
     written += write(STDERR_FILENO, words, sizeof words - 1);
     _exit(written < 0 ? 2 : 1);
 }
 
 static void begin_case(const char *what)
 {
-    snprintf(stress_present, sizeof stress_present, "%s", what);
-    stress_limit(CASE_LIMIT);
+    snprintf(stress_line, sizeof stress_line, "%s", what);
+    stress_set_time_limit(CASE_LIMIT);
     if (isatty(STDERR_FILENO))
         fprintf(stderr, "\r%-40s\r", what);
 }
@@ -72,10 +71,10 @@ static void run_cases(bool quick, Tally *sum)
     }
 }
 
-/* Kinds of random scenes, how many, how many steps each, and the share of all
- * steps that must converge; a pin or a wall that stops before it passes through
- * a body (blocked) is none of them.  Of the bodies' about one in a thousand
- * comes to the limit of updates. */
+/* Families of random scenes: letters of their kinds, number of scenes, steps of
+ * each, and the least share of steps that must converge. Steps blocked by a
+ * body before a pin or wall are left out; of the bodies' steps one in a
+ * thousand reaches the limit of updates. */
 static const struct {
     const char *name, *kinds;
     long count;
@@ -97,7 +96,7 @@ static void run_random(uint64_t seed, bool quick, Tally *sum)
         begin_case(families[i].name);
         if (!stress_scenes(families[i].kinds, seed, count, families[i].steps,
                            &tally, reason))
-            printf("%s: %s\n", stress_present, reason);
+            printf("%s: %s\n", stress_line, reason);
         double good = (double)tally.steps[VERDICT_CONVERGED];
         double all = good + (double)(tally.steps[VERDICT_REPORTED] -
                                      tally.statuses[STATUS_BLOCKED]);
@@ -122,9 +121,9 @@ static int run_command_line(const char *line)
     return verdict == VERDICT_WRONG;
 }
 
-/* Where the default square converges, three steps: h from 1e-9 to 1e3 s by half
- * decades, k from 1e-6 to 1e15, and some stretches.  Of those of 0.1 or more
- * 99 % must, and in each of them something is done. */
+/* Maps where the default square converges in three steps: h from 1e-9 to 1e3 s
+ * by half decades, k from 1e-6 to 1e15 J/m^2, and eight stretches. With a
+ * stretch of 0.1 or more 99 % of the cells must, and each needs an update. */
 static void run_envelope(Solver solver, Tally *sum)
 {
     static const double stretch[] = {1e-6, 1e-3, 0.1, 0.5, 1.4, 10, 1e3, 1e6};

@@ -1,7 +1,7 @@
-/* The energy of a step once more, and how far rounding can move it.
+/* stress_exact.c - the energy of a step a second time, with its rounding error.
  *
- * Squares that are too large for a matrix are judged by conjugate gradients in
- * extended precision, which know their error: M is a lower bound of the clamped
+ * The residuals of large squares are tested with conjugate gradients in
+ * extended precision, whose error is known: M is a lower bound of the clamped
  * Hessian, so |p - exact|_M <= |r|_(M^-1), and the residual is at most
  * sqrt(2/m)/h |r|_(M^-1) away from that of p. */
 #include "stress.h"
@@ -11,66 +11,67 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* E at x_n + u, not rounded, with its derivative along `way`. */
-static Jet energy(const Moment *moment, const double *u, const double *way,
-                  Random *jitter)
+/* Returns E at x_n + u, not rounded, with its derivative along `direction`. */
+static Jet evaluate(const StepPotential *potential, const double *u,
+                    const double *direction, Random *jitter)
 {
-    const IncrementalPotential *E = &moment->E;
+    const IncrementalPotential *E = &potential->E;
     EvalPoint at = make_eval_point(E->system, E->x_n, u, NULL);
-    Spot spot = {.at = &at,
-                 .h = sqrtl(E->weight),
-                 .p = way,
-                 .moved = moment->moved,
-                 .jitter = jitter};
+    Probe probe = {.at = &at,
+                   .h = sqrtl(E->weight),
+                   .p = direction,
+                   .moved = potential->moved,
+                   .jitter = jitter};
     at.weight = E->weight;
-    return oracle_step(&spot, E->u_tilde);
+    return oracle_step(&probe, E->u_tilde);
 }
 
-long double wide_energy(const Moment *moment, const double *u)
+long double wide_energy(const StepPotential *potential, const double *u)
 {
-    return energy(moment, u, NULL, NULL).f;
+    return evaluate(potential, u, NULL, NULL).f;
 }
 
-long double wide_noise(const Moment *moment, const double *u, const double *way)
+long double wide_noise(const StepPotential *potential, const double *u,
+                       const double *direction)
 {
-    const IncrementalPotential *E = &moment->E;
+    const IncrementalPotential *E = &potential->E;
     Random jitter = {1};
-    Jet exact = energy(moment, u, way, NULL);
+    Jet exact = evaluate(potential, u, direction, NULL);
     Real sum = LDBL_EPSILON * fabsl(exact.f);
     for (int round = 0; round < 3; round++) {
-        Jet rounded = energy(moment, u, way, &jitter);
+        Jet rounded = evaluate(potential, u, direction, &jitter);
         sum += fabsl(rounded.f - exact.f) + fabsl(rounded.p - exact.p);
     }
     for (int i = 0; i < 2 * E->system->nodes; i++)
         sum += DBL_EPSILON * E->system->m[i / 2] *
-               (fabsl(u[i]) + fabsl(E->u_tilde[i])) * fabs(way[i]);
+               (fabsl(u[i]) + fabsl(E->u_tilde[i])) * fabs(direction[i]);
     return sum;
 }
 
-/* ---- too large for a matrix -------------------------------------------- */
+/* ---- residuals of large systems ---------------------------------------- */
 
 enum { MAX_JUDGE_ITERATIONS = 20000 };
 
-/* Below this share of the tolerance rounding of u says nothing. */
+/* Share of the tolerance that rounding of u hides */
 static const Real judge_margin = 1e-6L;
 
-/* The gradient g [2n], and the blocks of the Hessian: of each its nodes, and
- * its entries behind those of the one before. */
+/* The gradient g [2n], and the blocks of the Hessian: the number of nodes of
+ * each block, these nodes, and the entries of all blocks one after the other */
 typedef struct Blocks {
     Real *g, *entry;
     int (*node)[3], *nodes;
-    int count, entries, room;
+    int count, entries, capacity;
 } Blocks;
 
 static void store_block(void *blocks, const Block *block)
 {
     Blocks *to = blocks;
     int n = 2 * block->count;
-    if (to->count == to->room) {
-        size_t room = (size_t)(to->room = 2 * to->room + 1024);
-        to->entry = realloc(to->entry, 36 * room * sizeof *to->entry);
-        to->node = realloc(to->node, room * sizeof *to->node);
-        to->nodes = realloc(to->nodes, room * sizeof *to->nodes);
+    if (to->count == to->capacity) {
+        size_t capacity = (size_t)(to->capacity = 2 * to->capacity + 1024);
+        to->entry = realloc(to->entry, 36 * capacity * sizeof *to->entry);
+        to->node = realloc(to->node, capacity * sizeof *to->node);
+        to->nodes = realloc(to->nodes, capacity * sizeof *to->nodes);
         CHECK(to->entry && to->node && to->nodes);
     }
     to->nodes[to->count] = block->count;
@@ -88,9 +89,9 @@ static void clear_pinned(const System *system, Real *vector)
         vector[i] = system->pinned[i / 2] ? 0 : vector[i];
 }
 
-/* y = H d, 0 where nodes are pinned. */
-static void product(const System *system, const Blocks *blocks, const Real *d,
-                    Real *y)
+/* Computes y = H d, which is 0 at pinned nodes. */
+static void multiply_hessian(const System *system, const Blocks *blocks,
+                             const Real *d, Real *y)
 {
     const Real *entry = blocks->entry;
     memset(y, 0, 2 * (size_t)system->nodes * sizeof *y);
@@ -104,7 +105,7 @@ static void product(const System *system, const Blocks *blocks, const Real *d,
     clear_pinned(system, y);
 }
 
-/* max over nodes |p_x| + |p_y| */
+/* Returns the largest |p_x| + |p_y| of all nodes. */
 static Real largest_step(int size, const Real *p)
 {
     Real largest = 0;
@@ -113,7 +114,7 @@ static Real largest_step(int size, const Real *p)
     return largest;
 }
 
-/* |r|_(M^-1)^2 */
+/* Returns |r|_(M^-1)^2. */
 static Real inverse_square(const System *system, const Real *r)
 {
     Real sum = 0;
@@ -122,11 +123,11 @@ static Real inverse_square(const System *system, const Real *r)
     return sum;
 }
 
-/* Conjugate gradients, with the masses as preconditioner, until the test is
- * decided.  p, r, d, y [2n] workspace; p is 0, r is -grad E. */
-static LargeVerdict decide(const System *system, Real h, Real tolerance,
-                           const Blocks *blocks, Real *p, Real *r, Real *d,
-                           Real *y)
+/* Runs conjugate gradients, preconditioned with the masses, until the test is
+ * decided. p, r, d, y [2n] workspace; p starts as 0, r as -grad E. */
+static LargeVerdict decide_test(const System *system, Real h, Real tolerance,
+                                const Blocks *blocks, Real *p, Real *r, Real *d,
+                                Real *y)
 {
     Real lightest = INFINITY;
     int size = 2 * system->nodes;
@@ -143,7 +144,7 @@ static LargeVerdict decide(const System *system, Real h, Real tolerance,
             return LARGE_FAILED;
         for (int i = 0; i < size; i++)
             d[i] = r[i] / system->m[i / 2] + now / last * d[i];
-        product(system, blocks, d, y);
+        multiply_hessian(system, blocks, d, y);
         for (int i = 0; i < size; i++)
             bend += d[i] * y[i];
         for (int i = 0; i < size; i++) {
@@ -156,8 +157,8 @@ static LargeVerdict decide(const System *system, Real h, Real tolerance,
     return LARGE_UNDECIDED;
 }
 
-LargeVerdict large_judge(const IncrementalPotential *E, const double *u,
-                         double h, double tolerance)
+LargeVerdict test_large_residual(const IncrementalPotential *E, const double *u,
+                                 double h, double tolerance)
 {
     size_t size = 2 * (size_t)E->system->nodes;
     Real *r = calloc(4 * size, sizeof *r);
@@ -167,8 +168,8 @@ LargeVerdict large_judge(const IncrementalPotential *E, const double *u,
     for (size_t i = 0; i < size; i++)
         r[i] = -r[i];
     clear_pinned(E->system, r);
-    LargeVerdict verdict = decide(E->system, h, tolerance, &blocks, r + size, r,
-                                  r + 2 * size, r + 3 * size);
+    LargeVerdict verdict = decide_test(E->system, h, tolerance, &blocks,
+                                       r + size, r, r + 2 * size, r + 3 * size);
     free(blocks.entry);
     free(blocks.node);
     free(blocks.nodes);

@@ -1,5 +1,5 @@
-/* stress_scenes.c - random scenes, each a command line that can be run again;
- * and cases that have a name: places where floating point is known to bite. */
+/* stress_scenes.c - random scenes, each a command line that can be run again,
+ * and named cases in which rounding is large. */
 #include "stress.h"
 
 #include <math.h>
@@ -8,13 +8,13 @@
 #include <string.h>
 #include <sys/time.h>
 
-/* Seconds that one scene may take before it counts as one that never ends. */
+/* s, processor time after which a scene counts as endless */
 enum { SCENE_LIMIT = 120 };
 
 bool stress_rows(const char *name, bool (*take)(void *user, char *row),
                  void *user)
 {
-    char row[2 * STRESS_LINE];
+    char row[2 * STRESS_LINE_SIZE];
     bool good = true, below = false;
     FILE *file = fopen("tests/data/stress.txt", "r");
     CHECK(file != NULL);
@@ -29,26 +29,26 @@ bool stress_rows(const char *name, bool (*take)(void *user, char *row),
     return good;
 }
 
-/* Rows below "= draw". */
-static struct Draw {
-    char kinds[16]; /* letters of stress.h */
-    int one_in;     /* so often */
-    char part[STRESS_LINE];
-} draws[96];
-static int draw_count;
+/* Parts of random lines: the rows below "= draw" of stress.txt */
+static struct LinePart {
+    char kinds[16]; /* scenes that may have the part: letters of stress.h */
+    int one_in;     /* average number of scenes for each one with the part */
+    char format[STRESS_LINE_SIZE];
+} line_parts[96];
+static int line_part_count;
 
-static bool store_draw(void *unused, char *row)
+static bool store_line_part(void *unused, char *row)
 {
-    struct Draw *draw = &draws[draw_count++];
+    struct LinePart *part = &line_parts[line_part_count++];
     (void)unused;
-    CHECK(draw_count <= 96);
-    CHECK(sscanf(row, "%15s %d %511[^\n]", draw->kinds, &draw->one_in,
-                 draw->part) == 3);
+    CHECK(line_part_count <= 96);
+    CHECK(sscanf(row, "%15s %d %511[^\n]", part->kinds, &part->one_in,
+                 part->format) == 3);
     return true;
 }
 
-/* One of the words up to ')'. */
-static size_t draw_word(Random *random, const char *words, char *text)
+/* Copies a random word of `words`, which ends at ')'. Returns its length. */
+static size_t copy_random_word(Random *random, const char *words, char *text)
 {
     size_t size = strcspn(words, ")");
     int count = 1;
@@ -62,14 +62,15 @@ static size_t draw_word(Random *random, const char *words, char *text)
     return length;
 }
 
-/* Appends this part to a line. */
-static void draw_part(Random *random, const char *part, char *line)
+/* Appends a part to a line: (a b) is one of the words, [low high] a uniform
+ * random number, <low high> a logarithmic one. */
+static void append_line_part(Random *random, const char *part, char *line)
 {
     char *end = strcat(line, line[0] ? " " : "") + strlen(line);
     for (; *part; part++) {
         char *rest, bracket = *part;
         if (bracket == '(') {
-            end += draw_word(random, part + 1, end);
+            end += copy_random_word(random, part + 1, end);
             part = strchr(part, ')');
         } else if (bracket == '[' || bracket == '<') {
             double low = strtod(part + 1, &rest), high = strtod(rest, &rest);
@@ -85,24 +86,24 @@ static void draw_part(Random *random, const char *part, char *line)
     }
 }
 
-/* The random scene with this number, as a command line. */
-static void draw_line(const char *kinds, uint64_t seed, long number,
-                      char line[STRESS_LINE])
+/* Makes the command line of the random scene with this number. */
+static void make_random_line(const char *kinds, uint64_t seed, long number,
+                             char line[STRESS_LINE_SIZE])
 {
     Random random = {seed * 1000003 + (uint64_t)number};
     char kind = kinds[number % (long)strlen(kinds)];
     line[0] = '\0';
-    if (draw_count == 0)
-        stress_rows("draw", store_draw, NULL);
-    for (int i = 0; i < draw_count; i++)
-        if (strchr(draws[i].kinds, kind) &&
-            random_below(&random, draws[i].one_in) == 0)
-            draw_part(&random, draws[i].part, line);
+    if (line_part_count == 0)
+        stress_rows("draw", store_line_part, NULL);
+    for (int i = 0; i < line_part_count; i++)
+        if (strchr(line_parts[i].kinds, kind) &&
+            random_below(&random, line_parts[i].one_in) == 0)
+            append_line_part(&random, line_parts[i].format, line);
 }
 
-/* Masses, springs, positions and velocities of no square: each over some
- * powers of ten, springs that hardly are, nodes on a line, in one point or in
- * pairs, folded, some a million times further out than others, or far away. */
+/* Changes masses, springs, positions and velocities at random, each over some
+ * powers of ten: a spring hardly has stiffness; nodes lie on a line, in a
+ * point, in pairs, folded, or a million times further out than others. */
 static void perturb_start(uint64_t seed, TimeIntegrator *run)
 {
     Random random = {seed * 0x9e3779b97f4a7c15u};
@@ -143,7 +144,8 @@ static void perturb_start(uint64_t seed, TimeIntegrator *run)
     }
 }
 
-/* Every run of it, some steps each. */
+/* Makes and tests `steps` steps of every run, after a perturbation if shaken is
+ * not 0. Returns the worst verdict. */
 static Verdict run_steps(Simulation *simulation, uint64_t shaken, int steps,
                          Tally *tally, char *reason)
 {
@@ -171,7 +173,7 @@ static Verdict run_steps(Simulation *simulation, uint64_t shaken, int steps,
 
 Verdict stress_run(const char *line, int steps, Tally *tally, char *reason)
 {
-    char known[STRESS_LINE];
+    char known[STRESS_LINE_SIZE];
     Simulation simulation;
     snprintf(known, sizeof known, "%s", line);
     char *word = strstr(known, " shaken ");
@@ -186,9 +188,9 @@ Verdict stress_run(const char *line, int steps, Tally *tally, char *reason)
     return verdict;
 }
 
-char stress_present[STRESS_LINE];
+char stress_line[STRESS_LINE_SIZE];
 
-void stress_limit(long seconds)
+void stress_set_time_limit(long seconds)
 {
     const struct itimerval limit = {.it_value = {.tv_sec = seconds}};
     setitimer(ITIMER_PROF, &limit, NULL);
@@ -199,44 +201,45 @@ bool stress_scenes(const char *kinds, uint64_t seed, long count, int steps,
 {
     Verdict verdict = VERDICT_CONVERGED;
     for (long i = 0; i < count && verdict != VERDICT_WRONG; i++) {
-        draw_line(kinds, seed, i, stress_present);
-        stress_limit(SCENE_LIMIT);
-        verdict = stress_run(stress_present, steps, tally, reason);
+        make_random_line(kinds, seed, i, stress_line);
+        stress_set_time_limit(SCENE_LIMIT);
+        verdict = stress_run(stress_line, steps, tally, reason);
     }
-    stress_limit(0);
+    stress_set_time_limit(0);
     return verdict != VERDICT_WRONG;
 }
 
 /* ---- cases that have a name ---------------------------------------------- */
 
-typedef struct Rows {
+typedef struct RowContext {
     Tally *tally;
     char *reason;
     bool each_solver;
-} Rows;
+} RowContext;
 
-/* A row "STEPS ! LINE". */
+/* Runs a row "STEPS ! LINE", which must converge, or "STEPS ? LINE". */
 static bool run_row(void *user, char *row)
 {
     static const char *const solvers[] = {" --solver multigrid",
                                           " --solver newton"};
-    const Rows *rows = user;
-    char must, given[STRESS_LINE], line[STRESS_LINE + 32];
+    const RowContext *context = user;
+    char must, given[STRESS_LINE_SIZE], line[STRESS_LINE_SIZE + 32];
     int steps;
     CHECK(sscanf(row, "%d %c %511[^\n]", &steps, &must, given) == 3);
-    for (int i = 0; i <= rows->each_solver; i++) {
+    for (int i = 0; i <= context->each_solver; i++) {
         snprintf(line, sizeof line, "%s%s", given,
-                 rows->each_solver ? solvers[i] : "");
-        long judged = rows->tally->judged;
-        Verdict verdict = stress_run(line, steps, rows->tally, rows->reason);
+                 context->each_solver ? solvers[i] : "");
+        long judged = context->tally->judged;
+        Verdict verdict =
+            stress_run(line, steps, context->tally, context->reason);
         bool good = verdict != VERDICT_WRONG;
         if (good && must == '!') {
-            good = !verdict && rows->tally->judged - judged >= steps;
-            snprintf(rows->reason, 512, "it does not converge, or unjudged");
+            good = !verdict && context->tally->judged - judged >= steps;
+            snprintf(context->reason, 512, "it does not converge, or unjudged");
         }
         if (!good) {
-            strncat(strncat(rows->reason, ": ", 3), line,
-                    511 - strlen(rows->reason));
+            strncat(strncat(context->reason, ": ", 3), line,
+                    511 - strlen(context->reason));
             return false;
         }
     }
@@ -246,20 +249,22 @@ static bool run_row(void *user, char *row)
 static bool extreme_squares(Tally *tally, char *reason)
 {
     return stress_rows("extreme squares", run_row,
-                       &(Rows){tally, reason, true});
+                       &(RowContext){tally, reason, true});
 }
 
 static bool large_squares(Tally *tally, char *reason)
 {
-    return stress_rows("large squares", run_row, &(Rows){tally, reason, false});
+    return stress_rows("large squares", run_row,
+                       &(RowContext){tally, reason, false});
 }
 
 static bool earlier_failures(Tally *tally, char *reason)
 {
-    return stress_rows("once wrong", run_row, &(Rows){tally, reason, false});
+    return stress_rows("once wrong", run_row,
+                       &(RowContext){tally, reason, false});
 }
 
-/* Every integrator, gently and hard. */
+/* Runs every integrator with a short and a long time step. */
 static bool every_integrator(Tally *tally, char *reason)
 {
     for (int i = 0; integrator_methods[i].name; i++)
@@ -267,14 +272,13 @@ static bool every_integrator(Tally *tally, char *reason)
             char row[128];
             snprintf(row, sizeof row, "20 ? --integrator %s --timestep %s",
                      integrator_methods[i].name, gently ? "1e-3" : "0.05");
-            if (!run_row(&(Rows){tally, reason, true}, row))
+            if (!run_row(&(RowContext){tally, reason, true}, row))
                 return false;
         }
     return true;
 }
 
-/* A default square that is kicked at random every 50 steps; residuals are
- * computed again of some steps. */
+/* Kicks a square at random every 50 steps; judges some residuals. */
 static bool many_steps(Tally *tally, char *reason)
 {
     Random random = {7};

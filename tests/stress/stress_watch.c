@@ -1,4 +1,4 @@
-/* Every step and every Newton iteration looked at from outside. */
+/* stress_watch.c - tests every step and every Newton iteration from outside. */
 #include "model/cells.h"
 #include "model/damping.h"
 #include "model/fracture.h"
@@ -16,31 +16,31 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* How many units of rounding a sum of that many terms may be off. */
+/* Error of a sum of many terms, in units of rounding */
 enum { ROUNDINGS = 16 };
 
-/* Beyond this squares may overflow, and NOT_FINITE is the truth. */
+/* J s^2: squares of larger energies may overflow; NOT_FINITE is then right */
 static const long double HUGE_ENERGY = 1e280L;
 
-/* Of a cell's area at rest: where coordinates hardly resolve what is left. */
-#define FLAT 1e-12
+/* Share of its area at rest at which coordinates hardly resolve a cell */
+#define FLAT_CELL 1e-12
 
-/* Larger systems are not solved by a matrix: that costs n^3. */
+/* Unknowns above which no dense matrix is factored, which costs n^3 */
 enum { LARGEST_SOLVED = 400 };
 
-/* Shaken squares add coordinates and forces of very different sizes, and their
- * sums are off by so many times what exact_residual allows for. */
+/* Factor of the noise of exact_residual for shaken squares, whose coordinates
+ * and forces have very different sizes */
 enum { SHAKEN_NOISE = 4 };
 
-/* Part of a direction that a factor may be wrong by where the program takes it
- * as exact (rounding.c, INEXACT_MASSES). */
+/* Relative error of a direction by a factor that the program takes as exact
+ * (rounding.c, INEXACT_MASSES) */
 #define DIGITS_OF_DIRECTION 1e-5
 
-/* The first broken promise is remembered. */
-static void blame(Watch *watch, const char *format, ...)
+/* Marks the step as wrong; the first reason is kept. */
+static void mark_wrong(Watch *watch, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
-static void blame(Watch *watch, const char *format, ...)
+static void mark_wrong(Watch *watch, const char *format, ...)
 {
     va_list arguments;
     if (watch->wrong)
@@ -59,7 +59,7 @@ static int watch_size(const Watch *watch)
     return 2 * watch->run->system->nodes;
 }
 
-/* The present minimisation, with a start that nobody overwrites. */
+/* Returns the potential of the present minimisation, with the stored x_n. */
 static IncrementalPotential watch_potential(const Watch *watch)
 {
     IncrementalPotential E = watch->run->newton->iterate.E;
@@ -67,55 +67,55 @@ static IncrementalPotential watch_potential(const Watch *watch)
     return E;
 }
 
-/* Walls have gone a part of this step's way. */
-static Moment watch_moment(const Watch *watch)
+/* Returns this potential with the time for which walls have moved so far. */
+static StepPotential step_potential(const Watch *watch)
 {
     double moved =
         watch->run->is_driven ? watch->run->moved_part * watch->run->h : 0;
-    return (Moment){watch_potential(watch), moved};
+    return (StepPotential){watch_potential(watch), moved};
 }
 
-/* Of many nodes and springs alone, where there are eigenvalues to clamp. */
+/* Tests the residual of a large square of springs, whose blocks are clamped. */
 static void judge_large(Watch *watch, const double *u, double tolerance)
 {
     IncrementalPotential E = watch_potential(watch);
     const NewtonSettings *settings = &watch->run->newton->settings;
     if (settings->projection != PROJECTION_CLAMP)
         return;
-    LargeVerdict verdict = large_judge(&E, u, settings->h, tolerance);
+    LargeVerdict verdict = test_large_residual(&E, u, settings->h, tolerance);
     watch->tally->judged++;
     watch->tally->undecided += verdict == LARGE_UNDECIDED;
     if (verdict == LARGE_FAILED)
-        blame(watch, "converged, but the residual is above %g m/s", tolerance);
+        mark_wrong(watch, "converged, but the residual is above %g m/s",
+                   tolerance);
 }
 
-/* Of what is judged: exact_residual, or the same with more digits. */
-typedef double (*JudgedResidual)(const IncrementalPotential *E, const double *u,
-                                 const double *x, double h, double moved,
-                                 int lifts, double *noise);
+/* exact_residual, or wide_exact_residual with 34 digits */
+typedef double (*ResidualFunction)(const IncrementalPotential *E,
+                                   const double *u, const double *x, double h,
+                                   double moved, int lifts, double *noise);
 
-/* Whether the residual at u is at most the limit, with one of the Hessians that
- * the program may have judged with: on demand, as it is or cut.
- *   noise  out, m/s, what rounding can make of it, which is forgiven; NULL:
- *          nothing is
- *   least  out, m/s */
+/* Returns true if the residual at u is at most the limit with a Hessian that
+ * the program may have used; a projection on demand has two.
+ *   noise  out, m/s, allowed error by rounding; NULL: none
+ *   least  out, m/s, smallest residual */
 static bool residual_holds(const Watch *watch, const double *u, double limit,
-                           JudgedResidual judge, double *noise, double *least)
+                           ResidualFunction judge, double *noise, double *least)
 {
     static const int lifts[PROJECTION_COUNT] = {[PROJECTION_CLAMP] = 1,
                                                 [PROJECTION_NONE] = 0,
                                                 [PROJECTION_ABS] = 2,
                                                 [PROJECTION_ON_DEMAND] = 1};
     const NewtonSettings *settings = &watch->run->newton->settings;
-    Moment moment = watch_moment(watch);
+    StepPotential potential = step_potential(watch);
     *least = INFINITY;
     for (int i = 0; i < watch_size(watch); i++)
-        watch->way[i] = watch->x_n[i] + u[i];
+        watch->workspace[i] = watch->x_n[i] + u[i];
     bool either = settings->projection == PROJECTION_ON_DEMAND;
     for (int k = 0; k <= either; k++) {
         double residual =
-            judge(&moment.E, u, watch->way, settings->h, moment.moved,
-                  lifts[settings->projection] - k, noise);
+            judge(&potential.E, u, watch->workspace, settings->h,
+                  potential.moved, lifts[settings->projection] - k, noise);
         *least = fmin(*least, residual);
         if (noise && watch->springs)
             *noise *= SHAKEN_NOISE;
@@ -125,10 +125,9 @@ static bool residual_holds(const Watch *watch, const double *u, double limit,
     return false;
 }
 
-/* Of all terms: nothing that the program has computed but the place itself is
- * looked at.  What 19 digits refuse is judged with 34: rounding can only raise
- * a residual so small.  Where the last digits of places and forces themselves
- * are more than the tolerance, that is forgiven, and counted. */
+/* Tests the residual with all terms; the iterate alone comes from the program.
+ * A residual that 19 digits refuse is tested with 34, since rounding can only
+ * raise one so small. Noise above the tolerance is allowed and counted. */
 static void judge_terms(Watch *watch, const double *u, double limit)
 {
     double noise, residual;
@@ -140,13 +139,14 @@ static void judge_terms(Watch *watch, const double *u, double limit)
     watch->tally->undecided++;
     if (!residual_holds(watch, u, limit, wide_exact_residual, &noise,
                         &residual))
-        blame(watch,
-              "converged, but the residual is %g m/s, tolerance %g, rounding "
-              "%g",
-              residual, limit, noise);
+        mark_wrong(
+            watch,
+            "converged, but the residual is %g m/s, tolerance %g, rounding "
+            "%g",
+            residual, limit, noise);
 }
 
-/* Where a minimisation says that the direction at u is below the limit, m/s. */
+/* Tests that the residual at u is below the limit, m/s. */
 static void judge_convergence(Watch *watch, const double *u, double limit)
 {
     if (watch->residuals && watch_size(watch) <= LARGEST_SOLVED)
@@ -155,8 +155,9 @@ static void judge_convergence(Watch *watch, const double *u, double limit)
         judge_large(watch, u, limit);
 }
 
-/* The last direction passed the test, and was used; or the one after it passes
- * the test, by multigrid or shorter than a millionth of the shortest spring. */
+/* Tests the end of a minimisation: the last direction, which was used, passes
+ * the test; or the next one does, found by multigrid or shorter than a
+ * millionth of the shortest spring. */
 static void judge_step_end(Watch *watch)
 {
     const Newton *newton = watch->run->newton;
@@ -175,25 +176,25 @@ static void judge_step_end(Watch *watch)
                           fmin(limit, 1e-6 * sqrt(l2) / newton->settings.h));
 }
 
-/* Whether the energy at `to` is higher than at `from` by more than rounding can
- * make it seem.  Digits that 19 lack are looked for with 34. */
+/* Returns true if E rises between two iterates by more than rounding explains,
+ * with 34 digits if 19 are too few. */
 static bool rises(Watch *watch, const double *from, const double *to, Real rise,
                   Real scale)
 {
-    Moment moment = watch_moment(watch);
+    StepPotential potential = step_potential(watch);
     if (rise <= 0)
         return false;
     for (int i = 0; i < watch_size(watch); i++)
-        watch->way[i] = to[i] - from[i];
+        watch->workspace[i] = to[i] - from[i];
     Real allowed = ROUNDINGS * (DBL_EPSILON * scale +
-                                wide_noise(&moment, from, watch->way) +
-                                wide_noise(&moment, to, watch->way));
-    return !(rise <= allowed) &&
-           !(wide_exact_rise(&moment.E, from, to, moment.moved) <= allowed);
+                                wide_noise(&potential, from, watch->workspace) +
+                                wide_noise(&potential, to, watch->workspace));
+    return !(rise <= allowed) && !(wide_exact_rise(&potential.E, from, to,
+                                                   potential.moved) <= allowed);
 }
 
-/* The first record of a minimisation: it starts at u = 0, or where the walls
- * and pins of this step have moved nodes. */
+/* Begins to watch a minimisation, which starts at u = 0 or where the walls and
+ * pins of this step have moved nodes. */
 static void watch_begin(Watch *watch)
 {
     int n = watch_size(watch);
@@ -203,34 +204,33 @@ static void watch_begin(Watch *watch)
         watch->u[i] = watch->run->is_driven ? watch->run->new_x[i] : 0;
     if (!system_find_term(watch->run->system, &cell_energy))
         watch->crossings = exact_crossings(watch->run->system, watch->x_n);
-    Moment moment = watch_moment(watch);
-    watch->start = watch->energy = wide_energy(&moment, watch->u);
+    StepPotential potential = step_potential(watch);
+    watch->start = watch->energy = wide_energy(&potential, watch->u);
     watch->updates = 0;
 }
 
-/* E at the present iterate must not be above that at the last one.  (A wall may
- * have carried nodes until a cell is flat to its last digits, and E is
- * rounding.) */
+/* Tests that E at this iterate is not above E at the last one. A cell that a
+ * moving wall has made flat is left out: its E is rounding. */
 static void watch_descent(Watch *watch, const double *u, const char *where)
 {
-    Moment moment = watch_moment(watch);
-    long double energy = wide_energy(&moment, u);
+    StepPotential potential = step_potential(watch);
+    long double energy = wide_energy(&potential, u);
     long double scale =
         fabsl(energy - watch->start) + fabsl(watch->energy - watch->start);
     bool was_flat = watch->flat, flat = watch->run->is_driven;
-    watch->flat =
-        smallest_cell(moment.E.system, watch->run->newton->iterate.x) < FLAT;
+    watch->flat = smallest_cell(potential.E.system,
+                                watch->run->newton->iterate.x) < FLAT_CELL;
     flat = flat && (watch->flat || was_flat || !isfinite(watch->energy));
     if (!isfinite(energy) && !flat)
-        blame(watch, "E is %Lg %s", energy, where);
+        mark_wrong(watch, "E is %Lg %s", energy, where);
     if (!flat && rises(watch, watch->u, u, energy - watch->energy, scale))
-        blame(watch, "E rises from %.17Lg to %.17Lg %s", watch->energy, energy,
-              where);
+        mark_wrong(watch, "E rises from %.17Lg to %.17Lg %s", watch->energy,
+                   energy, where);
     watch->energy = energy;
 }
 
-/* "No step helps" and "uphill" are said only where rounding does not hide the
- * slope: else it is rounding that must be named. */
+/* Tests that LINE_SEARCH_LIMIT and NOT_DESCENT are reported only where rounding
+ * does not hide the slope. */
 static void check_failure_reason(Watch *watch, const NewtonRecord *record)
 {
     IncrementalPotential E = watch_potential(watch);
@@ -245,48 +245,49 @@ static void check_failure_reason(Watch *watch, const NewtonRecord *record)
     scale +=
         E.weight * exact_potential(E.system, watch->run->newton->iterate.x);
     if (fabs(record->slope) < 3 * DBL_EPSILON * scale)
-        blame(watch, "%s, but the slope %g is lost in E = %Lg",
-              status_name(record->status), record->slope, scale);
+        mark_wrong(watch, "%s, but the slope %g is lost in E = %Lg",
+                   status_name(record->status), record->slope, scale);
 }
 
-/* No node is behind a wall, and with cells on, or of a solid, none is turned.
- */
+/* Tests that no node is behind a wall and no triangle is turned over. */
 static void check_walls(Watch *watch, const double *x)
 {
     double gap = smallest_gap(watch->run->system, x);
     double J = smallest_cell(watch->run->system, x);
     if (!(gap > 0) || !(J > 0))
-        blame(watch, "the smallest gap is %g, the smallest cell %g", gap, J);
+        mark_wrong(watch, "the smallest gap is %g, the smallest cell %g", gap,
+                   J);
 }
 
-/* No edges cross; or where cells may turn over, none that did not as the step
- * began: a break may have brought them to light. */
+/* Tests that no edges cross but those that crossed at the start of the step:
+ * where cells may turn over, a break may have uncovered them. */
 static void check_edges(Watch *watch, const double *x)
 {
     long crossings = exact_crossings(watch->run->system, x);
     if (crossings > watch->crossings)
-        blame(watch, "%ld edges cross, %ld did", crossings, watch->crossings);
+        mark_wrong(watch, "%ld edges cross, %ld did", crossings,
+                   watch->crossings);
 }
 
-/* Called after every Newton iteration. */
+/* Tests an iterate: the observer of Newton's method. */
 static bool watch_record(void *user, const NewtonRecord *record)
 {
     Watch *watch = user;
     const Newton *newton = watch->run->newton;
-    if (record->iteration < 0) /* ended by what moves, after its last one */
+    if (record->iteration < 0) /* the last record, by moving walls or pins */
         return true;
     if (record->iteration == 0)
         watch_begin(watch);
     check_edges(watch, newton->iterate.x);
     if (record->iteration != watch->updates)
-        blame(watch, "record %d after %d updates", record->iteration,
-              watch->updates);
+        mark_wrong(watch, "record %d after %d updates", record->iteration,
+                   watch->updates);
     watch->updates++;
     if (watch->updates > newton->settings.max_iterations)
-        blame(watch, "%d iterations, more than allowed", watch->updates);
+        mark_wrong(watch, "%d iterations, more than allowed", watch->updates);
     for (int i = 0; i < watch_size(watch); i++)
         if (!isfinite(newton->iterate.u[i]) || !isfinite(newton->iterate.x[i]))
-            blame(watch, "iterate %d is not finite", watch->updates);
+            mark_wrong(watch, "iterate %d is not finite", watch->updates);
     if (newton->settings.line_search != LINE_SEARCH_NONE)
         watch_descent(watch, newton->iterate.u, "in an iteration");
     check_failure_reason(watch, record);
@@ -304,7 +305,7 @@ bool watch_create(TimeIntegrator *run, Tally *tally, Watch *watch)
         (Watch){.run = run, .tally = tally, .residuals = true, .springs = true};
     size_t n = (size_t)watch_size(watch);
     double **vectors[] = {&watch->x, &watch->v, &watch->x_n, &watch->u,
-                          &watch->way};
+                          &watch->workspace};
     bool good = true;
     for (int i = 0; i < 5; i++)
         good = (*vectors[i] = calloc(n, sizeof(double))) && good;
@@ -329,7 +330,7 @@ void watch_free(Watch *watch)
     free(watch->v);
     free(watch->x_n);
     free(watch->u);
-    free(watch->way);
+    free(watch->workspace);
     *watch = (Watch){0};
 }
 
@@ -346,7 +347,7 @@ Status watch_restart(TimeIntegrator *run)
     return status;
 }
 
-/* Whether squares of what this step handles may overflow. */
+/* Returns true if squares of numbers of this step may overflow. */
 static bool overflow_is_near(const Watch *watch)
 {
     const System *system = watch->run->system;
@@ -363,23 +364,23 @@ static bool overflow_is_near(const Watch *watch)
     return sum > HUGE_ENERGY || !watch->run->newton;
 }
 
-/* A step that failed moved nothing, and had a reason to fail. */
+/* Tests that a failed step left the state as it was, and had a reason. */
 static void check_failure(Watch *watch, Status status)
 {
     size_t bytes = (size_t)watch_size(watch) * sizeof *watch->x;
     if (memcmp(watch->run->x, watch->x, bytes) != 0 ||
         memcmp(watch->run->v, watch->v, bytes) != 0)
-        blame(watch, "%s, but the state moved", status_name(status));
+        mark_wrong(watch, "%s, but the state moved", status_name(status));
     if (status != STATUS_NOT_FINITE)
-        blame(watch, "fails with %s", status_name(status));
+        mark_wrong(watch, "fails with %s", status_name(status));
     else if (!overflow_is_near(watch))
-        blame(watch, "not_finite, but nothing is near overflow");
+        mark_wrong(watch, "not_finite, but nothing is near overflow");
 }
 
-/* Whether nothing but gravity and one pin pulls at the bodies as a whole, and
+/* Returns true if only gravity and one pin act on the bodies from outside, and
  * backward Euler makes the step.
  *   pin  out, the pinned node, or -1 */
-static bool run_is_free(const TimeIntegrator *run, int *pin)
+static bool momentum_is_conserved(const TimeIntegrator *run, int *pin)
 {
     static const TermKind *const inner[] = {&mass_spring_energy,
                                             &neo_hookean_energy,
@@ -406,18 +407,17 @@ static bool run_is_free(const TimeIntegrator *run, int *pin)
     return free;
 }
 
-/* What forces between the nodes cannot change: the sum of m (v' - v - h g), and
- * of its moments about the middle of the new places, or the pin.  The last
- * direction was below the tolerance, and they are wrong by no more; moments
- * where nothing was projected (multigrid cuts the blocks of compressed springs
- * and does not count them) and no friction acts across a gap.  An arm is known
- * to a unit of the last digit of its place. */
+/* Tests the sum of m (v' - v - h g), which forces between nodes cannot change,
+ * and its moments about the new centre of mass or the pin. The errors are below
+ * the tolerance, as the last direction. Moments need a step without projection
+ * (multigrid clamps compressed springs and does not count them) and without
+ * friction across a gap. An arm has an error of one unit of its last digit. */
 static void check_momentum(Watch *watch, int pin)
 {
     const TimeIntegrator *run = watch->run;
     const double *g = run->system->gravity, *m = run->system->m;
     Real mass = 0, sum[2] = {0}, middle[2] = {0}, turn = 0, arms = 0, noise = 0;
-    Real unsure = 0; /* kg m^2/s, what the last digits of arms can turn */
+    Real unsure = 0; /* kg m^2/s, error by the last digits of the arms */
     for (int i = 0; i < watch_size(watch); i++) {
         middle[i % 2] += (Real)m[i / 2] * run->x[i];
         mass += 0.5L * m[i / 2];
@@ -442,30 +442,30 @@ static void check_momentum(Watch *watch, int pin)
                           exact_strain(run->system, run->x, s) < 0);
     Real limit = mass * watch->tolerance + noise;
     if (pin < 0 && fabsl(sum[0]) + fabsl(sum[1]) > limit)
-        blame(watch, "momentum is off by (%Lg, %Lg) kg m/s, tolerance %Lg",
-              sum[0], sum[1], limit);
+        mark_wrong(watch, "momentum is off by (%Lg, %Lg) kg m/s, tolerance %Lg",
+                   sum[0], sum[1], limit);
     if (!projected && !system_find_term(run->system, &self_friction_energy) &&
         fabsl(turn) > 4 * arms * limit + unsure)
-        blame(watch, "angular momentum is off by %Lg kg m^2/s", turn);
+        mark_wrong(watch, "angular momentum is off by %Lg kg m^2/s", turn);
 }
 
-/* The state after a step that was made. */
+/* Tests the state after a successful step. */
 static void check_state(Watch *watch)
 {
     const TimeIntegrator *run = watch->run;
     for (int i = 0; i < watch_size(watch); i++) {
         if (!isfinite(run->x[i]) || !isfinite(run->v[i]))
-            blame(watch, "the state is not finite");
+            mark_wrong(watch, "the state is not finite");
         if (run->system->pinned && run->system->pinned[i / 2] &&
             !run->system->pin_v && (run->x[i] != watch->x[i] || run->v[i] != 0))
-            blame(watch, "a pinned node moved");
+            mark_wrong(watch, "a pinned node moved");
     }
     check_walls(watch, run->x);
     int pin;
-    if (watch->status == STATUS_OK && run_is_free(run, &pin))
+    if (watch->status == STATUS_OK && momentum_is_conserved(run, &pin))
         check_momentum(watch, pin);
     if (watch->springs &&
-        run->newton && /* with flow and breaks E changes between steps */
+        run->newton && /* flow and breaks change E between steps */
         run->newton->settings.line_search != LINE_SEARCH_NONE)
         watch_descent(watch, run->newton->iterate.u, "as the step ends");
 }
@@ -481,7 +481,7 @@ Verdict watch_step(Watch *watch)
     watch->tolerance = run->newton ? run->newton->settings.tolerance : 0;
     Status status = watch->status = time_integrator_step(run);
     if ((int)status < 0 || status >= STATUS_COUNT || status == STATUS_RUNNING)
-        blame(watch, "status %d has no name", (int)status);
+        mark_wrong(watch, "status %d has no name", (int)status);
     else if (status == STATUS_OK || status_is_unconverged(status))
         check_state(watch);
     else

@@ -1,6 +1,4 @@
-/* attended.h - a player whom a script attends, without a window: what the tests
- * of commands begin with.
- */
+/* attended.h - a player that a script leads, without a window */
 #ifndef ELASTO_ATTENDED_H
 #define ELASTO_ATTENDED_H
 
@@ -44,12 +42,12 @@ static inline void begin_script(const char *script, const char *line)
     unlink(name);
 }
 
-static inline void begin(const char *line)
+static inline void begin_player(const char *line)
 {
     begin_script("0 play\n", line);
 }
 
-static inline void end(void)
+static inline void end_player(void)
 {
     CHECK_OK(player_finish(&player, STATUS_OK));
     player_free(&player);

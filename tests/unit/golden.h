@@ -1,4 +1,4 @@
-/* golden.h - frames of a player beside the pictures of tests/data. */
+/* golden.h - compares frames of a player with pictures of tests/data. */
 #ifndef ELASTO_GOLDEN_H
 #define ELASTO_GOLDEN_H
 
@@ -9,7 +9,7 @@
 
 enum { FRAME = 900 }; /* pixels, both sides of a golden picture */
 
-/* Pixels of a PNG file as 0xffRRGGBB; free it with canvas_free. */
+/* Reads a PNG file as pixels 0xffRRGGBB; free it with canvas_free. */
 static inline Canvas read_png(const char *name)
 {
     png_image image = {.version = PNG_IMAGE_VERSION};
@@ -29,7 +29,7 @@ static inline Canvas read_png(const char *name)
     return canvas;
 }
 
-/* Largest difference of a colour channel of two pixels. */
+/* Returns the largest difference of a colour channel of two pixels. */
 static inline int pixel_distance(Colour a, Colour b)
 {
     int largest = 0;
@@ -40,8 +40,9 @@ static inline int pixel_distance(Colour a, Colour b)
     return largest;
 }
 
-/* Marks the pixels around those that differ: where words are, whatever the
- * version of the library that drew them.  mask [FRAME FRAME] out. */
+/* Marks pixels around words: where frames with and without words differ. The
+ * shapes of words depend on the version of the library. mask [FRAME FRAME] out
+ */
 static inline void mask_words(const Canvas *words, const Canvas *plain,
                               unsigned char *mask)
 {
@@ -58,10 +59,10 @@ static inline void mask_words(const Canvas *words, const Canvas *plain,
         }
 }
 
-/* Paints the frame of now, with and without words; free both. */
+/* Paints the present frame, with and without words; free both. */
 static inline void paint_frames(Canvas frame[2])
 {
-    /* measured as where they were drawn */
+    /* words have the same width in both frames */
     if (!player.screen.paper.text)
         assert_int_equal(text_create(&player.screen.paper.text), 0);
     for (int plain = 0; plain < 2; plain++) {
@@ -78,8 +79,8 @@ static inline void paint_frames(Canvas frame[2])
     }
 }
 
-/* Pixels of a picture, away from words, that are off by more than 4 of 255 from
- * these frames, which are freed. */
+/* Counts the pixels away from words that differ from a picture by more than 4
+ * of 255, and frees the frames. */
 static inline int count_far_pixels(const char *file, Canvas frame[2])
 {
     static unsigned char mask[FRAME * FRAME];

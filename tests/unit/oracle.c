@@ -1,4 +1,4 @@
-/* oracle.c - each energy once more, with dual numbers in extended precision. */
+/* oracle.c - each energy a second time, with dual numbers of 19 digits. */
 #include "oracle.h"
 
 #include <float.h>
@@ -15,56 +15,58 @@
 #include "model/pull_energy.h"
 #include "model/self_contact.h"
 
-static Jet plus(Jet a, Real factor, Jet b)
+/* Returns a + factor b. */
+static Jet jet_add(Jet a, Real factor, Jet b)
 {
     return (Jet){a.f + factor * b.f, a.p + factor * b.p, a.q + factor * b.q,
                  a.pq + factor * b.pq};
 }
 
-static Jet times(Jet a, Jet b)
+static Jet jet_mul(Jet a, Jet b)
 {
     return (Jet){a.f * b.f, a.p * b.f + a.f * b.p, a.q * b.f + a.f * b.q,
                  a.pq * b.f + a.f * b.pq + a.p * b.q + a.q * b.p};
 }
 
-/* F(a), of which F, F' and F'' are these. */
-static Jet chain(Jet a, Real F, Real F1, Real F2)
+/* Returns F(a), given the values of F, F' and F'' there. */
+static Jet jet_chain(Jet a, Real F, Real F1, Real F2)
 {
     return (Jet){F, F1 * a.p, F1 * a.q, F1 * a.pq + F2 * a.p * a.q};
 }
 
-static void book(Spot *spot, Jet *sum, Real factor, Jet part)
+/* Adds factor times a part to the sum, and its sizes to probe->size. */
+static void add_part(Probe *probe, Jet *sum, Real factor, Jet part)
 {
-    spot->booked++;
-    *sum = plus(*sum, factor, part);
-    spot->size = plus(
-        spot->size, fabsl(factor),
+    probe->booked++;
+    *sum = jet_add(*sum, factor, part);
+    probe->size = jet_add(
+        probe->size, fabsl(factor),
         (Jet){fabsl(part.f), fabsl(part.p), fabsl(part.q), fabsl(part.pq)});
 }
 
-/* A length that a double cannot hold to the last digit. */
-static Real jittered(Spot *spot, Real x)
+/* Returns x, with a random error of one ulp if the probe has jitter. */
+static Real add_jitter(Probe *probe, Real x)
 {
-    return spot->jitter
-               ? x * (1 + DBL_EPSILON * random_uniform(spot->jitter, -1, 1))
+    return probe->jitter
+               ? x * (1 + DBL_EPSILON * random_uniform(probe->jitter, -1, 1))
                : x;
 }
 
-/* Coordinate c of x, or of the step u that leads there. */
-static Jet coordinate(Spot *spot, int c, bool of_u)
+/* Returns coordinate c of x or, with of_u, of the step u that leads to x. */
+static Jet coordinate(Probe *probe, int c, bool of_u)
 {
-    const EvalPoint *at = spot->at;
+    const EvalPoint *at = probe->at;
     Real x = of_u ? at->u[c] : at->x ? at->x[c] : (Real)at->x_n[c] + at->u[c];
-    if (spot->p)
-        x += spot->alpha * spot->p[c];
-    return (Jet){jittered(spot, x), spot->p ? spot->p[c] : 0,
-                 spot->q ? spot->q[c] : 0, 0};
+    if (probe->p)
+        x += probe->alpha * probe->p[c];
+    return (Jet){add_jitter(probe, x), probe->p ? probe->p[c] : 0,
+                 probe->q ? probe->q[c] : 0, 0};
 }
 
-static Jet between(Spot *spot, int i, int j, int axis, bool of_u)
+static Jet difference(Probe *probe, int i, int j, int axis, bool of_u)
 {
-    return plus(coordinate(spot, 2 * i + axis, of_u), -1,
-                coordinate(spot, 2 * j + axis, of_u));
+    return jet_add(coordinate(probe, 2 * i + axis, of_u), -1,
+                   coordinate(probe, 2 * j + axis, of_u));
 }
 
 Real exact_strain(const System *system, const double *x, int s)
@@ -74,143 +76,153 @@ Real exact_strain(const System *system, const double *x, int s)
     return (dx * dx + dy * dy) / system->l2[s] - 1;
 }
 
-/* A spring that has flowed begins the next step where V'' jumps: rounding of
- * its strain, some units of 1 + E, says on which side. */
-static Real shift_flow_limit(Spot *spot, Real E)
+/* Returns the random or chosen error of a flow limit. A spring that has flowed
+ * begins the next step at its limit, and rounding decides whether it flows. */
+static Real shift_flow_limit(Probe *probe, Real E)
 {
-    Real side = spot->jitter ? random_uniform(spot->jitter, -1, 1) : spot->side;
+    Real side =
+        probe->jitter ? random_uniform(probe->jitter, -1, 1) : probe->side;
     return 8 * DBL_EPSILON * (1 + fabsl(E)) * side;
 }
 
-/* k l2 V(E): slides, plasticity.h, damping.h */
-static void spring(Spot *spot, Jet *sum, const void *data, int s)
+/* Adds k l2 V(E) of spring s: slides, plasticity.h, damping.h. */
+static void add_spring(Probe *probe, Jet *sum, const void *data, int s)
 {
-    const System *system = spot->at->system;
+    const System *system = probe->at->system;
     const Plasticity *flow =
         data == system_term_data(system, &plastic_energy) ? data : NULL;
     const Damping *damped =
-        spot->at->u ? system_term_data(system, &damping) : NULL;
-    Real theta = damped ? damped->eta / spot->h : 0;
+        probe->at->u ? system_term_data(system, &damping) : NULL;
+    Real theta = damped ? damped->eta / probe->h : 0;
     Jet E = {.f = -1}, V;
     for (int axis = 0; axis < 2; axis++) {
-        Jet d =
-            between(spot, system->e[2 * s], system->e[2 * s + 1], axis, false);
-        E = plus(E, 1 / (Real)system->l2[s], times(d, d));
+        Jet d = difference(probe, system->e[2 * s], system->e[2 * s + 1], axis,
+                           false);
+        E = jet_add(E, 1 / (Real)system->l2[s], jet_mul(d, d));
     }
     Real e = E.f - (flow ? flow->ep[s] : 0), kappa = 0;
     Real held = fabsl(e), over = 0, hard = 1; /* |e| = held + over */
     bool flows = false;
     if (flow) {
         kappa = flow->kappa[s];
-        hard = 1 - jittered(spot, 1 / (1 + (Real)flow->hardening));
+        hard = 1 - add_jitter(probe, 1 / (1 + (Real)flow->hardening));
         Real yield = flow->yield_strain + flow->hardening * (Real)kappa;
         held = fminl(held, yield);
         over = fabsl(e) - held;
-        flows = fabsl(e) - yield > shift_flow_limit(spot, E.f);
+        flows = fabsl(e) - yield > shift_flow_limit(probe, E.f);
     }
-    V = chain(E, held * (held / 2 + over) + hard * over * over / 2,
-              copysignl(held + hard * over, e), flows ? hard : 1);
+    V = jet_chain(E, held * (held / 2 + over) + hard * over * over / 2,
+                  copysignl(held + hard * over, e), flows ? hard : 1);
     Jet rate = E;
-    rate.f -= theta > 0 ? exact_strain(system, spot->at->x_n, s) : 0;
-    V = plus(V, theta / 2, times(rate, rate));
+    rate.f -= theta > 0 ? exact_strain(system, probe->at->x_n, s) : 0;
+    V = jet_add(V, theta / 2, jet_mul(rate, rate));
     V.f += flow ? flow->hardening * kappa * kappa / 2 : 0;
-    book(spot, sum, (Real)system->k[s] * system->l2[s], V);
+    add_part(probe, sum, (Real)system->k[s] * system->l2[s], V);
 }
 
-/* c f(s): barrier.h */
-static void barrier(Spot *spot, Jet *sum, Real c, Jet s)
+/* Adds c f(s): barrier.h. */
+static void add_barrier(Probe *probe, Jet *sum, Real c, Jet s)
 {
     if (s.f < 1)
-        book(spot, sum, c,
-             chain(s, s.f > 0 ? (s.f - 1) * logl(s.f) : INFINITY,
-                   logl(s.f) + 1 - 1 / s.f, (1 + s.f) / (s.f * s.f)));
+        add_part(probe, sum, c,
+                 jet_chain(s, s.f > 0 ? (s.f - 1) * logl(s.f) : INFINITY,
+                           logl(s.f) + 1 - 1 / s.f, (1 + s.f) / (s.f * s.f)));
 }
 
-/* The gap of contact.h over d_hat, and the direction n from wall or ball. */
-static Jet gap(Spot *spot, const Contact *contact, int i, int k, Real n[2])
+/* Returns the gap of contact.h over d_hat, and its direction n. */
+static Jet scaled_gap(Probe *probe, const Contact *contact, int i, int k,
+                      Real n[2])
 {
     const Obstacle *it = &contact->obstacle[k];
     Jet d[2], s = {0};
     for (int axis = 0; axis < 2; axis++) {
-        d[axis] = it->node >= 0 ? between(spot, i, it->node, axis, false)
-                                : coordinate(spot, 2 * i + axis, false);
-        Real o = it->o[axis] - spot->since * it->v[axis];
-        d[axis].f -= it->node >= 0 ? 0 : jittered(spot, o);
+        d[axis] = it->node >= 0 ? difference(probe, i, it->node, axis, false)
+                                : coordinate(probe, 2 * i + axis, false);
+        Real o = it->o[axis] - probe->since * it->v[axis];
+        d[axis].f -= it->node >= 0 ? 0 : add_jitter(probe, o);
         n[axis] = it->n[axis];
     }
     if (it->kind == OBSTACLE_BALL) {
-        Jet r2 = plus(times(d[0], d[0]), 1, times(d[1], d[1]));
+        Jet r2 = jet_add(jet_mul(d[0], d[0]), 1, jet_mul(d[1], d[1]));
         Real r = sqrtl(r2.f);
-        s = chain(r2, r - it->radius, 1 / (2 * r), -1 / (4 * r2.f * r));
+        s = jet_chain(r2, r - it->radius, 1 / (2 * r), -1 / (4 * r2.f * r));
         n[0] = d[0].f / r;
         n[1] = d[1].f / r;
     } else {
-        s = plus((Jet){0}, n[0], d[0]);
-        s = plus(s, n[1], d[1]);
+        s = jet_add((Jet){0}, n[0], d[0]);
+        s = jet_add(s, n[1], d[1]);
     }
     if (contact->free_ball >= 0 &&
         contact->obstacle[contact->free_ball].node == i)
         s.f -= contact->obstacle[contact->free_ball].radius;
-    return plus((Jet){0}, 1 / (Real)contact->barrier.d_hat, s);
+    return jet_add((Jet){0}, 1 / (Real)contact->barrier.d_hat, s);
 }
 
-/* mu lambda f0(y), lambda and t of x_n: friction.h */
+/* Returns f0(y): friction.h. */
 static Jet friction_law(Jet y, Real e)
 {
     Real a = fabsl(y.f) / e, sign = copysignl(1, y.f);
-    return a < 1 ? chain(y, y.f * y.f / e * (1 - a / 3), sign * a * (2 - a),
-                         2 / e * (1 - a))
-                 : chain(y, fabsl(y.f) - e / 3, sign, 0);
+    return a < 1 ? jet_chain(y, y.f * y.f / e * (1 - a / 3), sign * a * (2 - a),
+                             2 / e * (1 - a))
+                 : jet_chain(y, fabsl(y.f) - e / 3, sign, 0);
 }
 
-static void friction(Spot *spot, Jet *sum, const Contact *contact, int i, int k)
+/* Adds mu lambda f0(y) of node i and obstacle k, with lambda and t at x_n. */
+static void add_wall_friction(Probe *probe, Jet *sum, const Contact *contact,
+                              int i, int k)
 {
     const Obstacle *it = &contact->obstacle[k];
-    const Term *term = system_find_term(spot->at->system, &friction_energy);
-    if (!term || !spot->at->u || !(it->friction > 0))
+    const Term *term = system_find_term(probe->at->system, &friction_energy);
+    if (!term || !probe->at->u || !(it->friction > 0))
         return;
-    EvalPoint start = *spot->at;
-    Spot before = {.at = &start, .jitter = spot->jitter, .since = spot->moved};
-    Real n[2], e = ((const Friction *)term->data)->slip_speed * spot->h;
+    EvalPoint start = *probe->at;
+    Probe before = {
+        .at = &start, .jitter = probe->jitter, .since = probe->moved};
+    Real n[2], e = ((const Friction *)term->data)->slip_speed * probe->h;
     start.x = start.x_n;
-    Real s = gap(&before, contact, i, k, n).f;
+    Real s = scaled_gap(&before, contact, i, k, n).f;
     if (!(s < 1))
         return;
-    Jet y = {.f = -spot->h * (n[0] * jittered(spot, it->v[1]) -
-                              n[1] * jittered(spot, it->v[0]))};
+    Jet y = {.f = -probe->h * (n[0] * add_jitter(probe, it->v[1]) -
+                               n[1] * add_jitter(probe, it->v[0]))};
     for (int axis = 0; axis < 2; axis++)
-        y = plus(y, axis ? n[0] : -n[1],
-                 it->node >= 0 ? between(spot, i, it->node, axis, true)
-                               : coordinate(spot, 2 * i + axis, true));
-    book(spot, sum,
-         it->friction * contact->barrier.c / contact->barrier.d_hat *
-             -(logl(s) + 1 - 1 / s),
-         friction_law(y, e));
+        y = jet_add(y, axis ? n[0] : -n[1],
+                    it->node >= 0 ? difference(probe, i, it->node, axis, true)
+                                  : coordinate(probe, 2 * i + axis, true));
+    add_part(probe, sum,
+             it->friction * contact->barrier.c / contact->barrier.d_hat *
+                 -(logl(s) + 1 - 1 / s),
+             friction_law(y, e));
 }
 
-/* c f(d/d_hat): contact.h */
-static void touch(Spot *spot, Jet *sum, const Contact *contact, int i, int k)
+/* Adds c f(d/d_hat) of node i and obstacle k: contact.h. */
+static void add_wall_barrier(Probe *probe, Jet *sum, const Contact *contact,
+                             int i, int k)
 {
     Real n[2];
-    barrier(spot, sum, contact->barrier.c, gap(spot, contact, i, k, n));
+    add_barrier(probe, sum, contact->barrier.c,
+                scaled_gap(probe, contact, i, k, n));
 }
 
-static void wall_contacts(Spot *spot, Jet *sum, const void *data, int i)
+static void add_wall_contact(Probe *probe, Jet *sum, const void *data, int i)
 {
-    const System *system = spot->at->system;
+    const System *system = probe->at->system;
     const Contact *contact = contact_of(system);
     int node = i % system->nodes, k = i / system->nodes;
     if (contact_counts_pair(contact, system, node, k))
-        (data == contact ? touch : friction)(spot, sum, contact, node, k);
+        (data == contact ? add_wall_barrier
+                         : add_wall_friction)(probe, sum, contact, node, k);
 }
 
-/* Edges and points of all that is solid, as boundary.h has it: of each spring,
- * by its left or lower node and where it leads to (up, right, c, from d to b),
- * whether it is whole, and triangles on it. */
+/* Boundary of the bodies, like boundary.h. `whole` and `sides` belong to the
+ * springs of each node, which are its left or lower one, by direction: up,
+ * right, and the diagonals up right and down right. */
 typedef struct Outline {
-    int edges, points, *point, (*edge)[2];
-    unsigned char (*whole)[4], (*sides)[4], *role;
-    double *x; /* [2n] roughly, there */
+    int edges, points, *point, (*edge)[2]; /* nodes of the boundary */
+    unsigned char (*whole)[4]; /* [n] whether a spring is unbroken */
+    unsigned char (*sides)[4]; /* [n] number of triangles at a spring */
+    unsigned char *role;       /* [n] IN_A_TRIANGLE, ON_AN_EDGE */
+    double *x;                 /* [2n] m, positions rounded to doubles */
 } Outline;
 
 enum { IN_A_TRIANGLE = 1, ON_AN_EDGE = 2 };
@@ -240,7 +252,7 @@ static void outline_cell(Outline *outline, int a, int high)
             outline_triangle(outline, a, high, corner);
 }
 
-/* Without self-contact: none. */
+/* Returns the boundary, which is empty without self-contact. */
 static Outline find_outline(const System *system)
 {
     static double *bytes;
@@ -283,45 +295,46 @@ static Outline find_outline(const System *system)
     return it;
 }
 
-/* d^2/d_hat^2 of point p and an edge; where the edge is nearest, and n. */
-static Jet point_edge_gap(Spot *spot, const SelfContact *self, int p,
+/* Returns d^2/d_hat^2 of point p and an edge. r: place of the nearest point on
+ * the edge, 0 to 1; n: unit vector from there to p */
+static Jet point_edge_gap(Probe *probe, const SelfContact *self, int p,
                           const int end[2], Real *r, Real n[2])
 {
     Jet d[2], e[2], q[2], length2, along, d2;
     for (int axis = 0; axis < 2; axis++) {
-        e[axis] = between(spot, end[1], end[0], axis, false);
-        q[axis] = between(spot, p, end[0], axis, false);
+        e[axis] = difference(probe, end[1], end[0], axis, false);
+        q[axis] = difference(probe, p, end[0], axis, false);
         d[axis] = q[axis];
     }
-    along = plus(times(q[0], e[0]), 1, times(q[1], e[1]));
-    length2 = plus(times(e[0], e[0]), 1, times(e[1], e[1]));
+    along = jet_add(jet_mul(q[0], e[0]), 1, jet_mul(q[1], e[1]));
+    length2 = jet_add(jet_mul(e[0], e[0]), 1, jet_mul(e[1], e[1]));
     Real l = length2.f;
     *r = fminl(fmaxl(along.f / l, 0), 1);
     if (*r == 1)
         for (int axis = 0; axis < 2; axis++)
-            d[axis] = between(spot, p, end[1], axis, false);
-    d2 = plus(times(d[0], d[0]), 1, times(d[1], d[1]));
+            d[axis] = difference(probe, p, end[1], axis, false);
+    d2 = jet_add(jet_mul(d[0], d[0]), 1, jet_mul(d[1], d[1]));
     if (*r > 0 && *r < 1) {
-        Jet side = plus(times(e[0], q[1]), -1, times(e[1], q[0]));
-        d2 = times(times(side, side),
-                   chain(length2, 1 / l, -1 / (l * l), 2 / (l * l * l)));
+        Jet side = jet_add(jet_mul(e[0], q[1]), -1, jet_mul(e[1], q[0]));
+        d2 = jet_mul(jet_mul(side, side),
+                     jet_chain(length2, 1 / l, -1 / (l * l), 2 / (l * l * l)));
     }
     for (int axis = 0; axis < 2; axis++)
         n[axis] = (q[axis].f - *r * e[axis].f) / sqrtl(d2.f);
-    return plus((Jet){0}, 1 / ((Real)self->d_hat * self->d_hat), d2);
+    return jet_add((Jet){0}, 1 / ((Real)self->d_hat * self->d_hat), d2);
 }
 
-/* mu F f0(y), F and t of x_n: friction.h */
-static void self_friction(Spot *spot, Jet *sum, const SelfContact *self, int p,
-                          const int end[2])
+/* Adds mu F f0(y) of point p and an edge, with F and t at x_n: friction.h. */
+static void add_self_friction(Probe *probe, Jet *sum, const SelfContact *self,
+                              int p, const int end[2])
 {
-    const System *system = spot->at->system;
+    const System *system = probe->at->system;
     const Term *term = system_find_term(system, &self_friction_energy);
-    if (!term || !spot->at->u)
+    if (!term || !probe->at->u)
         return;
-    EvalPoint start = *spot->at;
-    Spot before = {.at = &start, .h = spot->h, .jitter = spot->jitter};
-    Real n[2], r, e = ((const Friction *)term->data)->slip_speed * spot->h;
+    EvalPoint start = *probe->at;
+    Probe before = {.at = &start, .h = probe->h, .jitter = probe->jitter};
+    Real n[2], r, e = ((const Friction *)term->data)->slip_speed * probe->h;
     start.x = start.x_n;
     Real S = point_edge_gap(&before, self, p, end, &r, n).f;
     Jet y = {0};
@@ -329,18 +342,19 @@ static void self_friction(Spot *spot, Jet *sum, const SelfContact *self, int p,
         return;
     for (int axis = 0; axis < 2; axis++) {
         Real t = axis ? n[0] : -n[1];
-        y = plus(y, t, coordinate(spot, 2 * p + axis, true));
-        y = plus(y, -t * (1 - r), coordinate(spot, 2 * end[0] + axis, true));
-        y = plus(y, -t * r, coordinate(spot, 2 * end[1] + axis, true));
+        y = jet_add(y, t, coordinate(probe, 2 * p + axis, true));
+        y = jet_add(y, -t * (1 - r),
+                    coordinate(probe, 2 * end[0] + axis, true));
+        y = jet_add(y, -t * r, coordinate(probe, 2 * end[1] + axis, true));
     }
-    book(spot, sum,
-         self->friction * self->c / self->d_hat * 2 * sqrtl(S) *
-             -(logl(S) + 1 - 1 / S),
-         friction_law(y, e));
+    add_part(probe, sum,
+             self->friction * self->c / self->d_hat * 2 * sqrtl(S) *
+                 -(logl(S) + 1 - 1 / S),
+             friction_law(y, e));
 }
 
-/* Whether a point and an edge are so far from each other that there is nothing:
- * most of them are. */
+/* Returns true if a point is further than `most` from an edge, as most of them
+ * are: the pair then has no energy. */
 static bool is_far(const double *x, int p, const int end[2], double most)
 {
     for (int c = 0; c < 2; c++) {
@@ -352,88 +366,90 @@ static bool is_far(const double *x, int p, const int end[2], double most)
     return false;
 }
 
-/* c f(d^2/d_hat^2): self_contact.h; friction is of the step's start. */
-static void self_contact(Spot *spot, Jet *sum, const void *data, int i)
+/* Adds c f(d^2/d_hat^2) of pair i, or its friction at x_n: self_contact.h. */
+static void add_self_contact(Probe *probe, Jet *sum, const void *data, int i)
 {
-    const SelfContact *self = self_contact_of(spot->at->system);
-    const Outline *outline = spot->outline;
+    const SelfContact *self = self_contact_of(probe->at->system);
+    const Outline *outline = probe->outline;
     const int p = outline->point[i % outline->points];
     const int *end = outline->edge[i / outline->points];
-    const double *x = data == self ? outline->x : spot->at->x_n;
+    const double *x = data == self ? outline->x : probe->at->x_n;
     Real n[2], r;
     if (p == end[0] || p == end[1] || is_far(x, p, end, 1.001 * self->d_hat))
         return;
     if (data == self)
-        barrier(spot, sum, self->c, point_edge_gap(spot, self, p, end, &r, n));
+        add_barrier(probe, sum, self->c,
+                    point_edge_gap(probe, self, p, end, &r, n));
     else
-        self_friction(spot, sum, self, p, end);
+        add_self_friction(probe, sum, self, p, end);
 }
 
-/* Whether triangle t of the cells has all its springs, and its area over that
- * at rest. */
-static bool triangle(Spot *spot, const Cells *cells, int t, Jet *J)
+/* Computes J, area over area at rest; false: a spring is broken. */
+static bool find_cell_area(Probe *probe, const Cells *cells, int t, Jet *J)
 {
-    const double *k = spot->at->system->k;
+    const double *k = probe->at->system->k;
     const int *node = cells->triangles.node[t], *side = cells->side_springs[t];
     Jet e[2][2];
     if (k[side[0]] == 0 || k[side[1]] == 0 || k[side[2]] == 0)
         return false;
     for (int axis = 0; axis < 2; axis++)
         for (int edge = 0; edge < 2; edge++)
-            e[edge][axis] = between(spot, node[1 + edge], node[0], axis, false);
-    *J = plus(times(e[0][0], e[1][1]), -1, times(e[0][1], e[1][0]));
-    *J = plus((Jet){0}, 1 / (2 * (Real)cells->triangles.area), *J);
+            e[edge][axis] =
+                difference(probe, node[1 + edge], node[0], axis, false);
+    *J = jet_add(jet_mul(e[0][0], e[1][1]), -1, jet_mul(e[0][1], e[1][0]));
+    *J = jet_add((Jet){0}, 1 / (2 * (Real)cells->triangles.area), *J);
     return true;
 }
 
-/* A0 k_c f(J/J_hat): cells.h */
-static void cell(Spot *spot, Jet *sum, const void *data, int t)
+/* Adds A0 k_c f(J/J_hat) of triangle t: cells.h. */
+static void add_cell(Probe *probe, Jet *sum, const void *data, int t)
 {
     const Cells *cells = data;
     Jet J;
-    if (triangle(spot, cells, t, &J))
-        barrier(spot, sum, cells->c, plus((Jet){0}, 1 / 0.4L, J));
+    if (find_cell_area(probe, cells, t, &J))
+        add_barrier(probe, sum, cells->c, jet_add((Jet){0}, 1 / 0.4L, J));
 }
 
-/* A0 (mu/2 (|F|^2 - 2) - mu ln J + lambda/2 (ln J)^2): neo_hookean.h */
-static void solid(Spot *spot, Jet *sum, const void *data, int t)
+/* Adds A0 (mu/2 (|F|^2 - 2) - mu ln J + lambda/2 (ln J)^2): neo_hookean.h. */
+static void add_solid(Probe *probe, Jet *sum, const void *data, int t)
 {
     const NeoHookean *solid = data;
     const int *node = solid->triangles.node[t];
     Jet F[4], size = {.f = -2}, J, L;
     for (int c = 0; c < 4; c++)
-        F[c] = plus((Jet){0}, 1 / sqrtl(2 * (Real)solid->triangles.area),
-                    between(spot, node[1 + c / 2], node[0], c % 2, false));
+        F[c] =
+            jet_add((Jet){0}, 1 / sqrtl(2 * (Real)solid->triangles.area),
+                    difference(probe, node[1 + c / 2], node[0], c % 2, false));
     for (int c = 0; c < 4; c++)
-        size = plus(size, 1, times(F[c], F[c]));
-    J = plus(times(F[0], F[3]), -1, times(F[1], F[2]));
+        size = jet_add(size, 1, jet_mul(F[c], F[c]));
+    J = jet_add(jet_mul(F[0], F[3]), -1, jet_mul(F[1], F[2]));
     if (!(J.f > 0)) {
-        book(spot, sum, 1, (Jet){.f = INFINITY});
+        add_part(probe, sum, 1, (Jet){.f = INFINITY});
         return;
     }
-    L = chain(J, logl(J.f), 1 / J.f, -1 / (J.f * J.f));
-    book(spot, sum, solid->triangles.area * (Real)solid->mu / 2, size);
-    book(spot, sum, -solid->triangles.area * (Real)solid->mu, L);
-    book(spot, sum, solid->triangles.area * (Real)solid->lambda / 2,
-         times(L, L));
+    L = jet_chain(J, logl(J.f), 1 / J.f, -1 / (J.f * J.f));
+    add_part(probe, sum, solid->triangles.area * (Real)solid->mu / 2, size);
+    add_part(probe, sum, -solid->triangles.area * (Real)solid->mu, L);
+    add_part(probe, sum, solid->triangles.area * (Real)solid->lambda / 2,
+             jet_mul(L, L));
 }
 
-/* c/2 |x - o|^2: pull_energy.h */
-static void pull(Spot *spot, Jet *sum, const void *data, int c)
+/* Adds k/2 |x - o|^2 of coordinate c: pull_energy.h. */
+static void add_pull(Probe *probe, Jet *sum, const void *data, int c)
 {
     const Pull *pull = data;
-    Jet d = coordinate(spot, c, false);
+    Jet d = coordinate(probe, c, false);
     d.f -= pull->target[c % 2];
     if (pull->node == c / 2)
-        book(spot, sum, (Real)pull->k / 2, times(d, d));
+        add_part(probe, sum, (Real)pull->k / 2, jet_mul(d, d));
 }
 
-/* Of what a term has parts. */
+/* What a term sums over */
 typedef enum Parts { SPRINGS, COORDINATES, WALLS, CELLS, SOLIDS, PAIRS } Parts;
 
-static int count_parts(const Spot *spot, Parts parts, const void *data)
+static int count_parts(const Probe *probe, Parts parts, const void *data)
 {
-    const System *system = spot->at->system;
+    const System *system = probe->at->system;
     const Contact *contact = contact_of(system);
     switch (parts) {
     case SPRINGS:
@@ -446,21 +462,21 @@ static int count_parts(const Spot *spot, Parts parts, const void *data)
     case SOLIDS:
         return ((const Triangles *)data)->count;
     default:
-        return spot->outline->edges * spot->outline->points;
+        return probe->outline->edges * probe->outline->points;
     }
 }
 
-/* ---- what clamping adds -------------------------------------------------- */
+/* ---- what clamping adds ------------------------------------------------- */
 
-/* n numbers that a part depends on: what each is of the displacements of three
- * nodes, and displacements that change it alone. */
+/* Numbers on which the energy of a part depends. read: derivatives by the node
+ * coordinates; move: displacements that change one number alone, by 1 */
 typedef struct Frame {
     int n, node[3];
     Real read[4][6];
     double move[4][6];
 } Frame;
 
-/* The difference of two nodes, or one alone. */
+/* Fills the frame of the difference of two nodes, or of one node if j < 0. */
 static void frame_of_two(Frame *frame, int i, int j)
 {
     *frame = (Frame){.n = 2, .node = {i, j < 0 ? i : j, i}};
@@ -470,7 +486,7 @@ static void frame_of_two(Frame *frame, int i, int j)
     }
 }
 
-/* Two vectors, weighted sums of three nodes. */
+/* Fills the frame of two vectors, which are weighted sums of three nodes. */
 static void frame_of_three(Frame *frame, const int node[3],
                            const double w[2][3])
 {
@@ -485,18 +501,18 @@ static void frame_of_three(Frame *frame, const int node[3],
     }
 }
 
-/* How far p goes along the edge, and how far its ends are turned: what is left
- * of them beside W'', which is never negative. */
-static void frame_of_pair(Spot *spot, Frame *frame, int i)
+/* Fills the frame of a point and an edge: p moves along the edge, the edge
+ * turns. All other second derivatives are W'', which is never negative. */
+static void frame_of_pair(Probe *probe, Frame *frame, int i)
 {
-    const SelfContact *self = self_contact_of(spot->at->system);
-    const Outline *outline = spot->outline;
+    const SelfContact *self = self_contact_of(probe->at->system);
+    const Outline *outline = probe->outline;
     const int p = outline->point[i % outline->points];
     const int *end = outline->edge[i / outline->points];
     Real n[2], r;
     if (p == end[0] || p == end[1] || is_far(outline->x, p, end, self->d_hat))
         return;
-    point_edge_gap(spot, self, p, end, &r, n);
+    point_edge_gap(probe, self, p, end, &r, n);
     *frame = (Frame){.n = 2, .node = {p, end[0], end[1]}};
     for (int c = 0; c < 2; c++) {
         Real t = c ? n[0] : -n[1];
@@ -511,11 +527,11 @@ static void frame_of_pair(Spot *spot, Frame *frame, int i)
     }
 }
 
-/* n = 0: it bends up anyway. */
-static Frame make_frame(Spot *spot, Parts parts, const void *data, int i)
+/* Returns the frame of part i; n = 0 if the energy of the part is convex. */
+static Frame make_frame(Probe *probe, Parts parts, const void *data, int i)
 {
     static const double edges[2][3] = {{-1, 1, 0}, {-1, 0, 1}};
-    const System *system = spot->at->system;
+    const System *system = probe->at->system;
     const Triangles *triangles = data;
     Frame frame = {0};
     if (parts == SPRINGS)
@@ -526,28 +542,28 @@ static Frame make_frame(Spot *spot, Parts parts, const void *data, int i)
     else if (parts == CELLS || parts == SOLIDS)
         frame_of_three(&frame, triangles->node[i], edges);
     else if (parts == PAIRS)
-        frame_of_pair(spot, &frame, i);
+        frame_of_pair(probe, &frame, i);
     return frame;
 }
 
-/* A new term is a row here; data: the term's. */
+/* A row for each term; data: those of the term */
 static const struct {
     const TermKind *kind;
     Parts parts;
-    void (*part)(Spot *spot, Jet *sum, const void *data, int i);
-} formulas[] = {{&mass_spring_energy, SPRINGS, spring},
-                {&plastic_energy, SPRINGS, spring},
-                {&contact_energy, WALLS, wall_contacts},
-                {&friction_energy, WALLS, wall_contacts},
-                {&cell_energy, CELLS, cell},
-                {&central_field, COORDINATES, pull},
-                {&hand_energy, COORDINATES, pull},
-                {&neo_hookean_energy, SOLIDS, solid},
-                {&self_contact_energy, PAIRS, self_contact},
-                {&self_friction_energy, PAIRS, self_contact}};
+    void (*part)(Probe *probe, Jet *sum, const void *data, int i);
+} formulas[] = {{&mass_spring_energy, SPRINGS, add_spring},
+                {&plastic_energy, SPRINGS, add_spring},
+                {&contact_energy, WALLS, add_wall_contact},
+                {&friction_energy, WALLS, add_wall_contact},
+                {&cell_energy, CELLS, add_cell},
+                {&central_field, COORDINATES, add_pull},
+                {&hand_energy, COORDINATES, add_pull},
+                {&neo_hookean_energy, SOLIDS, add_solid},
+                {&self_contact_energy, PAIRS, add_self_contact},
+                {&self_friction_energy, PAIRS, add_self_contact}};
 
-/* The row of a term, or -1. */
-static int formula_of(const TermKind *kind)
+/* Returns the row of a term, or -1. */
+static int find_formula(const TermKind *kind)
 {
     int row = (int)(sizeof formulas / sizeof *formulas) - 1;
     while (row >= 0 && formulas[row].kind != kind)
@@ -555,22 +571,22 @@ static int formula_of(const TermKind *kind)
     return row;
 }
 
-/* p [2n] += sign times the displacement of number k. */
+/* Adds sign times the displacement that changes number k to p [2n]. */
 static void move_nodes(const Frame *frame, int k, double sign, double *p)
 {
     for (int i = 0; i < 6; i++)
         p[2 * frame->node[i / 2] + i % 2] += sign * frame->move[k][i];
 }
 
-/* The eigenvalues of one part's block that are below 0, as numbers above: lift
- * [4] out, what cutting adds; row [4][6] out, the eigenvector over the
- * coordinates of the frame's three nodes.  p, q [2n] all 0.  Returns how many
- * there are of both. */
-static int negative_part(const Spot *spot, int row, const void *data, int part,
-                         double *p, double *q, Frame *frame, Real lift[4],
-                         Real rows[4][6])
+/* Finds the negative eigenvalues of the block of one part, in the numbers of
+ * its frame. Returns the number of lifts. p, q [2n] are 0 before and after.
+ *   lift  [4] out, what cutting adds to each eigenvalue
+ *   rows  [4][6] out, eigenvectors over the coordinates of the frame's nodes */
+static int find_lifts(const Probe *probe, int row, const void *data, int part,
+                      double *p, double *q, Frame *frame, Real lift[4],
+                      Real rows[4][6])
 {
-    Spot own = *spot;
+    Probe own = *probe;
     *frame = make_frame(&own, formulas[row].parts, data, part);
     Real A[16], v[16];
     int n = frame->n;
@@ -597,46 +613,47 @@ static int negative_part(const Spot *spot, int row, const void *data, int part,
     return n;
 }
 
-static Outline find_outline_at_point(const Spot *spot)
+/* Returns the boundary with the positions x + alpha p. */
+static Outline find_outline_at_point(const Probe *probe)
 {
-    Spot plain = *spot;
-    Outline outline = find_outline(spot->at->system);
+    Probe plain = *probe;
+    Outline outline = find_outline(probe->at->system);
     plain.jitter = NULL;
-    for (int c = 0; outline.x && c < 2 * spot->at->system->nodes; c++)
+    for (int c = 0; outline.x && c < 2 * probe->at->system->nodes; c++)
         outline.x[c] = (double)coordinate(&plain, c, false).f;
     return outline;
 }
 
-Jet oracle_energy(Spot *spot, const TermKind *only)
+Jet oracle_energy(Probe *probe, const TermKind *only)
 {
-    const System *system = spot->at->system;
-    Outline outline = find_outline_at_point(spot);
+    const System *system = probe->at->system;
+    Outline outline = find_outline_at_point(probe);
     Jet sum = {0};
-    spot->outline = &outline;
-    spot->size = (Jet){0};
+    probe->outline = &outline;
+    probe->size = (Jet){0};
     for (int t = 0; t < system->terms; t++) {
-        int row = formula_of(system->term[t].kind);
+        int row = find_formula(system->term[t].kind);
         const void *data = system->term[t].data;
         if (row < 0 || (only && only != formulas[row].kind))
             continue;
-        int count = count_parts(spot, formulas[row].parts, data);
+        int count = count_parts(probe, formulas[row].parts, data);
         for (int i = 0; i < count; i++)
-            formulas[row].part(spot, &sum, data, i);
+            formulas[row].part(probe, &sum, data, i);
     }
-    spot->size = plus((Jet){0}, spot->at->weight, spot->size);
-    return plus((Jet){0}, spot->at->weight, sum);
+    probe->size = jet_add((Jet){0}, probe->at->weight, probe->size);
+    return jet_add((Jet){0}, probe->at->weight, sum);
 }
 
-Jet oracle_step(Spot *spot, const double *u_tilde)
+Jet oracle_step(Probe *probe, const double *u_tilde)
 {
-    const System *system = spot->at->system;
-    Jet sum = oracle_energy(spot, NULL);
-    Spot still = *spot;
+    const System *system = probe->at->system;
+    Jet sum = oracle_energy(probe, NULL);
+    Probe still = *probe;
     still.jitter = NULL;
     for (int c = 0; c < 2 * system->nodes; c++) {
         Jet away = coordinate(&still, c, true);
         away.f -= u_tilde[c];
-        book(spot, &sum, system->m[c / 2] / (Real)2, times(away, away));
+        add_part(probe, &sum, system->m[c / 2] / (Real)2, jet_mul(away, away));
     }
     return sum;
 }
@@ -644,18 +661,18 @@ Jet oracle_step(Spot *spot, const double *u_tilde)
 Real exact_potential(const System *system, const double *x)
 {
     EvalPoint at = make_eval_point(system, x, NULL, x);
-    Spot spot = {.at = &at};
-    return oracle_energy(&spot, NULL).f;
+    Probe probe = {.at = &at};
+    return oracle_energy(&probe, NULL).f;
 }
 
-/* ---- of a minimisation ------------------------------------------------- */
+/* ---- derivatives of a step ---------------------------------------------- */
 
-/* The nodes that a part is about; returns how many. */
-static int nodes_of(const Spot *spot, Parts parts, const void *data, int i,
-                    int node[3])
+/* Finds the nodes of part i, and returns their number. */
+static int find_part_nodes(const Probe *probe, Parts parts, const void *data,
+                           int i, int node[3])
 {
-    const System *system = spot->at->system;
-    const Outline *outline = spot->outline;
+    const System *system = probe->at->system;
+    const Outline *outline = probe->outline;
     const int *from = parts == SPRINGS ? system->e + 2 * i
                       : parts == CELLS || parts == SOLIDS
                           ? ((const Triangles *)data)->node[i]
@@ -678,64 +695,65 @@ static int nodes_of(const Spot *spot, Parts parts, const void *data, int i,
     return count;
 }
 
-/* `lifts` times what cutting its negative eigenvalues adds to a part.  The
- * frame's nodes are those of the block, in their order. */
-static void add_lift(const Spot *spot, int row, const void *data, int part,
+/* Adds `lifts` times what cutting adds to a block, whose nodes are those of the
+ * frame in their order. */
+static void add_lift(const Probe *probe, int row, const void *data, int part,
                      int lifts, double *p, double *q, Block *block)
 {
     Frame frame;
     Real lift[4], rows[4][6];
     int size = 2 * block->count;
-    int n = negative_part(spot, row, data, part, p, q, &frame, lift, rows);
+    int n = find_lifts(probe, row, data, part, p, q, &frame, lift, rows);
     for (int i = 0; i < size * size; i++)
         for (int k = 0; k < n; k++)
-            block->H[i] += lifts * spot->at->weight * lift[k] *
+            block->H[i] += lifts * probe->at->weight * lift[k] *
                            rows[k][i / size] * rows[k][i % size];
 }
 
-/* Returns false where this part is nothing.  p, q [2n] all 0 */
-static bool evaluate_block(Spot *spot, int row, const void *data, int part,
+/* Computes the block of a part, if it has energy. p, q [2n] all 0 */
+static bool evaluate_block(Probe *probe, int row, const void *data, int part,
                            int lifts, double *p, double *q, Block *block)
 {
-    long booked = spot->booked;
-    Real w = spot->at->weight;
+    long booked = probe->booked;
+    Real w = probe->at->weight;
     Jet W = {0};
     *block = (Block){0};
-    formulas[row].part(spot, &W, data, part);
-    if (spot->booked == booked)
+    formulas[row].part(probe, &W, data, part);
+    if (probe->booked == booked)
         return false;
-    block->count = nodes_of(spot, formulas[row].parts, data, part, block->node);
+    block->count =
+        find_part_nodes(probe, formulas[row].parts, data, part, block->node);
     int n = 2 * block->count;
     for (int i = 0; i < n * n; i++) {
         double *along = &p[2 * block->node[i / n / 2] + i / n % 2];
         double *across = &q[2 * block->node[i % n / 2] + i % n % 2];
         W = (Jet){0};
         *along = *across = 1;
-        formulas[row].part(spot, &W, data, part);
+        formulas[row].part(probe, &W, data, part);
         *along = *across = 0;
         block->H[i] = w * W.pq;
         block->g[i / n] = w * W.p;
     }
     if (lifts && formulas[row].kind->rank != RANK_FRICTION)
-        add_lift(spot, row, data, part, lifts, p, q, block);
+        add_lift(probe, row, data, part, lifts, p, q, block);
     return true;
 }
 
-/* Inertia of each node, then all parts of all terms. */
-static void walk_blocks(const Spot *there, const double *u,
-                        const double *u_tilde, int lifts,
-                        void (*take)(void *to, const Block *block), void *to)
+/* Passes the inertia of each node and then all parts of all terms to `take`. */
+static void visit_blocks(const Probe *there, const double *u,
+                         const double *u_tilde, int lifts,
+                         void (*take)(void *to, const Block *block), void *to)
 {
     const System *system = there->at->system;
     Outline outline = find_outline_at_point(there);
     double *p = calloc(4 * (size_t)system->nodes, sizeof *p);
     double *q = p + 2 * system->nodes;
-    Spot spot = *there;
+    Probe probe = *there;
     Block block;
     CHECK(p != NULL);
-    spot.p = p;
-    spot.q = q;
-    spot.outline = &outline;
+    probe.p = p;
+    probe.q = q;
+    probe.outline = &outline;
     for (int i = 0; i < system->nodes; i++) {
         Real m = system->m[i];
         block = (Block){.count = 1, .node = {i}, .H = {m, 0, 0, m}};
@@ -744,11 +762,12 @@ static void walk_blocks(const Spot *there, const double *u,
         take(to, &block);
     }
     for (int t = 0; t < system->terms; t++) {
-        int row = formula_of(system->term[t].kind);
+        int row = find_formula(system->term[t].kind);
         const void *data = system->term[t].data;
-        int count = row < 0 ? 0 : count_parts(&spot, formulas[row].parts, data);
+        int count =
+            row < 0 ? 0 : count_parts(&probe, formulas[row].parts, data);
         for (int i = 0; i < count; i++)
-            if (evaluate_block(&spot, row, data, i, lifts, p, q, &block))
+            if (evaluate_block(&probe, row, data, i, lifts, p, q, &block))
                 take(to, &block);
     }
     free(p);
@@ -759,12 +778,12 @@ void exact_blocks(const IncrementalPotential *E, const double *u, int lifts,
 {
     EvalPoint at = make_eval_point(E->system, E->x_n, u, NULL);
     at.weight = E->weight;
-    const Spot spot = {.at = &at, .h = sqrtl(E->weight)};
-    walk_blocks(&spot, u, E->u_tilde, lifts, take, to);
+    const Probe probe = {.at = &at, .h = sqrtl(E->weight)};
+    visit_blocks(&probe, u, E->u_tilde, lifts, take, to);
 }
 
-/* A step's gradient and Hessian: g, and the sum of the sizes of its parts [2n];
- * H [2n 2n]. */
+/* The system of a Newton update: gradient g [2n], the sum of the absolute
+ * values of its parts [2n], and H [2n 2n] */
 typedef struct Assembly {
     const System *system;
     Real *g, *size, *H;
@@ -785,8 +804,8 @@ static void add_block(void *assembly, const Block *block)
     }
 }
 
-/* All of it; pinned nodes stand alone. */
-static void assemble(const Spot *spot, const double *u, const double *u_tilde,
+/* Assembles g, size and H, with unit rows for pinned nodes. */
+static void assemble(const Probe *probe, const double *u, const double *u_tilde,
                      const Assembly *to)
 {
     const System *system = to->system;
@@ -794,7 +813,7 @@ static void assemble(const Spot *spot, const double *u, const double *u_tilde,
     memset(to->g, 0, n * sizeof *to->g);
     memset(to->size, 0, n * sizeof *to->size);
     memset(to->H, 0, n * n * sizeof *to->H);
-    walk_blocks(spot, u, u_tilde, to->lifts, add_block, (void *)to);
+    visit_blocks(probe, u, u_tilde, to->lifts, add_block, (void *)to);
     for (size_t r = 0; r < n; r++) {
         if (!system->pinned[r / 2])
             continue;
@@ -812,14 +831,15 @@ void exact_derivatives(const IncrementalPotential *E, const double *u,
     CHECK(size != NULL);
     EvalPoint at = make_eval_point(E->system, E->x_n, u, x);
     at.weight = E->weight;
-    const Spot spot = {.at = &at, .h = h};
+    const Probe probe = {.at = &at, .h = h};
     const Assembly to = {E->system, g, size, H, (int)n, lifts};
-    assemble(&spot, u, E->u_tilde, &to);
+    assemble(&probe, u, E->u_tilde, &to);
     free(size);
 }
 
-/* H becomes L D below and on its diagonal, of L D L^T without pivots; false: a
- * pivot is 0.  A pivot of a clamped H that is below the mass is rounding. */
+/* Factors H = L D L^T without pivoting; L D replaces H on and below the
+ * diagonal. Returns false if a pivot is 0. A pivot below the mass in a clamped
+ * H is a rounding error and replaced by the mass. */
 static bool factor_densely(const Assembly *of)
 {
     int n = of->n;
@@ -839,8 +859,8 @@ static bool factor_densely(const Assembly *of)
     return true;
 }
 
-/* The largest |p_x| + |p_y| of p = -H^-1 g; infinite where H has no factor.
- * g becomes -p, H its factor. */
+/* Returns the largest |p_x| + |p_y| of p = -H^-1 g, or infinity if H is
+ * singular. g becomes -p, H its factor. */
 static Real solve_densely(const Assembly *of)
 {
     int n = of->n;
@@ -869,36 +889,35 @@ double exact_rise(const IncrementalPotential *E, const double *from,
     for (int i = 0; i < 2; i++) {
         EvalPoint at = make_eval_point(E->system, E->x_n, i ? to : from, NULL);
         at.weight = E->weight;
-        Spot spot = {.at = &at, .h = sqrtl(E->weight), .moved = moved};
-        energy[i] = oracle_step(&spot, E->u_tilde).f;
+        Probe probe = {.at = &at, .h = sqrtl(E->weight), .moved = moved};
+        energy[i] = oracle_step(&probe, E->u_tilde).f;
     }
     return (double)(energy[1] - energy[0]);
 }
 
-/* Units of the last place that each part of a double gradient, and each
- * coordinate that it is of, may be off: both take some roundings.  Of so many
- * random places nearby the worst one counts. */
+/* UNITS: error of each part of a double gradient and of each coordinate, in
+ * units of the last place. SAMPLES: random errors, of which the worst counts */
 enum { UNITS = 4, SAMPLES = 12 };
 
-/* What becomes of p where x, x_n and the parts of the gradient have other last
- * digits: the places the same ones for all parts, so that forces still balance.
- * Each number of u is off by half a unit of its last digit, which inertia sees
- * where u is much larger than u - u_tilde.
- *   place  [4n] workspace */
-static Real perturb_p(const Spot *spot, const double *u, const double *u_tilde,
-                      const Assembly *of, Random *random, double *place)
+/* Returns the largest |p_x| + |p_y| after random errors in the last digits of
+ * x, x_n and the parts of the gradient. All parts see the same positions, so
+ * that forces balance. u is off by half a unit of its last digit, which inertia
+ * feels where u is much larger than u - u_tilde. place [4n] workspace */
+static Real find_perturbed_residual(const Probe *probe, const double *u,
+                                    const double *u_tilde, const Assembly *of,
+                                    Random *random, double *place)
 {
-    const System *system = spot->at->system;
+    const System *system = probe->at->system;
     double *x = place, *x_n = place + of->n;
-    EvalPoint at = *spot->at;
-    Spot own = *spot;
+    EvalPoint at = *probe->at;
+    Probe own = *probe;
     own.at = &at;
     at.x = x;
     at.x_n = x_n;
     for (int i = 0; i < of->n; i++) {
         double ulps = UNITS * DBL_EPSILON * random_uniform(random, -1, 1);
-        x[i] = spot->at->x[i] * (1 + ulps);
-        x_n[i] = spot->at->x_n[i] * (1 + ulps);
+        x[i] = probe->at->x[i] * (1 + ulps);
+        x_n[i] = probe->at->x_n[i] * (1 + ulps);
     }
     assemble(&own, u, u_tilde, of);
     for (int i = 0; i < of->n; i++) {
@@ -909,9 +928,11 @@ static Real perturb_p(const Spot *spot, const double *u, const double *u_tilde,
     return solve_densely(of);
 }
 
-static double residual_by_side(const IncrementalPotential *E, const double *u,
-                               const double *x, double h, double moved,
-                               int lifts, int side, double *noise)
+/* exact_residual with a given probe->side. */
+static double find_residual_on_side(const IncrementalPotential *E,
+                                    const double *u, const double *x, double h,
+                                    double moved, int lifts, int side,
+                                    double *noise)
 {
     size_t n = 2 * (size_t)E->system->nodes;
     double *place = calloc(2 * n, sizeof *place);
@@ -920,15 +941,15 @@ static double residual_by_side(const IncrementalPotential *E, const double *u,
     CHECK(place != NULL && g != NULL);
     EvalPoint at = make_eval_point(E->system, E->x_n, u, x);
     at.weight = E->weight;
-    const Spot spot = {
+    const Probe probe = {
         .at = &at, .h = sqrtl(E->weight), .moved = moved, .side = side};
     const Assembly to = {E->system, g, g + n, g + 2 * n, (int)n, lifts};
-    assemble(&spot, u, E->u_tilde, &to);
+    assemble(&probe, u, E->u_tilde, &to);
     Real most = solve_densely(&to);
     for (int round = 0; noise && round < SAMPLES; round++)
-        blur = fmaxl(
-            blur,
-            fabsl(perturb_p(&spot, u, E->u_tilde, &to, &random, place) - most));
+        blur = fmaxl(blur, fabsl(find_perturbed_residual(&probe, u, E->u_tilde,
+                                                         &to, &random, place) -
+                                 most));
     if (noise)
         *noise = (double)(blur / h);
     free(place);
@@ -936,7 +957,8 @@ static double residual_by_side(const IncrementalPotential *E, const double *u,
     return (double)(most / h);
 }
 
-/* Of springs that have just flowed either side is right. */
+/* Springs that have just flowed may be evaluated on either side of their limit:
+ * the smaller residual counts. */
 double exact_residual(const IncrementalPotential *E, const double *u,
                       const double *x, double h, double moved, int lifts,
                       double *noise)
@@ -944,8 +966,8 @@ double exact_residual(const IncrementalPotential *E, const double *u,
     bool flows = system_find_term(E->system, &plastic_energy) != NULL;
     double least = INFINITY, blur;
     for (int side = flows ? -1 : 0; side <= flows; side++) {
-        double residual = residual_by_side(E, u, x, h, moved, lifts, side,
-                                           noise ? &blur : NULL);
+        double residual = find_residual_on_side(E, u, x, h, moved, lifts, side,
+                                                noise ? &blur : NULL);
         if (noise && (residual <= least || side <= 0))
             *noise = blur;
         least = fmin(least, residual);
@@ -977,10 +999,10 @@ void exact_eigen(int n, Real *a, Real *v)
     }
 }
 
-/* ---- what must not be passed --- */
+/* ---- boundaries that must not cross ------------------------------------- */
 
-/* Twice the area of nodes a, b, c. */
-static Real area_of(const double *x, int a, int b, int c)
+/* Returns twice the area of the triangle with nodes a, b and c. */
+static Real double_area(const double *x, int a, int b, int c)
 {
     const double *o = x + 2 * a, *p = x + 2 * b, *q = x + 2 * c;
     return ((Real)p[0] - o[0]) * ((Real)q[1] - o[1]) -
@@ -994,24 +1016,26 @@ long exact_crossings(const System *system, const double *x)
     for (int k = 0; k < outline.edges; k++)
         for (int l = 0; l < k; l++) {
             const int *e = outline.edge[k], *f = outline.edge[l];
-            count +=
-                area_of(x, e[0], e[1], f[0]) * area_of(x, e[0], e[1], f[1]) <
-                    0 &&
-                area_of(x, f[0], f[1], e[0]) * area_of(x, f[0], f[1], e[1]) < 0;
+            count += double_area(x, e[0], e[1], f[0]) *
+                             double_area(x, e[0], e[1], f[1]) <
+                         0 &&
+                     double_area(x, f[0], f[1], e[0]) *
+                             double_area(x, f[0], f[1], e[1]) <
+                         0;
         }
     return count;
 }
 
-/* ---- what must stay above 0 ---------------------------------------------- */
+/* ---- gaps and areas that must stay positive ----------------------------- */
 
 double exact_gap(const System *system, const double *x, int node, int obstacle)
 {
     const Contact *contact = contact_of(system);
     EvalPoint at = make_eval_point(system, x, NULL, x);
-    Spot spot = {.at = &at};
+    Probe probe = {.at = &at};
     Real n[2];
     return (double)(contact->barrier.d_hat *
-                    gap(&spot, contact, node, obstacle, n).f);
+                    scaled_gap(&probe, contact, node, obstacle, n).f);
 }
 
 double smallest_gap(const System *system, const double *x)
@@ -1030,16 +1054,16 @@ double smallest_cell(const System *system, const double *x)
     const Cells *cells = system_term_data(system, &cell_energy);
     const NeoHookean *solid = neo_hookean_of(system);
     EvalPoint at = make_eval_point(system, x, NULL, x);
-    Spot spot = {.at = &at};
+    Probe probe = {.at = &at};
     double smallest = INFINITY;
     Jet J;
     for (int t = 0; cells && t < cells->triangles.count; t++)
-        if (triangle(&spot, cells, t, &J))
+        if (find_cell_area(&probe, cells, t, &J))
             smallest = fmin(smallest, (double)J.f);
     for (int t = 0; solid && t < solid->triangles.count; t++) {
         const int *node = solid->triangles.node[t];
         smallest =
-            fmin(smallest, (double)(area_of(x, node[0], node[1], node[2]) /
+            fmin(smallest, (double)(double_area(x, node[0], node[1], node[2]) /
                                     (2 * solid->triangles.area)));
     }
     return smallest;

@@ -1,8 +1,7 @@
-/* test.h - TEST(name) { ... } is a test.  Those of a file run in their order;
- * TESTS(setup, teardown) ends it: both run once around all, or are NULL.  An
- * argument chooses tests by name, with * for any letters.
- * What a test begins (testing.h) is freed after it.
- */
+/* test.h - TEST(name) { ... } defines a test. Tests of a file run in its order.
+ * TESTS(setup, teardown) ends the file; both run once, or are NULL. An argument
+ * chooses tests by name, with * for any letters. Each test ends with a call of
+ * free_simulations. */
 #ifndef ELASTO_TEST_H
 #define ELASTO_TEST_H
 
@@ -17,7 +16,7 @@ static size_t test_count;
     {                                                                          \
         (void)unused;                                                          \
         name();                                                                \
-        free_all_begun();                                                      \
+        free_simulations();                                                    \
     }                                                                          \
     __attribute__((constructor)) static void name##_is_listed(void)            \
     {                                                                          \

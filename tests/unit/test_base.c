@@ -1,5 +1,5 @@
-/* Factorisations of sparse matrices, and what they say of matrices that have
- * none; functions whose last digit is promised. */
+/* test_base.c - factorisations of sparse matrices, statuses for singular ones,
+ * the BLAS calls, and functions that are right to the last digit */
 #include "test.h"
 
 #include <float.h>
@@ -12,7 +12,7 @@
 
 enum { GRID = 7, SIZE = GRID * GRID, ENTRIES = 3 * SIZE };
 
-/* The matrix of a grid: diagonal, left and lower neighbour. */
+/* A sparse matrix of a grid: diagonal, left and lower neighbours */
 typedef struct Problem {
     Triplets triplets;
     Sparse A;
@@ -41,7 +41,7 @@ static void problem_free(Problem *problem)
     triplets_free(&problem->triplets);
 }
 
-/* Entry (row, column), row >= column. */
+/* Returns the entry (row, column), row >= column. */
 static double *find_entry_value(Problem *problem, int row, int column)
 {
     for (int s = problem->A.column_start[column];; s++)
@@ -49,7 +49,7 @@ static double *find_entry_value(Problem *problem, int row, int column)
             return problem->A.value + s;
 }
 
-/* Random couplings; the diagonal is above the sum of a row by 1/2. */
+/* Fills the matrix at random; the diagonal exceeds the sum of a row by 1/2. */
 static void problem_fill(Random *random, Problem *problem)
 {
     Sparse *A = &problem->A;
@@ -64,7 +64,7 @@ static void problem_fill(Random *random, Problem *problem)
         *find_entry_value(problem, i, i) = sum[i] + 0.5;
 }
 
-/* A x is b within the tolerance, in place or not. */
+/* Checks that A x = b within the tolerance, in place or not. */
 static void check_solution(Random *random, Problem *problem, double tolerance)
 {
     double b[SIZE], x[2][SIZE], A[SIZE * SIZE];
@@ -84,12 +84,11 @@ static void check_solution(Random *random, Problem *problem, double tolerance)
 
 typedef enum Damage {
     NOTHING,
-    NEGATE_ONE,  /* on the diagonal */
-    NEGATE_HALF, /* of the diagonal */
-    EMPTY_ROW,   /* and column 7; the right-hand side is not 0 there */
+    NEGATE_ONE,  /* one entry of the diagonal changes its sign */
+    NEGATE_HALF, /* half of the diagonal changes its sign */
+    EMPTY_ROW,   /* row and column 7; b is not 0 there */
     EMPTY_ALL,
-    SMALL_PIVOT, /* [[1e-17, 1], [1, 1]] in the corner: 0 but for rounding, in
-                  * a matrix that is not singular at all */
+    SMALL_PIVOT, /* [[1e-17, 1], [1, 1]] in the corner of a regular matrix */
     NOT_FINITE,
     ALL_TINY /* 1 / 1e-310 is infinite */
 } Damage;
@@ -116,11 +115,10 @@ static void damage_matrix(Problem *problem, Damage how, int trial)
         }
 }
 
-/* What each kind says of each matrix; and the next one is solved again.  The
- * sums have size 10, so 1e-14 leaves room for rounding and for nothing else;
- * refinement stops at a residual of 1e-15.  L D L^T steps over a
- * zero pivot, and the solution tells.  What is dropped lies behind the last
- * entry and is never read. */
+/* Each kind of factorisation solves a matrix or names its defect, and solves
+ * the next one. Sums have size 10: 1e-14 is rounding; refinement stops at
+ * 1e-15. L D L^T skips a zero pivot, and the solution reports it. The entry
+ * behind the last one is never read. */
 TEST(matrices_are_solved_or_named)
 {
     static const struct {
@@ -180,17 +178,17 @@ void dtrsm_(const char *, const char *, const char *, const char *, const int *,
             const int *);
 void dpotrf_(const char *, const int *, double *, const int *, int *);
 
-enum { MOST = 21, LD = MOST + 2 };
+enum { MAX_ORDER = 21, LD = MAX_ORDER + 2 };
 static const int ld = LD;
 static const double one = 1, zero = 0;
 
 static void fill_matrix(Random *random, double *A)
 {
-    for (int i = 0; i < LD * MOST; i++)
+    for (int i = 0; i < LD * MAX_ORDER; i++)
         A[i] = random_uniform(random, -1, 1);
 }
 
-/* sum_p A[i, p] B[j, p], p = 0 ... k - 1 */
+/* Returns sum_p A[i, p] B[j, p], p = 0 ... k - 1. */
 static double product(const double *A, const double *B, int i, int j, int k)
 {
     double sum = 0;
@@ -199,22 +197,23 @@ static double product(const double *A, const double *B, int i, int j, int k)
     return sum;
 }
 
-/* Equal to the bit, whatever the width of the lanes; nothing else is written,
- * but by dsyrk right of the triangle. */
+/* Products have the same bits whatever the width of the registers. Other
+ * entries are not written, but by dsyrk right of the triangle. */
 TEST(products_have_one_order_of_sums)
 {
     Random random = {71};
-    double A[LD * MOST], B[LD * MOST], C[LD * MOST], S[LD * MOST];
-    for (int m = 1; m <= MOST; m++)
+    double A[LD * MAX_ORDER], B[LD * MAX_ORDER], C[LD * MAX_ORDER],
+        S[LD * MAX_ORDER];
+    for (int m = 1; m <= MAX_ORDER; m++)
         for (int n = 1; n <= 9; n++) {
-            int k = (m * n) % MOST;
+            int k = (m * n) % MAX_ORDER;
             fill_matrix(&random, A);
             fill_matrix(&random, B);
-            for (int i = 0; i < LD * MOST; i++)
+            for (int i = 0; i < LD * MAX_ORDER; i++)
                 C[i] = S[i] = 7;
             dgemm_("N", "C", &m, &n, &k, &one, A, &ld, B, &ld, &zero, C, &ld);
             dsyrk_("L", "N", &m, &k, &one, A, &ld, &zero, S, &ld);
-            for (int j = 0; j < MOST; j++)
+            for (int j = 0; j < MAX_ORDER; j++)
                 for (int i = 0; i < LD; i++) {
                     double *c = C + j * LD + i, *s = S + j * LD + i;
                     CHECK(*c == (i < m && j < n ? product(A, B, i, j, k) : 7));
@@ -226,14 +225,15 @@ TEST(products_have_one_order_of_sums)
         }
 }
 
-/* L L^T = A, and (B L^-T) L^T = B, to some epsilon of the sums' sizes: pivots
- * are 2 at least, the other entries at most 1. */
+/* L L^T = A, and (B L^-T) L^T = B, to some epsilon of the sums: pivots are at
+ * least 2, other entries at most 1. */
 TEST(factors_and_divisions_are_exact_to_rounding)
 {
     Random random = {72};
-    double A[LD * MOST], L[LD * MOST], B[LD * MOST], X[LD * MOST];
-    for (int n = 1; n <= MOST; n++) {
-        int info = -1, m = 1 + (5 * n) % MOST;
+    double A[LD * MAX_ORDER], L[LD * MAX_ORDER], B[LD * MAX_ORDER],
+        X[LD * MAX_ORDER];
+    for (int n = 1; n <= MAX_ORDER; n++) {
+        int info = -1, m = 1 + (5 * n) % MAX_ORDER;
         fill_matrix(&random, A);
         for (int i = 0; i < n; i++)
             A[i * LD + i] = 4 + n;
@@ -257,8 +257,7 @@ TEST(factors_and_divisions_are_exact_to_rounding)
     }
 }
 
-/* Units in the last place between a double and the same in extended precision.
- */
+/* Returns the error of a double in units of its last place. */
 static double count_ulps(double got, long double exact)
 {
     double nearest = (double)exact;
@@ -268,7 +267,7 @@ static double count_ulps(double got, long double exact)
     return (double)(fabsl(got - exact) / unit);
 }
 
-/* 1.5 units: what mathematics.h promises. */
+/* Checks the 1.5 units of the last place that mathematics.h promises. */
 static void check_digits(double x, double z)
 {
     CHECK_AT_MOST(count_ulps(math_log(x), logl(x)), 1.5);

@@ -1,5 +1,5 @@
-/* Documents: what the page says beside its canvas, on all pages of the lecture
- * and in all scenes. */
+/* test_document.c - documents: the text beside the canvas of the web page, for
+ * all pages of the lecture and all scenes */
 #include "attended.h"
 #include "picture/picture.h"
 #include "scenes/scenes.h"
@@ -14,7 +14,7 @@ static void write_document(void)
     document_write(&player, text);
 }
 
-/* How many lines begin with this word. */
+/* Counts the lines that begin with a word. */
 static int count_lines(const char *word)
 {
     size_t length = strlen(word);
@@ -24,7 +24,7 @@ static int count_lines(const char *word)
     return count;
 }
 
-/* Each line has as many fields as its word wants, and its braces match. */
+/* Checks that each line has the fields of its word, and that braces match. */
 static void check_lines(void)
 {
     static const struct {
@@ -37,7 +37,7 @@ static void check_lines(void)
         {"claim", 3}, {"notes", 3},  {"code", 2},     {"verdict", 3},
         {"card", 6},  {"words", 4},  {"row", 6},      {"number", 8},
         {"point", 3}, {"switch", 3}, {"picture", 1},  {"event", 1},
-        {"cells", 0}, {"legend", 0}, /* as many as there are columns */
+        {"cells", 0}, {"legend", 0}, /* a field for each column */
     };
     assert_true(strlen(text) < DOCUMENT_SIZE - 100);
     for (char *line = text, *end; *line; line = end + 1) {
@@ -67,7 +67,7 @@ TEST(a_page_keeps_its_answer_until_the_guess)
     for (const LecturePage *page = lecture_pages; page->name; page++) {
         char line[64];
         snprintf(line, sizeof line, "--lecture %s", page->name);
-        begin(line);
+        begin_player(line);
         player.setup.asks_guess = true;
         write_document();
         check_lines();
@@ -82,36 +82,36 @@ TEST(a_page_keeps_its_answer_until_the_guess)
         check_lines();
         assert_int_equal(count_lines("asks"), 0);
         CHECK(count_lines("look") > 0 && count_lines("code") > 0);
-        end();
+        end_player();
     }
 }
 
 TEST(scenes_have_numbers_and_a_picture_in_words)
 {
     for (const Scene *scene = scenes; scene->name; scene++) {
-        begin(scene->name);
+        begin_player(scene->name);
         write_document();
         check_lines();
         CHECK(count_lines("number") > 0 && count_lines("picture") == 1);
         assert_int_equal(count_lines("ask") + count_lines("look"), 0);
-        end();
+        end_player();
     }
 }
 
 TEST(an_event_tells_the_change_of_E_and_legends_name_the_curves)
 {
-    begin("square --steps 1");
+    begin_player("square --steps 1");
     CHECK_OK(player_make_step(&player));
     write_document();
     assert_non_null(strstr(text, "\nevent\tstep 1: 3 updates, E fell by "));
     assert_non_null(strstr(text, "\tquadratic model\n"));
     assert_non_null(strstr(text, "\telastic\t"));
-    end();
+    end_player();
 }
 
 TEST(a_table_is_text_after_the_guess)
 {
-    begin("--lecture step");
+    begin_player("--lecture step");
     player.setup.asks_guess = true;
     write_document();
     assert_int_equal(count_lines("cells"), 0);
@@ -120,9 +120,9 @@ TEST(a_table_is_text_after_the_guess)
     CHECK_OK(player_obey_queue(&player, false));
     CHECK_OK(player_make_step(&player));
     write_document();
-    assert_true(count_lines("cells") > 4); /* heads, updates, the end */
+    assert_true(count_lines("cells") > 4); /* heads, updates and the last row */
     assert_non_null(strstr(text, ": the loop ends\t"));
-    end();
+    end_player();
 }
 
 TEST(lists_have_all_pages_and_scenes)

@@ -1,5 +1,5 @@
-/* Films of every kind, opened again with ffmpeg: as many frames as were added,
- * at their rate, and each of them shows what was drawn. */
+/* test_film.c - films of each format, read back with ffmpeg: number, rate and
+ * pixels of their frames */
 #include "test.h"
 
 #include <math.h>
@@ -16,26 +16,25 @@ enum { WIDTH = 61, HEIGHT = 47, BLOCK = 20, FRAMES = 8 };
 
 static char folder[] = "/tmp/elasto-film-XXXXXX";
 
-/* error: how far a channel may be off: .apng and .gif keep every pixel of so
- * few colours as it is; the others are looked at in the middle of the block,
- * where they lose what no eye sees (7 of 255 with ffmpeg 5.1). */
+/* error: allowed error of a channel, of 255. .apng and .gif keep so few colours
+ * exactly; the other formats are compared in the middle of the block, with a
+ * loss that no eye sees (7 with ffmpeg 5.1). */
 static const struct Row {
-    const char *name, *format; /* hash of the frame's pixels */
+    const char *name, *format; /* ffmpeg's name of the pixel format */
     double rate;
     int error, width, height;
 } rows[] = {
     {"a film.apng", "rgb24", 60, 0, WIDTH, HEIGHT},
     {"x:y.gif", "bgra", 50, 0, WIDTH, HEIGHT},
-    {"-film.mp4", "yuv420p", 60, 12, WIDTH + 1, HEIGHT + 1}, /* even numbers */
+    {"-film.mp4", "yuv420p", 60, 12, WIDTH + 1, HEIGHT + 1}, /* even sizes */
     {"film%03d.webm", "yuv420p", 60, 12, WIDTH + 1, HEIGHT + 1},
 };
 enum { ROWS = sizeof rows / sizeof *rows };
 
-/* A block on white that moves and changes its colour; frames 4 and 5 are the
- * same. */
+/* Returns a pixel of a block that moves and changes its colour, on white. */
 static uint32_t pixel(int frame, int x, int y)
 {
-    int i = frame == 5 ? 4 : frame;
+    int i = frame == 5 ? 4 : frame; /* frames 4 and 5 are equal */
     bool inside = x >= i && x < i + BLOCK && y >= 10 && y < 10 + BLOCK;
     return inside ? 0xff0020c0u + 0x060000u * (uint32_t)i : 0xffffffffu;
 }
@@ -49,7 +48,7 @@ static Film open_film(const char *name)
     return film;
 }
 
-/* What two frames share is added once, for two frames' time. */
+/* Writes a film; two equal frames are added as one of double length. */
 static void make_film(const char *name, int frames)
 {
     Canvas canvas;
@@ -61,13 +60,13 @@ static void make_film(const char *name, int frames)
         CHECK_OK(film_add_frame(&film, &canvas, i == 4 ? 2 : 1));
     }
     CHECK(film.frames == frames);
-    CHECK(access(name, F_OK) != 0); /* not before it is whole */
+    CHECK(access(name, F_OK) != 0); /* the name appears with the whole film */
     CHECK_OK(film_close(&film, KEEP_FILE));
     canvas_free(&canvas);
 }
 
-/* What a line of the shell says; %s in it is the film. */
-static FILE *ask(const char *format, const char *name)
+/* Opens the output of a shell command, in which %s is the film. */
+static FILE *open_command(const char *format, const char *name)
 {
     char line[512];
     snprintf(line, sizeof line, format, name);
@@ -76,12 +75,13 @@ static FILE *ask(const char *format, const char *name)
     return answer;
 }
 
-/* The frames of a film as RGB, one after the other; how many whole ones. */
+/* Reads the frames of a film as RGB, and returns their number. */
 static int read_film(const char *name, int width, int height, uint8_t *bytes,
                      int most)
 {
     size_t size = 3 * (size_t)width * (size_t)height;
-    FILE *film = ask("ffmpeg -v error -i 'file:%s' -fps_mode passthrough -f "
+    FILE *film =
+        open_command("ffmpeg -v error -i 'file:%s' -fps_mode passthrough -f "
                      "rawvideo -pix_fmt rgb24 pipe:1 </dev/null",
                      name);
     size_t read = fread(bytes, 1, size * (size_t)most, film);
@@ -89,25 +89,27 @@ static int read_film(const char *name, int width, int height, uint8_t *bytes,
     return (int)(read / size);
 }
 
-/* Frames a second, from the times of the first and the last of `count`. */
+/* Returns the frame rate, 1/s, from the times of the first and last frame. */
 static double find_rate(const char *name, int count)
 {
     double first, last;
-    FILE *times = ask("ffprobe -v error -show_entries packet=pts_time -of "
-                      "csv=p=0 'file:%s' | tr -d , | sort -g | sed -n '1p;$p'",
-                      name);
+    FILE *times =
+        open_command("ffprobe -v error -show_entries packet=pts_time -of "
+                     "csv=p=0 'file:%s' | tr -d , | sort -g | sed -n '1p;$p'",
+                     name);
     CHECK(fscanf(times, "%lf %lf", &first, &last) == 2);
     CHECK(pclose(times) == 0);
     return (count - 1) / (last - first);
 }
 
-/* Not every browser plays another one than yuv420p. */
+/* Checks the pixel format: all browsers play yuv420p, not all play others. */
 static void check_format(const struct Row *row)
 {
     char format[16] = "";
-    FILE *answer = ask("ffprobe -v error -show_entries stream=pix_fmt -of "
-                       "csv=p=0 'file:%s'",
-                       row->name);
+    FILE *answer =
+        open_command("ffprobe -v error -show_entries stream=pix_fmt -of "
+                     "csv=p=0 'file:%s'",
+                     row->name);
     CHECK(fscanf(answer, "%15[a-z0-9]", format) == 1 && pclose(answer) == 0);
     assert_string_equal(format, row->format);
 }
@@ -171,8 +173,8 @@ TEST(sizes_may_change)
     unlink("sizes.apng");
 }
 
-/* One that ends before the film is called dead, and not waited for. */
-TEST(ffmpeg_dies_by_its_own)
+/* A film reports that ffmpeg has ended too early, and does not wait for it. */
+TEST(the_end_of_ffmpeg_is_reported)
 {
     Canvas canvas;
     CHECK_OK(canvas_create(WIDTH, HEIGHT, &canvas));

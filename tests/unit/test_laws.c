@@ -1,10 +1,8 @@
-/* Steps in time: each method against its order, and against what it conserves
- * (the exact motion is extrapolated from two runs of velocity Verlet: where it
- * were wrong, no order of another method would come out).  Contact, friction,
- * cells, plastic flow, damping, fracture and what moves, in whole steps: laws
- * of mechanics and the ledger of energies.  What the terms are at one place is
- * for test_terms; that no iterate ever penetrates or turns a cell over is what
- * stress looks at. */
+/* test_laws.c - whole time steps: orders and conserved quantities of each
+ * method (the exact motion is extrapolated from two runs of velocity Verlet),
+ * laws of mechanics, and the ledger of energies, with contact, friction, cells,
+ * plastic flow, damping, fracture and moving bodies. (Terms at one point:
+ * test_terms; feasible iterates: stress.) */
 #include "test.h"
 
 #include <float.h>
@@ -23,13 +21,12 @@ static const double G = 9.81;
 
 /* ---- some masses ------------------------------------------------------- */
 
-/* The system and the run of a test; those of the one before are freed. */
+/* System and run of a test; create_masses frees the last ones */
 static System few;
 static TimeIntegrator run;
 
-/* Masses of 1 kg and springs of 1 J/m^2, 1 m long, between nodes 0 and s + 1.
- */
-static System *few_masses(int nodes, int springs)
+/* Creates masses of 1 kg; springs of 1 J/m^2 and 1 m join 0 and s + 1. */
+static System *create_masses(int nodes, int springs)
 {
     time_integrator_free(&run);
     system_free(&few);
@@ -44,21 +41,21 @@ static System *few_masses(int nodes, int springs)
     return &few;
 }
 
-/* A mass above a wall through the origin. */
-static void point_on_wall(const double n[2], double friction, double slip_speed,
-                          double gravity)
+/* Creates a mass above a wall through the origin. */
+static void put_mass_on_wall(const double n[2], double friction,
+                             double slip_speed, double gravity)
 {
     const Obstacle wall = {.kind = OBSTACLE_WALL,
                            .n = {n[0], n[1]},
                            .friction = friction,
                            .node = -1};
-    few_masses(1, 0)->gravity[1] = -gravity;
+    create_masses(1, 0)->gravity[1] = -gravity;
     CHECK_OK(contact_configure(&few, &(Barrier){0.01, 1}, 1, &wall));
     if (friction > 0)
         CHECK_OK(friction_configure(&few, &friction_energy, true, slip_speed));
 }
 
-/* The masses, by backward Euler from x and v. */
+/* Creates the run of the masses, by backward Euler from x and v. */
 static void begin_free_masses(double h, const double *x, const double *v)
 {
     const NewtonSettings settings = {
@@ -68,7 +65,7 @@ static void begin_free_masses(double h, const double *x, const double *v)
                                     v, &run));
 }
 
-/* J, what the first term that loses any has taken out of them. */
+/* Returns the loss booked by the first term that books any, J. */
 static double find_lost_energy(void)
 {
     return few.losses[0].energy;
@@ -79,9 +76,9 @@ static void step(void)
     CHECK_OK(time_integrator_step(&run));
 }
 
-/* A belt: an inclined wall that moves along itself at W takes a block along.
- * While it slips, it feels mu N, N = m g cos; what the belt does is mu N W a
- * second, part of which heats. */
+/* A belt is an inclined wall that moves along itself at W and takes a block
+ * along. While the block slips, it feels mu N, N = m g cos; the belt does the
+ * work mu N W a second, part of which heats. */
 TEST(a_belt_takes_its_load_along)
 {
     const double mu = 0.9, angle = 0.3, W = 10, h = 0.01, still[2] = {0, 0};
@@ -89,7 +86,7 @@ TEST(a_belt_takes_its_load_along)
     const double t[2] = {cos(angle), sin(angle)};
     double speed = 0;
     int slips = 0;
-    point_on_wall(n, mu, 1e-4, G);
+    put_mass_on_wall(n, mu, 1e-4, G);
     contact_of(&few)->obstacle[0].motion =
         (Motion){.phases = 1, .phase_end = {1e9}, .v = {{W * t[0], W * t[1]}}};
     begin_free_masses(h, (double[2]){0.005 * n[0], 0.005 * n[1]}, still);
@@ -99,7 +96,7 @@ TEST(a_belt_takes_its_load_along)
         step();
         speed = run.v[0] * t[0] + run.v[1] * t[1];
         if (i < 60 || speed > 0.9 * W)
-            continue; /* finds its height; is carried along */
+            continue; /* the block falls to its height, or sticks */
         CHECK_NEAR((speed - before) / h, mu * N - G * sin(angle), 1e-6);
         CHECK_NEAR((run.work - done) / h, mu * N * W, 1e-5);
         CHECK_NEAR((find_lost_energy() - heat) / h, mu * N * (W - speed), 1e-5);
@@ -109,9 +106,8 @@ TEST(a_belt_takes_its_load_along)
     CHECK_NEAR(speed, W, 1e-4);
 }
 
-/* The hand takes the wall at o = (-0.1, 0), which looks along x, to (1, 0); a
- * body has a side of 1 m. */
-static Obstacle *push_wall(void)
+/* Makes a hand push the wall at o = (-0.1, 0), whose normal is x, to (1, 0). */
+static Obstacle *add_hand_on_wall(void)
 {
     Contact *contact = contact_of(&few);
     contact->obstacle[0].o[0] = -0.1;
@@ -119,14 +115,14 @@ static Obstacle *push_wall(void)
     return &contact->obstacle[0];
 }
 
-/* A mass that rests before a wall which a hand pushes: the wall is no faster
- * than 5 m/s, passes no mass, and comes to the hand; what the hand has done is
- * what the mass has and what backward Euler took. */
+/* A hand pushes a wall against a mass at rest: the wall is no faster than 5
+ * m/s, passes no mass, and reaches the hand. The work of the hand is the energy
+ * of the mass and the loss of backward Euler. */
 TEST(a_hand_pushes_with_a_bounded_speed)
 {
     const double h = 0.01, still[2] = {0, 0}, right[2] = {1, 0};
-    point_on_wall(right, 0, 0, 0);
-    Obstacle *wall = push_wall();
+    put_mass_on_wall(right, 0, 0, 0);
+    Obstacle *wall = add_hand_on_wall();
     begin_free_masses(h, still, still);
     for (int i = 0; i < 200; i++) {
         double before = wall->o[0];
@@ -142,25 +138,26 @@ TEST(a_hand_pushes_with_a_bounded_speed)
     CHECK(wall->o[0] == 1 && run.work == work);
 }
 
-/* A pinned mass stops the wall at 0.3 of the barrier's width before it, and a
- * second wall behind a free mass does, where the hand is too weak: there each
- * gap is about a tenth of that width.  No step is called blocked. */
+/* A pinned mass stops the pushed wall at a gap of 0.3 d_hat. A free mass before
+ * a second wall stops it where the hand is too weak: each gap is about a tenth
+ * of d_hat. No step is blocked. */
 TEST(a_fixed_body_stops_the_hand)
 {
     const double still[2] = {0, 0}, right[2] = {1, 0}, left[2] = {-1, 0};
-    point_on_wall(right, 0, 0, 0);
+    put_mass_on_wall(right, 0, 0, 0);
     few.pinned[0] = 1;
-    Obstacle *wall = push_wall();
+    Obstacle *wall = add_hand_on_wall();
     begin_free_masses(0.01, still, still);
     for (int i = 0; i < 100; i++)
         step();
     CHECK(-0.0035 < wall->o[0] && wall->o[0] <= -0.003 && run.x[0] == 0);
-    few_masses(1, 0);
+    create_masses(1, 0);
     Obstacle walls[2] = {{.n = {right[0], 0}, .o = {-0.1, 0}, .node = -1},
                          {.n = {left[0], 0}, .o = {0.05, 0}, .node = -1}};
     CHECK_OK(contact_configure(&few, &(Barrier){0.01, 1}, 2, walls));
-    wall = push_wall();
-    contact_of(&few)->hand.target[0] = 0.05; /* short ways in the end */
+    wall = add_hand_on_wall();
+    contact_of(&few)->hand.target[0] =
+        0.05; /* near the end the hand moves slowly */
     begin_free_masses(0.01, still, still);
     for (int i = 0; i < 300; i++)
         step();
@@ -169,13 +166,13 @@ TEST(a_fixed_body_stops_the_hand)
     CHECK_NEAR(run.x[0], 0.05 - 0.5 * room, 1e-6);
 }
 
-/* A ball of 2 cm that goes 5 cm in a step passes no mass: it takes it along. */
+/* A pushed ball of 2 cm, which moves 5 cm in a step, takes a mass along. */
 TEST(a_ball_that_is_pushed_jumps_over_nothing)
 {
     const double still[2] = {0, 0};
     const Obstacle ball = {
         .kind = OBSTACLE_BALL, .o = {-0.05, 0}, .radius = 0.02, .node = -1};
-    few_masses(1, 0);
+    create_masses(1, 0);
     CHECK_OK(contact_configure(&few, &(Barrier){0.002, 1}, 1, &ball));
     Contact *contact = contact_of(&few);
     contact->hand = (Push){.is_held = 1, .target = {9, 0}, .mesh = {.side = 1}};
@@ -187,18 +184,16 @@ TEST(a_ball_that_is_pushed_jumps_over_nothing)
     CHECK(contact->obstacle[0].o[0] > 1);
 }
 
-/* A spring that is broken stays as it was, however far its ends part: it does
- * not flow, and nothing is damped. */
+/* A broken spring keeps its plastic strain and no longer damps. */
 TEST(broken_springs_do_nothing)
 {
     const double x[4] = {0, 0, 3, 0}, far[4] = {0, 0, 30, 0};
     const double apart[4] = {-0.5, 0, 0.5, 0}, v[4] = {-30, 0, 30, 0};
-    few_masses(2, 1);
+    create_masses(2, 1);
     CHECK_OK(plastic_energy.configure(&few, NULL, (double[]){0.1, 0}));
     const Plasticity *flow = system_term_data(&few, &plastic_energy);
     plastic_energy.end_step(&(TermStep){&few, few.term, x, x, 1});
-    CHECK_NEAR(flow->ep[0], 8 - 0.1,
-               1e-14); /* a whole spring changes the step */
+    CHECK_NEAR(flow->ep[0], 8 - 0.1, 1e-14); /* an unbroken spring flows */
     few.k[0] = 0;
     unsigned version = few.version;
     plastic_energy.end_step(&(TermStep){&few, few.term, far, far, 1});
@@ -206,7 +201,7 @@ TEST(broken_springs_do_nothing)
     CHECK_NEAR(flow->ep[0], 8 - 0.1, 1e-14);
     CHECK_NEAR(flow->kappa[0], 8 - 0.1, 1e-14);
 
-    few_masses(2, 1)->k[0] = 1000;
+    create_masses(2, 1)->k[0] = 1000;
     CHECK_OK(damping.configure(&few, NULL, &(double){0.01}));
     CHECK_OK(fracture.configure(&few, NULL, &(double){0.01}));
     begin_free_masses(0.001, apart, v);
@@ -223,36 +218,38 @@ TEST(broken_springs_do_nothing)
 
 /* ---- whole scenes ------------------------------------------------------ */
 
-/* As many as the scenes here have at most. */
+/* Largest numbers of nodes and springs of the scenes here */
 enum { NODES = 1024, SPRINGS = 8 * NODES };
 
-/* J, what walls that move have done in the last step. */
+/* Returns the work of moving walls in the last step, J. */
 static double wall_work(const System *system, const double *x, double h)
 {
     const Contact *contact = contact_of(system);
     double sum = 0;
     for (int k = 0; contact && k < contact->obstacles; k++) {
         const Obstacle *wall = &contact->obstacle[k];
-        double way = (wall->n[0] * wall->v[0] + wall->n[1] * wall->v[1]) * h;
-        for (int i = 0; way != 0 && i < system->nodes; i++) {
+        double distance =
+            (wall->n[0] * wall->v[0] + wall->n[1] * wall->v[1]) * h;
+        for (int i = 0; distance != 0 && i < system->nodes; i++) {
             double s = (wall->n[0] * (x[2 * i] - wall->o[0]) +
                         wall->n[1] * (x[2 * i + 1] - wall->o[1])) /
                        contact->barrier.d_hat;
             if (s < 1)
                 sum -= contact->barrier.c / contact->barrier.d_hat *
-                       (log(s) + 1 - 1 / s) * way;
+                       (log(s) + 1 - 1 / s) * distance;
         }
     }
     return sum;
 }
 
-/* What a step from x_n, v_n has dissipated: |v' - v|_M^2/2, what walls do, and
- * what lies between the potential and its tangent at the end, damping's own
- * loss aside.
- *   k  [springs] as they were before it: forces were in balance with them
- *   P  of the start */
-static double dissipated_in(const TimeIntegrator *it, double *k,
-                            const double *x_n, const double *v_n, Real P)
+/* Returns the energy that a step from x_n, v_n dissipates, J, without the loss
+ * of
+ * damping: |v' - v|_M^2/2, the work of walls, and the difference between the
+ * potential and its tangent at the end.
+ *   k  [springs] before the step: forces were in balance with these
+ *   P  J, potential at the start */
+static double find_dissipation(const TimeIntegrator *it, double *k,
+                               const double *x_n, const double *v_n, Real P)
 {
     System whole = *it->system;
     static double dx[2 * NODES];
@@ -264,18 +261,17 @@ static double dissipated_in(const TimeIntegrator *it, double *k,
         sum += 0.5 * whole.m[c / 2] * dv * dv;
     }
     EvalPoint at = make_eval_point(&whole, x_n, NULL, it->x);
-    Spot spot = {.at = &at, .h = it->h, .p = dx};
-    sum -= oracle_energy(&spot, NULL).f;
-    at.u = dx; /* with what damping does */
-    sum += oracle_energy(&spot, NULL).p;
+    Probe probe = {.at = &at, .h = it->h, .p = dx};
+    sum -= oracle_energy(&probe, NULL).f;
+    at.u = dx; /* with the forces of damping */
+    sum += oracle_energy(&probe, NULL).p;
     if (system_find_term(&whole,
                          &friction_energy)) /* damping books its own loss */
-        sum -= oracle_energy(&spot, &friction_energy).p;
+        sum -= oracle_energy(&probe, &friction_energy).p;
     return (double)sum;
 }
 
-/* The ledger's dissipation is what is left over; here it is summed from the
- * oracle's formulas. */
+/* The ledger's dissipation, a remainder, equals a sum of oracle formulas. */
 TEST(the_ledger_adds_up)
 {
     static const char *const lines[] = {"slope",
@@ -307,7 +303,7 @@ TEST(the_ledger_adds_up)
                            1e-12 * (most + stored + 1));
                 CHECK_NEAR(end.total, end.kinetic + end.gravity + stored,
                            1e-12 * (most + stored + 1));
-                sum[r] += dissipated_in(it, k, x, v, P) -
+                sum[r] += find_dissipation(it, k, x, v, P) -
                           (OF(&end, plastic) - OF(&start, plastic)) -
                           (OF(&end, damping) - OF(&start, damping));
                 most = fmax(most, fabs(end.dissipated) + fabs(end.total) +
@@ -319,7 +315,7 @@ TEST(the_ledger_adds_up)
     }
 }
 
-/* As the steps get shorter all that is lost is lost by damping. */
+/* With shorter steps the losses tend to those that damping books. */
 TEST(damping_books_the_energy_that_it_takes)
 {
     double share[2];
@@ -338,9 +334,9 @@ TEST(damping_books_the_energy_that_it_takes)
     CHECK_NEAR(share[1] / share[0], 0.25, 0.03); /* O(h) */
 }
 
-/* What a step breaks was overstretched, shares no node, and the energy booked
- * is that of the springs and of the cells that end with them.  What was not
- * broken was not overstretched, or shares a node with one that was more so. */
+/* Springs that a step breaks were overstretched and share no node; the booked
+ * energy is that of these springs and their cells. Overstretched springs that
+ * did not break share a node with a broken one of larger load. */
 TEST(breaking_books_its_energy)
 {
     static double k[SPRINGS], load[SPRINGS], most[NODES];
@@ -381,8 +377,8 @@ TEST(breaking_books_its_energy)
 
 /* ---- laws of a scene --------------------------------------------------- */
 
-/* A ceiling of 50 m/s comes in parts, each from a place that is allowed; one
- * that would crush the square to nothing is stopped, and the step says so. */
+/* A ceiling of 50 m/s moves in parts, each from a feasible point. A ceiling
+ * that would crush the square is stopped, and the step is called blocked. */
 TEST(a_fast_ceiling_comes_in_parts)
 {
     Simulation *scene = simulate("squeeze --segments 8 --gravity 0");
@@ -399,15 +395,14 @@ TEST(a_fast_ceiling_comes_in_parts)
     CHECK(smallest_gap(it->system, it->x) > 0);
 }
 
-/* A mass that a wall throws, catches and draws down with it, in a potential
- * that is convex: with the work of the force at the end of a step backward
- * Euler dissipates in each of them. */
+/* A wall throws, catches and lowers a mass in a convex potential: with the work
+ * of the force at the end of a step, backward Euler dissipates in each step. */
 TEST(a_moving_wall_never_gives_back_what_is_dissipated)
 {
     static const double up[2] = {0, 1}, x[2] = {0, 0.008}, v[2] = {0};
     static const double h[] = {1e-4, 1e-3, 0.01};
     for (int k = 0; k < 3; k++) {
-        point_on_wall(up, 0, 0, G);
+        put_mass_on_wall(up, 0, 0, G);
         contact_of(&few)->obstacle[0].motion =
             (Motion){.phases = 3,
                      .phase_end = {0.2, 0.3, 0.8},
@@ -428,36 +423,35 @@ TEST(a_moving_wall_never_gives_back_what_is_dissipated)
     }
 }
 
-/* The methods of the table, each with every solver that it can have. */
+/* A method of the table with one of its solvers */
 typedef struct Variant {
     const IntegratorMethod *method;
     Solver solver;
 } Variant;
 
-static bool next_variant(Variant *way)
+static bool next_variant(Variant *variant)
 {
-    if (!way->method)
-        way->method = integrator_methods;
-    else if (way->method->is_implicit && way->solver + 1 < SOLVER_COUNT)
-        way->solver++;
+    if (!variant->method)
+        variant->method = integrator_methods;
+    else if (variant->method->is_implicit && variant->solver + 1 < SOLVER_COUNT)
+        variant->solver++;
     else
-        *way = (Variant){.method = way->method + 1};
-    return way->method->name != NULL;
+        *variant = (Variant){.method = variant->method + 1};
+    return variant->method->name != NULL;
 }
 
-static Simulation *start(const Variant *way, const char *line)
+static Simulation *start_variant(const Variant *variant, const char *line)
 {
-    return simulate("%s --integrator %s --solver %s", line, way->method->name,
-                    solver_name(way->solver));
+    return simulate("%s --integrator %s --solver %s", line,
+                    variant->method->name, solver_name(variant->solver));
 }
 
 /* ---- orders ------------------------------------------------------------ */
 
-/* Nine nodes for 0.064 s, in which they move by a tenth; not alike along x and
- * y, and with velocities of some m/s. */
+/* s, time in which nine nodes move by a tenth, unlike along x and y */
 static const double TIME = 0.064;
 
-static Simulation *moving_square(const Variant *way, int steps)
+static Simulation *start_moving_square(const Variant *variant, int steps)
 {
     char line[120];
     Random random = {90};
@@ -465,33 +459,33 @@ static Simulation *moving_square(const Variant *way, int steps)
              "--segments 2 --stretch 1.1 --gravity 9.81 --tolerance 1e-13 "
              "--timestep %.17g",
              TIME / steps);
-    Simulation *square = start(way, line);
+    Simulation *square = start_variant(variant, line);
     for (size_t i = 0; i < square->run[0].x_length; i++)
         square->run[0].v[i] += random_uniform(&random, -1, 1);
     return square;
 }
 
-/* It falls, too.  Halving h divides the error by 2^order: two halvings, from
- * steps so small that the next term of the error changes the slope by less than
- * 0.05. */
+/* Halving h divides the error by 2^order, with steps so small that the next
+ * term of the error changes the slope by less than 0.05; the square falls. */
 TEST(methods_have_the_order_of_their_table)
 {
     enum { FINEST = 16384 };
     const Variant verlet = {integrator_find_method("verlet"), SOLVER_NEWTON};
-    const TimeIntegrator *start = &moving_square(&verlet, FINEST)->run[0];
-    Simulation *far = make_steps(moving_square(&verlet, FINEST), FINEST);
+    const TimeIntegrator *start = &start_moving_square(&verlet, FINEST)->run[0];
+    Simulation *far = make_steps(start_moving_square(&verlet, FINEST), FINEST);
     Simulation *near =
-        make_steps(moving_square(&verlet, 2 * FINEST), 2 * FINEST);
-    double fallen = 0; /* springs do not move the middle */
+        make_steps(start_moving_square(&verlet, 2 * FINEST), 2 * FINEST);
+    double fallen = 0; /* springs do not move the centre of mass */
     for (int i = 1; i < 2 * 9; i += 2)
         fallen += (far->run[0].x[i] - start->x[i] - TIME * start->v[i]) / 9;
     CHECK_NEAR(fallen, -9.81 / 2 * TIME * TIME, 1e-12);
-    for (Variant way = {0}; next_variant(&way);) {
-        int order = way.method->order;
+    for (Variant variant = {0}; next_variant(&variant);) {
+        int order = variant.method->order;
         int steps = order == 1 ? 2048 : 256;
         double last = 0;
         for (int k = 0; k < 3; k++, steps *= 2) {
-            Simulation *square = make_steps(moving_square(&way, steps), steps);
+            Simulation *square =
+                make_steps(start_moving_square(&variant, steps), steps);
             double error = 0;
             for (size_t i = 0; i < square->run[0].x_length; i++)
                 error =
@@ -507,7 +501,7 @@ TEST(methods_have_the_order_of_their_table)
 
 /* ---- what is conserved ------------------------------------------------- */
 
-/* Linear and angular momentum, and the sizes of what they are sums of. */
+/* Linear and angular momentum, with the sums of absolute values */
 typedef struct Momentum {
     long double linear[2], angular, linear_size, angular_size;
 } Momentum;
@@ -528,7 +522,8 @@ static Momentum find_momentum(const TimeIntegrator *run)
     return sum;
 }
 
-/* 40 steps with rotation, drift and noise; angular <= 0: it may change. */
+/* Makes 40 steps with rotation, drift and noise, and checks the momentum;
+ * angular: tolerance of the angular momentum, <= 0: it may change. */
 static void check_momentum(Simulation *square, double angular)
 {
     Random random = {91};
@@ -548,27 +543,28 @@ static void check_momentum(Simulation *square, double angular)
     }
 }
 
-/* Linear momentum by all methods, however far from the minimum they stop;
- * angular momentum exactly by the symplectic explicit ones, and as far as
- * Newton goes by the midpoint rule. */
+/* All methods keep linear momentum, however far from the minimum they stop. The
+ * symplectic explicit methods keep angular momentum exactly, midpoint to the
+ * tolerance of Newton's method. */
 TEST(momentum_is_kept)
 {
-    for (Variant way = {0}; next_variant(&way);) {
-        bool midpoint = strcmp(way.method->name, "midpoint") == 0;
-        bool symplectic = strcmp(way.method->name, "verlet") == 0 ||
-                          strcmp(way.method->name, "symplectic-euler") == 0;
-        check_momentum(start(&way, "--timestep 1e-3"), symplectic ? 4e-13 : 0);
-        if (way.method->is_implicit)
-            check_momentum(start(&way, "--stretch 0.6 --timestep 0.01"), 0);
+    for (Variant variant = {0}; next_variant(&variant);) {
+        bool midpoint = strcmp(variant.method->name, "midpoint") == 0;
+        bool symplectic = strcmp(variant.method->name, "verlet") == 0 ||
+                          strcmp(variant.method->name, "symplectic-euler") == 0;
+        check_momentum(start_variant(&variant, "--timestep 1e-3"),
+                       symplectic ? 4e-13 : 0);
+        if (variant.method->is_implicit)
+            check_momentum(
+                start_variant(&variant, "--stretch 0.6 --timestep 0.01"), 0);
         if (midpoint)
-            check_momentum(start(&way, "--tolerance 1e-12"), 1e-11);
+            check_momentum(start_variant(&variant, "--tolerance 1e-12"), 1e-11);
     }
 }
 
-/* The forces of triangles, turned, far away and strained by more or less than
- * rounding, do not turn a body: what is left of their torque is in proportion
- * to the forces between triangles, which vanish with the strain, not to the
- * modulus. */
+/* The forces of triangles have no torque on a body that is turned, far away or
+ * strained: rounding of the torque is in proportion to the forces between
+ * triangles, which vanish with the strain, not to the modulus. */
 TEST(triangles_have_no_torque)
 {
     static const double away[] = {0, 1, 1e3, 1e6};
@@ -600,14 +596,14 @@ TEST(triangles_have_no_torque)
         for (int i = 2; i < 32; i += 2)
             torque +=
                 ((Real)x[i] - x[0]) * g[i + 1] - ((Real)x[i + 1] - x[1]) * g[i];
-        /* the arms are up to four legs long */
+        /* arms are up to four legs long */
         CHECK_NEAR(torque, 0, 8 * DBL_EPSILON * size);
-        free_all_begun();
+        free_simulations();
     }
 }
 
-/* What flies undisturbed keeps its velocity, for every length of step and also
- * far out, where x + h v is rounded and so springs are strained a little. */
+/* A free body keeps its velocity with every time step, and far from the origin,
+ * where rounding of x + h v strains the springs a little. */
 TEST(free_flight_is_straight)
 {
     for (int i = 0; i < 26; i++) {
@@ -629,8 +625,8 @@ TEST(free_flight_is_straight)
 
 /* ---- the table --------------------------------------------------------- */
 
-/* After a step that ran off, Verlet asks for the acceleration again: what it
- * remembered was that of a place where it never came to be. */
+/* After a step that overflowed, Verlet computes the acceleration again, instead
+ * of reusing that of a state which was never accepted. */
 TEST(a_failed_step_is_not_remembered)
 {
     Simulation *pair[2];

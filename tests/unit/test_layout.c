@@ -1,4 +1,4 @@
-/* Where everything in the window is, and its texts. */
+/* test_layout.c - places of the parts of the window, and texts */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,13 +11,20 @@ static const int sizes[][2] = {{1280, 800},  {900, 900},  {1366, 768},
                                {3840, 2160}, {400, 300},  {200, 200},
                                {1, 1},       {300, 4000}, {4000, 200}};
 enum { SIZES = sizeof sizes / sizeof *sizes };
-enum { LISTING = 1, LINE, RESIDUAL, ENERGIES, ASSEMBLY, SEEN = 5 }; /* cards */
+enum {
+    LISTING = 1,
+    LINE,
+    RESIDUAL,
+    ENERGIES,
+    ASSEMBLY,
+    SEEN = 5
+}; /* indices of cards */
 
 static Simulation simulation;
 static FrameContent content;
 
-/* The square with five cards, the last one closed, settings and chips. */
-static void show_all(void)
+/* Shows the square with five open cards, nine settings and nine chips. */
+static void fill_content(void)
 {
     frame_create(&simulation, &content);
     frame_compute_values(&content);
@@ -43,8 +50,7 @@ static bool box_inside(Box inner, Box outer)
             inner.y + inner.height <= outer.y + outer.height);
 }
 
-/* Boxes of one kind lie in their zone and apart from each other.  Returns how
- * many are there. */
+/* Checks that boxes lie in their zone and apart, and counts them. */
 static int check_boxes(const Box *boxes, int count, Box zone)
 {
     int there = 0;
@@ -57,9 +63,8 @@ static int check_boxes(const Box *boxes, int count, Box zone)
     return there;
 }
 
-/* Chips lie in the last line; those without room have no width and are
- * counted; the last one, which tells of all keys, is there wherever the line
- * is. */
+/* Checks that chips lie in the last line. Chips without room are counted and
+ * have no width; the last chip, for the list of all keys, always has room. */
 static void check_chips(const Layout *l, int wished)
 {
     int out = 0;
@@ -69,16 +74,16 @@ static void check_chips(const Layout *l, int wished)
     for (int i = 0; i < l->chips; i++) {
         out += l->chip[i].width <= 0;
         if (i > 0 && i < l->chips - 1 && l->chip[i - 1].width <= 0)
-            CHECK(l->chip[i].width <= 0); /* the first ones stay */
+            CHECK(l->chip[i].width <= 0); /* the first chips stay */
     }
     CHECK(out == l->chips_left_out);
     CHECK(check_boxes(l->chip, l->chips, l->chip_row) == l->chips - out);
 }
 
-/* Zones tile the window: areas add up, nothing overlaps; parts lie inside. */
+/* Zones tile the window without overlap, and contain their parts. */
 TEST(zones_tile_every_size)
 {
-    show_all();
+    fill_content();
     for (int s = 0; s < SIZES; s++)
         for (content.panes = 1; content.panes <= LAYOUT_MAX_PANES;
              content.panes++) {
@@ -103,10 +108,10 @@ TEST(zones_tile_every_size)
         }
 }
 
-/* What a lecture's screen must have, and what a stamp must not. */
+/* Large windows have all parts, small ones leave parts out. */
 TEST(small_windows_leave_parts_out)
 {
-    show_all();
+    fill_content();
     for (int s = 0; s < 4; s++) {
         Layout l = layout_create(&content, sizes[s][0], sizes[s][1]);
         CHECK(l.cards > SEEN && l.settings == 9);
@@ -123,17 +128,18 @@ TEST(small_windows_leave_parts_out)
     CHECK(layout_hit(&bare, 450, 899).zone == ZONE_STAGE);
 }
 
-static bool hits(const Layout *layout, double x, double y, Zone zone, int index)
+static bool click_hits(const Layout *layout, double x, double y, Zone zone,
+                       int index)
 {
     WindowHit hit = layout_hit(layout, x, y);
     return hit.zone == zone && hit.index == index;
 }
 
-/* Every box is hit at its middle and its first and last pixels, and not beside
- * them (a card's upper right corner closes it). */
+/* A click hits a box at its middle and its first and last pixels, and not
+ * beside them. The upper right corner of a card closes it. */
 TEST(a_click_hits_the_part_that_is_drawn_there)
 {
-    show_all();
+    fill_content();
     content.panes = 5;
     content.cards.closed_cards |= 1 << LISTING;
     Layout l = layout_create(&content, 1280, 800);
@@ -147,14 +153,15 @@ TEST(a_click_hits_the_part_that_is_drawn_there)
                 continue;
             int right = box.x + box.width, low = box.y + box.height;
             double middle = box.x + 0.5 * box.width;
-            CHECK(hits(&l, middle, box.y + 0.5 * box.height, zones[k], i));
-            CHECK(hits(&l, box.x, box.y, zones[k], i));
-            CHECK(hits(&l, box.x, low - 1, zones[k], i));
-            CHECK(k == 1 || hits(&l, right - 1, box.y, zones[k], i));
-            CHECK(!hits(&l, box.x - 1, box.y, zones[k], i));
-            CHECK(!hits(&l, right, low - 1, zones[k], i));
-            CHECK(!hits(&l, middle, box.y - 1, zones[k], i));
-            CHECK(!hits(&l, middle, low, zones[k], i));
+            CHECK(
+                click_hits(&l, middle, box.y + 0.5 * box.height, zones[k], i));
+            CHECK(click_hits(&l, box.x, box.y, zones[k], i));
+            CHECK(click_hits(&l, box.x, low - 1, zones[k], i));
+            CHECK(k == 1 || click_hits(&l, right - 1, box.y, zones[k], i));
+            CHECK(!click_hits(&l, box.x - 1, box.y, zones[k], i));
+            CHECK(!click_hits(&l, right, low - 1, zones[k], i));
+            CHECK(!click_hits(&l, middle, box.y - 1, zones[k], i));
+            CHECK(!click_hits(&l, middle, low, zones[k], i));
         }
     CHECK(l.card[LISTING].height < l.card[LINE].height);
     for (int i = LISTING; i <= ASSEMBLY; i++) {
@@ -167,7 +174,7 @@ TEST(a_click_hits_the_part_that_is_drawn_there)
     CHECK(layout_hit(&l, -1, -1).zone == ZONE_NONE);
 }
 
-/* There and back; zooming keeps the point under the mouse. */
+/* Zooming keeps the point under the mouse; panning moves it. */
 TEST(zoom_keeps_the_point_under_the_mouse)
 {
     const Box box = {100, 50, 700, 500};
@@ -203,14 +210,14 @@ static Text *text;
 static Canvas canvas;
 static const TextStyle style = {FACE_REGULAR, 20, 0xff000000, false, 0};
 
-static int open_texts(void **unused)
+static int create_texts(void **unused)
 {
     (void)unused;
     simulation_from_line("square", NULL, NULL, &simulation);
     return text_create(&text) || canvas_create(100, 60, &canvas);
 }
 
-static int close_texts(void **unused)
+static int free_texts(void **unused)
 {
     (void)unused;
     text_free(text);
@@ -219,8 +226,8 @@ static int close_texts(void **unused)
     return 0;
 }
 
-/* Ink of one channel (a shift) in rows from ... to - 1. */
-static int ink(int shift, int from, int to)
+/* Returns the ink of a colour channel (shift) in rows from ... to - 1. */
+static int count_ink(int shift, int from, int to)
 {
     int sum = 0;
     for (int i = canvas.width * from; i < canvas.width * to; i++)
@@ -228,8 +235,8 @@ static int ink(int shift, int from, int to)
     return sum;
 }
 
-/* Mathematics adds what it should: scripts are small, marks take no room,
- * braces that mean nothing stay. */
+/* Markup has the right widths: scripts are small, marks add no width, and
+ * unknown braces stay. */
 TEST(markup_has_its_widths)
 {
     static const struct {
@@ -252,12 +259,12 @@ TEST(markup_has_its_widths)
     }
 }
 
-/* What formulas measure, in ems of letters 20 pixels high: a part that stands
- * above another one makes no width, brackets, rules and rows do. */
+/* Fractions, brackets and matrices have the right sizes, in ems of 20 pixels; a
+ * part above another one adds no width. */
 TEST(formulas_have_their_sizes)
 {
     static const struct {
-        const char *markup, *other; /* at least so much wider, and higher */
+        const char *markup, *other; /* the first is larger by, in ems */
         double wider, most_wider, higher, most_higher;
     } rows[] = {
         {"frac{x over x}", "x", 0.4, 0.5, 0.9, 1.1},
@@ -285,8 +292,8 @@ TEST(formulas_have_their_sizes)
     }
 }
 
-/* Numerator above, line, denominator below: ink in three parts of the height
- * with white between them; a matrix has its rows. */
+/* Numerator, line and denominator are three bands of ink with white
+ * between; a matrix has its rows. */
 TEST(parts_of_formulas_stand_apart)
 {
     static const struct {
@@ -301,21 +308,22 @@ TEST(parts_of_formulas_stand_apart)
         canvas_clear(&canvas, 0xffffffff);
         text_draw(text, &canvas, &style, 5, 15, ALIGN_LEFT, rows[i].markup);
         for (int j = 1; j < 60; j++)
-            bands += ink(0, j, j + 1) > 0 && ink(0, j - 1, j) == 0;
+            bands += count_ink(0, j, j + 1) > 0 && count_ink(0, j - 1, j) == 0;
         CHECK(bands == rows[i].bands);
     }
 }
 
-/* The slides' letters have their colours: orange keeps its red. */
+/* Letters have the colours of the slides: p has more red than blue. */
 TEST(letters_have_colours)
 {
     canvas_clear(&canvas, 0xffffffff);
     text_draw(text, &canvas, &style, 0, 0, ALIGN_LEFT, "{p}");
     if (text)
-        CHECK(ink(0, 0, 60) > 2 * ink(16, 0, 60) && ink(16, 0, 60) > 0);
+        CHECK(count_ink(0, 0, 60) > 2 * count_ink(16, 0, 60) &&
+              count_ink(16, 0, 60) > 0);
 }
 
-/* A mark stands just above its letter, a low one or a tall one. */
+/* A mark stands just above a low letter and above a tall one. */
 TEST(marks_stand_above_letters)
 {
     static const char *const pairs[][2] = {{"x", "x\u0303"}, {"E", "E\u0303"}};
@@ -325,17 +333,17 @@ TEST(marks_stand_above_letters)
             canvas_clear(&canvas, 0xffffffff);
             text_draw(text, &canvas, &style, 9, 9, ALIGN_LEFT, pairs[k][mark]);
             for (int j = 0; j < 60 && !mark; j++)
-                plain[j] = ink(0, j, j + 1);
+                plain[j] = count_ink(0, j, j + 1);
         }
         while (plain[letter] == 0)
             letter++;
-        while (ink(0, low, low + 1) == plain[low])
+        while (count_ink(0, low, low + 1) == plain[low])
             low--;
         CHECK(low < letter - 1 && low > letter - 20 / 3);
     }
 }
 
-/* Clipped at every edge; wrong UTF-8 and sizes that cannot be are harmless. */
+/* Texts are clipped; wrong UTF-8 and impossible sizes are harmless. */
 TEST(texts_are_clipped)
 {
     for (double size = 4; size < 500; size *= 3) {
@@ -356,7 +364,7 @@ TEST(texts_are_clipped)
     }
 }
 
-/* Without a font nothing is drawn, and everything has a width. */
+/* Without a font nothing is drawn, but texts have widths. */
 TEST(without_a_font_nothing_fails)
 {
     const char *was = getenv("ELASTO_FONT");
@@ -367,11 +375,11 @@ TEST(without_a_font_nothing_fails)
     CHECK_OK(text_create(&none));
     CHECK(none == NULL);
     CHECK(text_draw(none, &canvas, &style, 0, 0, ALIGN_LEFT, "abc") == 36);
-    CHECK(ink(0, 0, 60) == 0);
+    CHECK(count_ink(0, 0, 60) == 0);
     unsetenv("ELASTO_FONT");
     if (kept)
         setenv("ELASTO_FONT", kept, 1);
     free(kept);
 }
 
-TESTS(open_texts, close_texts)
+TESTS(create_texts, free_texts)

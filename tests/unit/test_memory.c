@@ -1,6 +1,6 @@
-/* Every allocation of ours and of CHOLMOD's fails once, and then for good:
- * OUT_OF_MEMORY, every block is freed, nothing crashes.  ../tests.mk wraps the
- * functions. */
+/* test_memory.c - each allocation of the program and of CHOLMOD fails once, or
+ * from then on: the status is OUT_OF_MEMORY, all blocks are freed, nothing
+ * crashes. ../tests.mk wraps the functions. */
 #include "test.h"
 
 #include <SuiteSparse_config.h>
@@ -12,20 +12,20 @@ void *__real_aligned_alloc(size_t page, size_t size);
 void __real_free(void *block);
 
 static long allocations;        /* allocations so far */
-static long held;               /* blocks that were not freed */
-static long first_failure = -1; /* the one that fails; -1: none */
-static bool for_good;           /* the following allocations fail, too */
+static long block_count;        /* number of blocks not freed */
+static long first_failure = -1; /* number of the failing allocation; -1: none */
+static bool keeps_failing;      /* later allocations fail, too */
 
 static bool allocation_fails(void)
 {
     long number = allocations++;
     return first_failure >= 0 &&
-           (for_good ? number >= first_failure : number == first_failure);
+           (keeps_failing ? number >= first_failure : number == first_failure);
 }
 
 static void *track(void *block)
 {
-    held += block != NULL;
+    block_count += block != NULL;
     return block;
 }
 
@@ -47,17 +47,17 @@ void *__wrap_aligned_alloc(size_t page, size_t size)
 void *__wrap_realloc(void *old, size_t size)
 {
     void *new = allocation_fails() ? NULL : __real_realloc(old, size);
-    held += new && !old;
+    block_count += new && !old;
     return new;
 }
 
 void __wrap_free(void *block)
 {
-    held -= block != NULL;
+    block_count -= block != NULL;
     __real_free(block);
 }
 
-/* CHOLMOD gets the same ones; how depends on its version. */
+/* Gives the wrapped functions to CHOLMOD; the way depends on its version. */
 static void share_with_cholmod(void)
 {
 #if SUITESPARSE_MAIN_VERSION >= 7
@@ -71,22 +71,22 @@ static void share_with_cholmod(void)
 #endif
 }
 
-/* Set-up and one step. */
+/* Creates a simulation and makes one step. */
 static Status run_once(const Options *options)
 {
     Simulation simulation;
-    allocations = held = 0;
+    allocations = block_count = 0;
     Status status = simulation_create(options, NULL, NULL, &simulation);
     if (!status)
         status = simulation_step(&simulation);
     first_failure = -1;
     simulation_free(&simulation);
-    CHECK(held == 0);
+    CHECK(block_count == 0);
     return status;
 }
 
-/* Small and large squares, indefinite factors; contact, friction, cells, flow,
- * damping and breaking. */
+/* Small and large squares, indefinite factors, contact, friction, cells, flow,
+ * damping and fracture survive each failure. */
 TEST(every_allocation_may_fail)
 {
     static const char *const lines[] = {
@@ -100,14 +100,14 @@ TEST(every_allocation_may_fail)
         long total = allocations;
         CHECK(total > 5);
         for (long i = 0; i < 2 * total; i++) {
-            for_good = i >= total;
+            keeps_failing = i >= total;
             first_failure = i % total;
             Status status = run_once(&options);
             if (status != STATUS_OUT_OF_MEMORY)
                 print_error("%s: %ld of %ld\n", lines[l], i, total);
             CHECK_STATUS(status, STATUS_OUT_OF_MEMORY);
         }
-        for_good = false;
+        keeps_failing = false;
     }
 }
 

@@ -1,6 +1,6 @@
-/* The square: nodes, springs and numbering as on the slides, the order of
- * elimination, and the text of --pin.  (How it starts is for test_session, how
- * it falls for test_laws, that pins stay for stress.) */
+/* test_mesh.c - the square: nodes, springs and numbering of the slides, the
+ * elimination order, and the words of --pin. (Starts: test_session; falling:
+ * test_laws; pins: stress.) */
 #include "test.h"
 
 #include <math.h>
@@ -8,9 +8,9 @@
 
 #include "simulation/body.h"
 
-/* A centred grid, column by column from below; springs as the slide's four
- * loops make them: to the right, up, and the diagonals of each cell.  Halves
- * and ones: exact.  The elimination order has each place once. */
+/* The grid is centred, numbered by columns from below; springs have the order
+ * of the four loops on the slide: right, up, both diagonals. Coordinates are
+ * halves and exact. The elimination order has each place once. */
 TEST(nodes_and_springs_are_the_slides)
 {
     static int order[71 * 71], springs[2 * 4 * 70 * 71];
@@ -48,15 +48,15 @@ TEST(nodes_and_springs_are_the_slides)
     }
 }
 
-/* Whether a spring joins the nodes, in any order. */
+/* Returns true if a spring joins nodes a and b, in any order. */
 static bool spring_joins(const int e[2], int a, int b)
 {
     return (e[0] == a && e[1] == b) || (e[0] == b && e[1] == a);
 }
 
-/* Of two beams: cells and triangles lie anticlockwise, have the area of a cell
- * and of half a one, and the springs that join their nodes; the outline has
- * what is left over at all sides.  Coordinates are halves: exact. */
+/* Cells and triangles of two beams are anticlockwise, with the right areas and
+ * the springs between their nodes; the outline has the open sides. Coordinates
+ * are halves: exact. */
 TEST(cells_triangles_and_outline_are_those_of_the_springs)
 {
     enum { COLUMNS = 5, ROWS = 3, BODIES = 2 };
@@ -106,8 +106,8 @@ TEST(cells_triangles_and_outline_are_those_of_the_springs)
     CHECK(seen == 12 && twice == BODIES * 2 * 2.5 * 1.5);
 }
 
-/* Numbers in the factor of a square, by elimination of one node after
- * the other: its later neighbours become neighbours of each other. */
+/* Returns the number of entries in the factor of a square, by symbolic
+ * elimination: later neighbours of a node become neighbours. */
 static double factor_entries(int segments)
 {
     enum { MOST = 625 };
@@ -127,12 +127,12 @@ static double factor_entries(int segments)
     for (int k = 0; k < n; k++)
         for (int i = k + 1; i < n; i++)
             blocks += meets[k][i];
-    return 4 * blocks - n; /* of a block on the diagonal three */
+    return 4 * blocks - n; /* three entries of a diagonal block */
 }
 
-/* Nested dissection: the factor has n log n numbers.  From 12 to 24 segments
- * nodes grow 3.7 times, numbers less than 6 times (a band matrix would have 7.4
- * times as many); CHOLMOD's own order (AMD) has 41519 with 24 segments. */
+/* Nested dissection gives a factor of n log n entries. From 12 to 24 segments
+ * the nodes grow 3.7 times, the entries less than 6 times (a band matrix: 7.4);
+ * CHOLMOD's own order (AMD) has 41519 with 24 segments. */
 TEST(order_keeps_the_factor_small)
 {
     double ours = factor_entries(24);
@@ -140,7 +140,7 @@ TEST(order_keeps_the_factor_small)
     CHECK_AT_MOST(ours, 6 * factor_entries(12));
 }
 
-/* Nodes 0 ... rows are the left column from below. */
+/* Words of --pin select their nodes; nodes 0 ... rows are the left column. */
 TEST(the_words_of_pin_name_their_nodes)
 {
     static const struct {

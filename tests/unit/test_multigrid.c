@@ -1,6 +1,6 @@
-/* Multigrid: what each update does to E and the certified end, against sums and
- * a solution in extended precision; the work that it takes, and the same bits
- * whatever was before.  (That both solvers find the same minimum: stress.) */
+/* test_multigrid.c - multigrid: changes of E and certified ends in extended
+ * precision, its work, and bits that do not depend on earlier steps. (Stress
+ * tests that both solvers find the same minimum.) */
 #include "test.h"
 #include "stress.h"
 
@@ -10,10 +10,10 @@
 #include "solve/multigrid.h"
 #include "solve/newton_parts.h"
 
-/* A square's step problem: the system of a command line, and where it is. */
+/* Newton object, iterate, system and start of a step */
 enum { LARGEST = 2 * 129 * 129 };
 
-static Newton *newton; /* of the present test's */
+static Newton *newton; /* of the running test */
 static Iterate *at;
 static System *body;
 static double *x_n;
@@ -38,7 +38,7 @@ static Simulation *begin_problem(int segments, double stretch)
     return square;
 }
 
-/* Moves, breaks, pins and weighs at random. */
+/* Changes positions, masses, springs and pins at random. */
 static void disturb(Random *random, bool pins)
 {
     int side = body->segments + 1;
@@ -64,7 +64,7 @@ static void disturb(Random *random, bool pins)
     system_mark_changed(body, true);
 }
 
-/* A hand that pulls the node in the middle, as stiffly as `times` its mass. */
+/* Adds a hand at the middle node, `times` as stiff as its mass. */
 static void pull(double times)
 {
     int node = body->nodes / 2;
@@ -78,35 +78,36 @@ static void pull(double times)
 
 /* ---- whole steps ------------------------------------------------------- */
 
-/* No update may raise E nor lower it by something else than it says.  The end
- * is judged in extended precision. */
-typedef struct ResidualHistory {
+/* E at the start and now; counts of residuals tested in extended precision */
+typedef struct EnergyHistory {
     Real start, now;
     int judged;
     int by_bound; /* steps ended by a bound of the next residual */
-} ResidualHistory;
+} EnergyHistory;
 
 static bool store_residual(void *user, const NewtonRecord *record)
 {
     static const double zero[LARGEST];
-    ResidualHistory *E = user;
+    EnergyHistory *E = user;
     if (record->iteration == 0)
-        E->start = E->now = wide_energy(&(Moment){.E = at->E}, zero);
-    Real now = wide_energy(&(Moment){.E = at->E}, at->u);
+        E->start = E->now = wide_energy(&(StepPotential){.E = at->E}, zero);
+    Real now = wide_energy(&(StepPotential){.E = at->E}, at->u);
     CHECK_AT_MOST(now, E->now);
     CHECK_NEAR(now - E->now, record->change, 2e-14L * E->start);
     E->now = now;
     if (record->status == STATUS_OK) {
         const double *judged = newton->passes_test ? newton->u_trial : at->u;
-        CHECK(large_judge(&newton->iterate.E, judged, newton->settings.h,
-                          newton->tolerance) == LARGE_PASSED);
+        CHECK(test_large_residual(&newton->iterate.E, judged,
+                                  newton->settings.h,
+                                  newton->tolerance) == LARGE_PASSED);
         E->judged++;
         E->by_bound += !newton->passes_test;
     }
     return true;
 }
 
-/* As they are, at random, and with a hand that pulls. */
+/* Steps of plain, random and pulled squares lower E by the recorded changes,
+ * and pass the test of Algorithm 3. */
 TEST(steps_fall_and_pass_the_test_of_algorithm_3)
 {
     static const struct {
@@ -124,7 +125,7 @@ TEST(steps_fall_and_pass_the_test_of_algorithm_3)
                 {16, 1.1, false, false, 0}};
     for (int i = 0; i < 15; i++) {
         Random random = {(uint64_t)i};
-        ResidualHistory fall = {0};
+        EnergyHistory history = {0};
         Simulation *square = begin_problem(rows[i].segments, rows[i].stretch);
         if (rows[i].disturbed)
             disturb(&random, rows[i].pins);
@@ -133,13 +134,13 @@ TEST(steps_fall_and_pass_the_test_of_algorithm_3)
         if (i == 14) /* a short step, which a bound ends */
             square->run[0].h = newton->settings.h = 1e-4;
         newton->settings.observer = store_residual;
-        newton->settings.user_data = &fall;
+        newton->settings.user_data = &history;
         for (int step = 0; step < (i == 0 ? 12 : 4); step++) {
             make_steps(square, 1);
             CHECK(newton->active_solver == SOLVER_MULTIGRID);
         }
-        CHECK(fall.judged > 1 && newton->counters.handed_to_newton == 0);
-        CHECK(i < 14 || fall.by_bound > 0);
+        CHECK(history.judged > 1 && newton->counters.handed_to_newton == 0);
+        CHECK(i < 14 || history.by_bound > 0);
     }
 }
 
@@ -149,9 +150,8 @@ static Status minimise(double tolerance)
     return newton_minimise(newton);
 }
 
-/* The first direction does not pass with a tolerance just below its residual,
- * which a factor knows: multigrid's p may seem shorter, but its error counts.
- */
+/* The first direction fails a tolerance just below its residual, which a factor
+ * yields: multigrid's p may be shorter, but its error counts. */
 TEST(what_is_not_decided_is_not_converged)
 {
     static const double parts[] = {0.9, 0.99, 0.999, 0.999999};
@@ -169,8 +169,8 @@ TEST(what_is_not_decided_is_not_converged)
     }
 }
 
-/* Steps, and from each of these starts one with a new object that knows of no
- * step before: the same bits.  In the midst springs become stiffer. */
+/* A new object, which has seen no step, makes the same bits, also after springs
+ * have become stiffer. */
 TEST(bits_depend_on_the_step_alone)
 {
     static double first[LARGEST];
@@ -207,10 +207,9 @@ TEST(bits_depend_on_the_step_alone)
     }
 }
 
-/* Smooth steps take about as many directions and cycles at any size; where
- * nodes are held, springs broken and masses are not alike, more: here at most
- * as many cycles as they took when this was written.  A tight tolerance needs
- * no factor. */
+/* Smooth steps take about as many cycles at any size; pins, broken springs and
+ * random masses take more, at most as many as when this was written. A tight
+ * tolerance needs no factor. */
 TEST(steps_take_no_more_work)
 {
     static const struct {

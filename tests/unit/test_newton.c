@@ -1,5 +1,6 @@
-/* Newton's method: every way in which it can end, and that it says which, by
- * formulas that share nothing with it.  (Each update: stress.) */
+/* test_newton.c - each way in which Newton's method can end, and that the
+ * status names it, by formulas that share no code with it. (Updates: stress.)
+ */
 #include "test.h"
 #include "stress.h"
 
@@ -9,10 +10,10 @@
 #include "model/contact.h"
 #include "solve/newton_parts.h"
 
-/* Squares of up to 4 segments; most have 3. */
+/* Squares have up to 4 segments, most have 3 */
 enum { LARGEST = 2 * 25, SIZE = 2 * 16 };
 
-/* The last record of a minimisation, and the iterate that its p starts from. */
+/* The last record of a minimisation, and the iterate from which its p starts */
 typedef struct LastRecord {
     const Simulation *simulation;
     NewtonRecord record;
@@ -29,9 +30,9 @@ static bool store_record(void *user, const NewtonRecord *record)
     return true;
 }
 
-/* A residual that is called a value is that of the exact direction at the
- * iterate before the update; an estimate is as near to it as to the tolerance,
- * which it decides, or within what refinement leaves, 1e-3 of itself. */
+/* A residual that is called exact belongs to the exact direction at the iterate
+ * before the update. An estimate is within what refinement leaves, 1e-3 of
+ * itself; that of multigrid as near as the tolerance, which it decides. */
 TEST(residuals_are_what_they_are_called)
 {
     static const char *const lines[] = {
@@ -65,7 +66,7 @@ TEST(residuals_are_what_they_are_called)
                 CHECK_NEAR(residual, exact, 1e-9 * exact + 1e-10);
             else if (multigrid && newton->passes_test)
                 CHECK_NEAR(residual, exact, tolerance - residual);
-            else if (multigrid) /* ended by the bound of the next residual */
+            else if (multigrid) /* a bound ended the step */
                 CHECK_AT_MOST(exact_residual(&E, newton->iterate.u, NULL,
                                              run->h, 0, 1, NULL),
                               tolerance);
@@ -79,12 +80,11 @@ TEST(residuals_are_what_they_are_called)
 
 /* ---- two nodes ----------------------------------------------------------- */
 
-/* A spring of 1 m and k J/m^2 between two nodes; the pair of the test before is
- * freed. */
+/* A spring of 1 m between two nodes; create_pair frees the last one */
 static System pair;
 static Newton newton;
 
-static void make_pair(double m0, double m1, double k)
+static void create_pair(double m0, double m1, double k)
 {
     newton_free(&newton);
     system_free(&pair);
@@ -97,7 +97,8 @@ static void make_pair(double m0, double m1, double k)
     pair.m[1] = m1;
 }
 
-static void watch_pair(double h, double tolerance, Projection projection)
+static void create_newton_for_pair(double h, double tolerance,
+                                   Projection projection)
 {
     const NewtonSettings settings = {.h = h,
                                      .tolerance = tolerance,
@@ -112,9 +113,9 @@ static Status minimise_pair(const double *x, double weight)
     return newton_minimise(&newton);
 }
 
-/* Both nodes in one point, h = 1: the Hessian is [[m0 - 2, 2], [2, m1 - 2]],
- * indefinite where 1/m0 + 1/m1 > 1/2.  The loop ends there, as its gradient is
- * 0; without projection it says that this is no minimum. */
+/* With both nodes in one point and h = 1 the Hessian is [[m0 - 2, 2], [2, m1 -
+ * 2]], which is indefinite where 1/m0 + 1/m1 > 1/2. The gradient is 0, so the
+ * loop ends; without projection the maximum is counted. */
 TEST(a_maximum_is_counted_without_projection)
 {
     static const struct {
@@ -124,17 +125,17 @@ TEST(a_maximum_is_counted_without_projection)
                 {3.9, 3.9, true}, {4.1, 4.1, false}, {2.1, 1e6, false}};
     const double x[4] = {0};
     for (int i = 0; i < 6; i++) {
-        make_pair(rows[i].m0, rows[i].m1, 1);
-        watch_pair(1, 1e-3, PROJECTION_NONE);
+        create_pair(rows[i].m0, rows[i].m1, 1);
+        create_newton_for_pair(1, 1e-3, PROJECTION_NONE);
         CHECK_OK(minimise_pair(x, 1));
         CHECK(newton.counters.indefinite_ends == rows[i].maximum);
     }
 }
 
-/* From a pinned node at 0 to one of 1 kg at (1/2, 0), half as long as at rest,
- * which is pulled across.  h = 1: the Hessian's entry across is 1 - 3/2 k, and
- * where it is next to 0, a direction 1e38 m long is downhill, but only for
- * steps below 2^-64.  Projected, the lever swings out. */
+/* A spring from a pinned node to a node of 1 kg at (1/2, 0) has half its rest
+ * length; a force pulls sideways. With h = 1 the sideways entry of the Hessian
+ * is 1 - 3/2 k. If it is nearly 0, a direction of 1e38 m is downhill, but only
+ * for alpha below 2^-64. With projection the spring swings out. */
 TEST(nearly_singular_steps_end_or_say_why_not)
 {
     static const struct {
@@ -149,9 +150,9 @@ TEST(nearly_singular_steps_end_or_say_why_not)
     for (int i = 0; i < 3; i++) {
         Real g[4], H[16];
         const Iterate *at = &newton.iterate;
-        make_pair(1, 1, rows[i].k);
+        create_pair(1, 1, rows[i].k);
         pair.pinned[0] = 1;
-        watch_pair(1, 1e-6, rows[i].projection);
+        create_newton_for_pair(1, 1e-6, rows[i].projection);
         newton.u_tilde[3] = rows[i].pull;
         CHECK_STATUS(minimise_pair(x, 1), rows[i].end);
         CHECK(at->u[0] == 0 && at->u[1] == 0);
@@ -171,11 +172,9 @@ TEST(nearly_singular_steps_end_or_say_why_not)
 
 /* ---- squares of next to no mass --------------------------------------- */
 
-/* Against springs of 1e30 J/m^2 the masses are nothing, and the assembled
- * Hessian of a square that may move has pivots of 0 but for rounding.  A shift,
- * small beside h^2 k, makes a factor possible, and conjugate gradients find the
- * masses again: a square that flies along while it relaxes keeps its velocity.
- */
+/* Beside springs of 1e30 J/m^2 masses vanish, and pivots of a free square are
+ * rounding. A shift, small beside h^2 k, makes a factor possible, and conjugate
+ * gradients restore the masses: a square keeps its mean velocity. */
 static bool store_shift(void *user, const NewtonRecord *record)
 {
     double *largest = user;
@@ -209,8 +208,9 @@ static bool pause_always(void *unused, const NewtonRecord *record)
     return false;
 }
 
-/* From rest, iterate by iterate and step by step; 1e-9 for rounding. */
-static bool store_energy(void *unused, char *line)
+/* Checks that E never rises, in iterates and steps from rest; 1e-9: rounding.
+ */
+static bool check_energy_falls(void *unused, char *line)
 {
     (void)unused;
     Simulation *simulation = simulate_watched(pause_always, NULL, "%s", line);
@@ -239,31 +239,31 @@ static bool store_energy(void *unused, char *line)
 
 TEST(energy_never_rises_without_masses)
 {
-    stress_rows("massless", store_energy, NULL);
+    stress_rows("massless", check_energy_falls, NULL);
 }
 
 /* ---- backtracking ------------------------------------------------------ */
 
-/* Alphas up to the limit do not raise the energy. */
-typedef struct Probe {
+/* A made-up E along p: alphas up to `limit` do not raise it */
+typedef struct FakeLine {
     double limit, at_limit, above;
     int calls;
-} Probe;
+} FakeLine;
 
-static double probe_difference(const void *function, double alpha)
+static double fake_line_difference(const void *function, double alpha)
 {
-    Probe *probe = *(Probe *const *)function;
-    probe->calls++;
-    return alpha <= probe->limit ? probe->at_limit : probe->above;
+    FakeLine *line = *(FakeLine *const *)function;
+    line->calls++;
+    return alpha <= line->limit ? line->at_limit : line->above;
 }
 
-/* The first of start, start/2, start/4, ... that does not raise the energy; NaN
- * is not lower; below 2^-64 it gives up. */
+/* Backtracking takes the first of alpha, alpha/2, alpha/4, ... that does not
+ * raise E; NaN is not lower; the search fails below 2^-64. */
 TEST(backtracking_takes_the_first_that_is_not_higher)
 {
     static const struct {
         double start;
-        Probe probe;
+        FakeLine line;
         double alpha;
         int trials;
     } rows[] = {
@@ -272,20 +272,20 @@ TEST(backtracking_takes_the_first_that_is_not_higher)
         {0.3, {0.1, -1, 1, 0}, 0.075, 3}, {1, {0x1p-64, -1, 1, 0}, 0x1p-64, 65},
         {1, {0x1p-65, -1, 1, 0}, 0, 65},  {1, {0, -1, NAN, 0}, 0, 65}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        Probe probe = rows[i].probe, *pointer = &probe;
+        FakeLine line = rows[i].line, *pointer = &line;
         double alpha = rows[i].start;
         int trials;
-        CHECK_STATUS(
-            line_search_backtrack(probe_difference, &pointer, &alpha, &trials),
-            rows[i].alpha > 0 ? STATUS_OK : STATUS_LINE_SEARCH_LIMIT);
+        CHECK_STATUS(line_search_backtrack(fake_line_difference, &pointer,
+                                           &alpha, &trials),
+                     rows[i].alpha > 0 ? STATUS_OK : STATUS_LINE_SEARCH_LIMIT);
         CHECK(alpha == rows[i].alpha);
-        CHECK(trials == rows[i].trials && probe.calls == trials);
+        CHECK(trials == rows[i].trials && line.calls == trials);
     }
 }
 
 /* ---- ends ------------------------------------------------------------- */
 
-/* A wall that comes in parts gets no more updates than one that does not. */
+/* The parts of a step with a moving wall share one limit of updates. */
 TEST(parts_share_one_limit)
 {
     Simulation *simulation = simulate("squeeze --segments 8 --gravity 0");

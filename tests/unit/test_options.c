@@ -1,4 +1,4 @@
-/* The command line: defaults, every option, and what is refused. */
+/* test_options.c - the command line: defaults, options, refused lines */
 #include "test.h"
 
 #include <math.h>
@@ -8,7 +8,7 @@
 #include "simulation/message.h"
 #include "lesson/pages.h"
 
-/* One option of a square.  message [512] */
+/* Sets one option of a square. message [512] */
 static Status set_option(Options *options, const char *name, const char *value,
                          char *message)
 {
@@ -29,8 +29,8 @@ static void check_refused(const char *option, const char *value,
         fail_msg("--%s %s: %s", option, value, message);
 }
 
-/* Borders are read, the numbers next to them are not; nor is what is no whole
- * decimal number.  Each number has a slot of its own. */
+/* Each number has its own slot and takes the ends of its range, but not the
+ * next numbers, nor words that are no whole decimal number. */
 TEST(numbers_have_ranges)
 {
     static const char *const bad[] = {
@@ -65,14 +65,15 @@ TEST(numbers_have_ranges)
     CHECK(numbers > 15);
 }
 
-/* Whether a part of a row is about an option, not about the message. */
+/* Returns true if a part of a row is about an option, not the message. */
 static bool is_of_option(const char *part)
 {
     return strchr("=+-", part[0]) && part[1] == ' ';
 }
 
-/* A part of a row behind its line: "= NAME NUMBER...", the value of an option;
- * "+ NAME" and "- NAME", whether an option is on; else words of the message. */
+/* Checks a part of a row: "= NAME NUMBER..." is the value of an option, "+
+ * NAME" and "- NAME" an option that is on or off; other parts are words of the
+ * message. */
 static bool part_holds(const char *part, const Options *options,
                        const char *message)
 {
@@ -93,7 +94,7 @@ static bool part_holds(const char *part, const Options *options,
     return true;
 }
 
-/* Each line of tests/data/lines.txt, in all of its panes. */
+/* Each line of tests/data/lines.txt is accepted or explained in all panes. */
 TEST(command_lines_are_accepted_or_explained)
 {
     char row[512], message[512];
@@ -123,7 +124,7 @@ TEST(command_lines_are_accepted_or_explained)
     CHECK(count > 80);
 }
 
-/* A piece of a random line, at the end of its words.  word [80] in/out */
+/* Appends a random piece of a command line. word [80] in/out */
 static void add_piece(Random *random, char *word)
 {
     static const char pieces[] =
@@ -138,8 +139,8 @@ static void add_piece(Random *random, char *word)
     strncat(word, at, strcspn(at, "|"));
 }
 
-/* Whatever is typed is either understood, or answered by one short line: pieces
- * stand behind one another, some after a '='. */
+/* Random lines are understood, or refused with one short line. Pieces follow
+ * each other, some after a '='. */
 TEST(random_lines_end_well)
 {
     Random random = {1};
@@ -172,7 +173,7 @@ TEST(random_lines_end_well)
     CHECK(understood + refused == 50000);
 }
 
-/* What a message may show of a text. */
+/* Control characters of a text become '?' in a message. */
 TEST(texts_become_one_line)
 {
     static const char *const rows[][2] = {
@@ -188,8 +189,8 @@ TEST(texts_become_one_line)
     }
 }
 
-/* Rows of 80 with every scene, its number, and every option; a value that it
- * says to be the default is. */
+/* The help has each scene, its number, and each option, in rows of at most 80
+ * letters; a default value that it names is the default. */
 TEST(help_fits_a_terminal)
 {
     char line[128], text[8192] = "", word[40], message[512];

@@ -1,6 +1,5 @@
-/* Pages of the lecture: claims whose numbers no window shows (the other claims
- * are sessions, tests/data/claims.txt), the code, and frames in which all words
- * can be read. */
+/* test_pages.c - pages of the lecture: claims that no window shows (others:
+ * tests/data/claims.txt), their code, and frames with readable words */
 #include "test.h"
 
 #include <limits.h>
@@ -13,7 +12,7 @@
 #include "picture/plot.h"
 #include "picture/text.h"
 
-/* The scene of a page as it is set up, with more options behind its own. */
+/* Creates the simulation of a page, with more options behind its own. */
 static Simulation *open_page(const char *name, const char *more)
 {
     const LecturePage *page = lecture_find_page(name);
@@ -25,9 +24,8 @@ static Simulation *open_page(const char *name, const char *more)
 
 /* ---- claims -------------------------------------------------------------- */
 
-/* Page explicit: a push along the fastest motion stays small below the limit of
- * h that the page names, and grows above it; the square's stretch does not
- * count. */
+/* Page explicit: a push along the fastest mode stays small below the limit of
+ * h, and grows above it; the stretch has no influence. */
 TEST(the_fastest_motion_limits_h)
 {
     FrameContent content;
@@ -53,7 +51,7 @@ TEST(the_fastest_motion_limits_h)
     CHECK_NEAR(frame_find_number(&content, "h limit"), limit, 1e-12);
 }
 
-/* Page dial: E is convex everywhere with h = 0.067 s, and not with 0.0675 s. */
+/* Page dial: E is convex everywhere with h = 0.067 s, not with 0.0675 s. */
 TEST(the_map_is_convex_for_short_steps)
 {
     Simulation *simulation = open_page("dial", "");
@@ -67,8 +65,8 @@ TEST(the_map_is_convex_for_short_steps)
     }
 }
 
-/* One update of the page's first step, from its start + u [n]: p, added to u,
- * by eigenvectors of the dense H.  Returns its smallest |eigenvalue|. */
+/* Makes one update of the first step, u += p [n], by eigenvectors of the dense
+ * H, and returns the smallest |eigenvalue|. */
 static Real update_dense(const Simulation *simulation, int n, double *u)
 {
     static Real g[50], H[50 * 50], q[50 * 50];
@@ -94,8 +92,7 @@ static Real update_dense(const Simulation *simulation, int n, double *u)
     return least;
 }
 
-/* Page explodes: eigenvalues of the tenth update's Hessian and of those before
- * it, and how far that update leads. */
+/* Page explodes: only the tenth Hessian has a tiny eigenvalue: 1.7 km. */
 TEST(the_tenth_update_has_a_tiny_eigenvalue)
 {
     Simulation *simulation = open_page("explodes", "");
@@ -113,8 +110,7 @@ TEST(the_tenth_update_has_a_tiny_eigenvalue)
 }
 
 /* Page fracture: springs break first at the ends of the slit (a column of
- * cells, x = 1/48, |y| < 5/48), and then beyond it, within 45 degrees of its
- * line. */
+ * cells, x = 1/48, |y| < 5/48), then within 45 degrees of its line. */
 TEST(the_crack_begins_at_the_slit)
 {
     static bool before[4000];
@@ -149,8 +145,8 @@ static const Race *run_race(const char *options)
     return &simulation->exhibit.race;
 }
 
-/* Page order: halving h divides the error by 2 or 4.  With stiff springs no
- * explicit run succeeds, and every implicit one does. */
+/* Page order: halving h divides the error by 2 or 4. With stiff springs all
+ * explicit runs fail, and all implicit ones succeed. */
 TEST(the_race_measures_errors)
 {
     static const double factor[RACE_METHODS] = {2, 4, 2, 4};
@@ -178,8 +174,7 @@ TEST(the_race_measures_errors)
 
 /* ---- code and questions -------------------------------------------------- */
 
-/* Each page has its functions, in their order and to their ends, and few of
- * their lines are lit. */
+/* Each page shows its functions whole and in order, with few lines lit. */
 TEST(pages_show_their_code)
 {
     for (const LecturePage *page = lecture_pages; page->name; page++) {
@@ -204,7 +199,7 @@ TEST(pages_show_their_code)
     }
 }
 
-/* Each question has an answer. */
+/* Each page with a question has an answer. */
 TEST(pages_ask_what_has_an_answer)
 {
     for (const LecturePage *page = lecture_pages; page->name; page++) {
@@ -219,9 +214,9 @@ TEST(pages_ask_what_has_an_answer)
 
 /* ---- frames -------------------------------------------------------------- */
 
-/* A frame's smallest letters in pixels, also those of scripts; the number of
- * words that are cut, of words in the column or numbers over others, and of
- * points outside their axes; all texts, with blanks between. */
+/* Findings in a frame: smallest letters, pixels, also those of scripts; numbers
+ * of texts that end in dots, are cut, or lie over others (in the column, or
+ * numbers), and of points outside their axes; all texts, with blanks between */
 enum { WORDS = 512 };
 static struct {
     int smallest, smallest_code, ellipses, cut, over, outside, words;
@@ -288,11 +283,10 @@ void __wrap_plot_curve(const Plot *plot, int count, const double *x,
     __real_plot_curve(plot, count, x, y, width, colour);
 }
 
-/* Kinds of frames: cards, large cards before and after the answer, code, the
- * list of pages. */
+/* Cards, large cards after and before the answer, code, the list of pages */
 enum { CARDS, LARGE, LARGE_ASKED, CODE, LIST, KINDS };
 
-/* The first line of a page's text that is not all there; NULL: all are. */
+/* Returns the first line of a text that is not drawn whole, or NULL. */
 static const char *missing_line(const FrameContent *content, const char *text)
 {
     static TextLine line;
@@ -316,7 +310,7 @@ static const char *missing_words(const FrameContent *content)
     return missing;
 }
 
-/* Draws a frame, of which `seen` is then filled anew. */
+/* Draws a frame, and stores the findings in `seen`. */
 static void inspect_frame(const FrameContent *content, Paper *paper)
 {
     memset(&seen, 0, sizeof seen);
@@ -334,7 +328,7 @@ static void check_frame(const LecturePage *page, Simulation *simulation,
         COLUMN_CARDS, COLUMN_CARDS, COLUMN_CARDS, COLUMN_CODE, COLUMN_PAGES};
     int width = paper->canvas.width, height = paper->canvas.height;
     bool large = kind == LARGE || kind == LARGE_ASKED;
-    /* E along p rises far above what is accepted: the axis has that */
+    /* E along p may leave the axis, which spans accepted values */
     bool cuts = strstr("descent algorithm2 closing", page->name);
     const char *missing = NULL;
     FrameContent content;
@@ -370,10 +364,10 @@ static void check_frame(const LecturePage *page, Simulation *simulation,
             seen.over, seen.outside, missing ? missing : "");
 }
 
-/* On every page, as it opens and later, letters have a 55th of the height, in
- * large type a 35th, and no text of it is cut off; code of lecture.c, whose
- * lines have up to 80 letters, a 50th.  No word is outside its card or over
- * another one, no curve outside its axes. */
+/* On each page, at its start and later, letters have a 55th of the height, in
+ * large type a 35th and no text is cut; code of lecture.c, whose lines have up
+ * to 80 letters, a 50th. No word is outside its card or over another, no curve
+ * outside its axes. */
 TEST(pages_are_read_from_the_back_row)
 {
     static const int sizes[][2] = {{1280, 800}, {1366, 768}, {1920, 1080}};
@@ -389,7 +383,7 @@ TEST(pages_are_read_from_the_back_row)
             for (int i = 0; i < 5 && !simulation_step(simulation); i++)
                 continue;
             check_frame(page, simulation, s ? CARDS : LARGE, &paper);
-            free_all_begun();
+            free_simulations();
         }
         paper_free(&paper);
     }
@@ -398,8 +392,7 @@ TEST(pages_are_read_from_the_back_row)
     CHECK(layout_create(&content, 1280, 800).em > 800 / 40);
 }
 
-/* Nor is a word outside its place, or over another one, in any scene, in
- * windows of several sizes. */
+/* In no scene and window size a word leaves its place or covers another. */
 TEST(scenes_keep_their_words_in_place)
 {
     static const int sizes[][2] = {{900, 900}, {800, 600}, {1280, 800}};
@@ -418,7 +411,7 @@ TEST(scenes_keep_their_words_in_place)
                          scenes[i].name, sizes[s][0], sizes[s][1], seen.cut,
                          seen.cut_words, seen.over);
         }
-        free_all_begun();
+        free_simulations();
     }
 }
 

@@ -1,7 +1,6 @@
-/* The one past: every state comes back to the last bit, whatever was kept,
- * thrown away (changed, undone: test_session); commands.  The hand: whatever
- * the mouse does, every step ends (its work, and that it wins: test_session;
- * the derivatives of its energy: test_terms). */
+/* test_past.c - the past: each state comes back to the last bit, whatever was
+ * kept or discarded; commands; and that every step ends whatever the mouse
+ * does. (Edits and undo: test_session; the energy of the hand: test_terms.) */
 #include "test.h"
 
 #include <math.h>
@@ -12,7 +11,7 @@
 
 static Past past;
 
-static uint64_t hash_now(void)
+static uint64_t hash_past(void)
 {
     uint64_t hash = STATE_HASH_SEED;
     for (int p = 0; p < past_panes(&past); p++)
@@ -28,14 +27,14 @@ static void begin_past(const char *line)
     CHECK_OK(past_begin_runs(&past, &options, 1, 0, &restart));
 }
 
-/* Shows this step, also a new one. */
-static uint64_t show(long step)
+/* Goes to a step, which may be new, and returns its hash. */
+static uint64_t go_to_step(long step)
 {
     past_set_goal(&past, step, false);
     Status status = past_finish_work(&past);
     CHECK(!status || status_is_unconverged(status));
     CHECK(past.step == step);
-    return hash_now();
+    return hash_past();
 }
 
 static void edit(CommandKind kind, long number, double x, double y)
@@ -46,31 +45,31 @@ static void edit(CommandKind kind, long number, double x, double y)
 
 enum { STEPS = 48 };
 
-/* Shows the steps from ... to; hash [to + 1] out. */
-static void run(long from, long to, uint64_t *hash)
+/* Goes to the steps from ... to; hash [to + 1] out. */
+static void go_to_steps(long from, long to, uint64_t *hash)
 {
     for (long step = from; step <= to; step++)
-        hash[step] = show(step);
+        hash[step] = go_to_step(step);
 }
 
-/* From one step to the next that is looked at. */
+/* Returns the stride of tested steps: `all` with all variations. */
 static int choose_stride(int all, int some)
 {
     return tests_are_long() ? all : some;
 }
 
-/* Every way back to a step gives its bits: backwards, at random, forwards. */
+/* Checks that a step has the same bits backwards, at random, and forwards. */
 static void check_all_steps(long steps, const uint64_t *hash)
 {
     Random random = {7};
     for (long step = steps; step >= 0; step -= choose_stride(3, 9))
-        CHECK(show(step) == hash[step]);
+        CHECK(go_to_step(step) == hash[step]);
     for (int i = 0; i < 20; i += choose_stride(1, 3)) {
         int step = random_below(&random, (int)steps + 1);
-        CHECK(show(step) == hash[step]);
+        CHECK(go_to_step(step) == hash[step]);
     }
     for (long step = steps / 2; step <= steps; step++)
-        CHECK(show(step) == hash[step]);
+        CHECK(go_to_step(step) == hash[step]);
 }
 
 static const char *const lines[] = {
@@ -90,8 +89,8 @@ static const char *const lines[] = {
 };
 enum { LINES = sizeof lines / sizeof *lines };
 
-/* As a simulation makes them that nobody ever stops; also where there is room
- * for a few states: then only every 2^k-th is kept. */
+/* States equal those of an uninterrupted simulation, also with memory for a few
+ * states, of which only every 2^k-th is kept. */
 TEST(states_come_back)
 {
     for (int i = 0; i < 2 * LINES; i += choose_stride(1, 3)) {
@@ -101,7 +100,7 @@ TEST(states_come_back)
         bool thinned = i >= LINES;
         if (thinned)
             past.max_bytes = 5 * past.used_bytes;
-        run(0, STEPS, hash);
+        go_to_steps(0, STEPS, hash);
         CHECK(past.used_bytes <= past.max_bytes);
         CHECK((past.branch[0].stride >= STEPS / 8) == thinned);
         simulation_from_line(lines[i % LINES], NULL, NULL, &plain);
@@ -116,8 +115,8 @@ TEST(states_come_back)
     }
 }
 
-/* A pane that has ended beside another one: the same states from random steps,
- * with all states kept and with a handful. */
+/* A pane that has ended beside another one has the same states from random
+ * steps, with memory for all states or for a few. */
 TEST(a_pane_that_has_ended_comes_back)
 {
     enum { STEPS = 60 };
@@ -136,34 +135,34 @@ TEST(a_pane_that_has_ended_comes_back)
             past_set_goal(&past, step, false);
             CHECK((past_finish_work(&past) == STATUS_NOT_FINITE) ==
                   (step == 12));
-            CHECK(!few || hash[step] == hash_now());
-            hash[step] = hash_now();
+            CHECK(!few || hash[step] == hash_past());
+            hash[step] = hash_past();
         }
         CHECK(past_find_made_step(&past, 0, STEPS) == 11 &&
               past.used_bytes <= past.max_bytes &&
               past_find_made_step(&past, 1, STEPS) == STEPS);
         for (int i = 0; i < 50; i++) {
             long step = random_below(&random, STEPS + 1);
-            CHECK(show(step) == hash[step]);
+            CHECK(go_to_step(step) == hash[step]);
         }
         past_free(&past);
     }
 }
 
-/* Each edit begins a branch; together their states stay below the limit. */
+/* Each edit begins a branch; all branches share one limit of memory. */
 TEST(states_of_many_edits_have_a_limit)
 {
     begin_past("square --segments 3");
     past.max_bytes = 6 * past.used_bytes;
     for (int i = 1; i <= 30; i++) {
         edit(COMMAND_PIN, 1, i % 2, 0);
-        show(i);
+        go_to_step(i);
     }
     CHECK(past.branches == 31 && past.used_bytes <= past.max_bytes);
     past_free(&past);
 }
 
-/* An edit that goes on with its gesture ends what was undone after it. */
+/* An edit that continues a gesture discards what was undone after it. */
 TEST(an_edit_ends_what_was_undone)
 {
     const Command grab = {.kind = COMMAND_GRAB, .number = 5};
@@ -177,7 +176,7 @@ TEST(an_edit_ends_what_was_undone)
     past_free(&past);
 }
 
-/* What is written can be read, and is the same. */
+/* Written commands are read as the same commands. */
 TEST(commands_are_written_as_they_are_read)
 {
     char message[256], line[160], again[160];
@@ -202,7 +201,7 @@ TEST(commands_are_written_as_they_are_read)
     }
 }
 
-/* No key asks for two things at once. */
+/* No key has two commands. */
 TEST(keys_are_given_once)
 {
     CHECK(command_from_key("R", true, SCOPE_RUN).kind == COMMAND_NONE);
@@ -220,7 +219,7 @@ TEST(keys_are_given_once)
 
 /* ---- the hand ------------------------------------------------------------ */
 
-/* sum m |v - v_n|^2/2, J */
+/* Returns sum m |v - v_n|^2/2, J. */
 static double change_of_motion(const Simulation *simulation, const double *v_n)
 {
     const double *v = simulation->run[0].v;
@@ -230,7 +229,7 @@ static double change_of_motion(const Simulation *simulation, const double *v_n)
     return 0.5 * sum;
 }
 
-/* A timestep every ten steps; a node is taken, jerked about and let go. */
+/* Changes the time step every ten steps; grabs, drags and releases a node. */
 static void drag_randomly(Random *random, int step)
 {
     double h = random_logarithmic(random, 1e-4, 1);
@@ -247,26 +246,25 @@ static void drag_randomly(Random *random, int step)
              random_uniform(random, -5, 5));
 }
 
-/* One step after a jerk, in which E never rises.  A step of backward Euler ends
- * where E is at most what it was at x_n, so sum m |v - v_n|^2/2 + P <= sum m
- * |v_n|^2/2 + P_n, and what the hand's energy falls by is its work, up to
- * rounding.  Methods that damp nothing gather the hand's work: beyond 1e20 J,
- * false, and nothing is NaN.  A step of explicit ones may lead beyond all
- * numbers: false, and it changes nothing. */
-static bool jerked_step(bool descends)
+/* Makes one step after a jerk, in which E never rises. Backward Euler ends
+ * where E is at most that at x_n: sum m |v - v_n|^2/2 + P <= sum m |v_n|^2/2 +
+ * P_n plus the work of the hand, up to rounding. Returns false above 1e20 J,
+ * which undamped methods may reach without NaN, and after an explicit step that
+ * overflowed and changed nothing. */
+static bool make_step_after_jerk(bool descends)
 {
     const Simulation *simulation = &past.pane[0].simulation;
-    const TimeIntegrator *run = &simulation->run[0];
+    const TimeIntegrator *go_to_steps = &simulation->run[0];
     int size = 2 * simulation->system.nodes;
     Energies energies = simulation_energies(simulation, 0);
     double v[MAX_SIZE * 3], high = energies.total - energies.work;
     long before = past.step;
-    memcpy(v, run->v, (size_t)size * sizeof *v);
+    memcpy(v, go_to_steps->v, (size_t)size * sizeof *v);
     past_set_goal(&past, before + 1, false);
     Status status = past_finish_work(&past);
     if (status && !status_is_unconverged(status)) {
-        CHECK(!run->newton && status == STATUS_NOT_FINITE);
-        CHECK_SAME_BITS(run->v, v, size);
+        CHECK(!go_to_steps->newton && status == STATUS_NOT_FINITE);
+        CHECK_SAME_BITS(go_to_steps->v, v, size);
         return false;
     }
     CHECK(past.step == before + 1);
@@ -274,7 +272,7 @@ static bool jerked_step(bool descends)
     for (int i = 0; i < records->count; i++)
         CHECK(records->record[i].change <= 0);
     for (int k = 0; k < size; k++)
-        CHECK(isfinite(run->x[k]) && isfinite(run->v[k]));
+        CHECK(isfinite(go_to_steps->x[k]) && isfinite(go_to_steps->v[k]));
     Energies now = simulation_energies(simulation, 0);
     if (!descends && !(now.total < 1e20))
         return false;
@@ -286,12 +284,12 @@ static bool jerked_step(bool descends)
     return true;
 }
 
-/* Random jerks of the mouse, any timestep, every method: every step ends.  A
- * run with too much energy begins again.  10 000 steps of each with all
- * variations. */
+/* Every step ends, whatever the jerks of the mouse, the time step and the
+ * method. A run with too much energy begins again. 10 000 steps of each
+ * method with all variations. */
 TEST(random_drags_end)
 {
-    const int steps = tests_many(10000, 150);
+    const int steps = choose_count(10000, 150);
     Random random = {2026};
     for (int i = 0; integrator_methods[i / 2].name; i++) {
         const IntegratorMethod *method = &integrator_methods[i / 2];
@@ -304,14 +302,14 @@ TEST(random_drags_end)
         int runaways = 0;
         for (int step = 0; step < steps; step++) {
             drag_randomly(&random, step);
-            if (jerked_step(euler))
+            if (make_step_after_jerk(euler))
                 continue;
             past_free(&past);
             begin_past(line);
             runaways++;
         }
-        /* Explicit steps run away every twentieth time, as they must beyond
-         * their stable timestep; backward Euler and BDF2 never do. */
+        /* Explicit steps overflow every twentieth time, above their stability
+         * limit; backward Euler and BDF2 never do. */
         print_message("  %-16s %d runaways\n", method->name, runaways);
         bool damps = euler || strcmp(method->name, "bdf2") == 0;
         CHECK(damps ? runaways == 0 : method->is_implicit || runaways > 0);

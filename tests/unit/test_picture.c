@@ -1,5 +1,4 @@
-/* Shapes, axes, words and numbers; pictures of the README; files that are
- * replaced at the end. */
+/* test_picture.c - shapes, axes, words, numbers, README pictures, PNG files */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,8 +13,8 @@
 
 /* ---- helpers ------------------------------------------------------------ */
 
-/* Darkness of a box: sum over pixels of 1 - green/255. */
-static double ink_in(const Canvas *canvas, Box box)
+/* Returns the ink of a box: the sum over pixels of 1 - green/255. */
+static double ink_of_box(const Canvas *canvas, Box box)
 {
     double sum = 0;
     for (int j = box.y; j < box.y + box.height; j++)
@@ -27,10 +26,10 @@ static double ink_in(const Canvas *canvas, Box box)
 
 static double ink(const Canvas *canvas)
 {
-    return ink_in(canvas, (Box){0, 0, canvas->width, canvas->height});
+    return ink_of_box(canvas, (Box){0, 0, canvas->width, canvas->height});
 }
 
-/* A white canvas until the next call. */
+/* Returns a white canvas, valid until the next call. */
 static Canvas *white_canvas(int width, int height)
 {
     static Canvas canvas;
@@ -42,8 +41,7 @@ static Canvas *white_canvas(int width, int height)
 
 /* ---- canvas ------------------------------------------------------------- */
 
-/* The ink of a line is its area, in whatever direction it runs; that of a disc
- * and of a ring, too. */
+/* The ink of a line in any direction, of a disc and of a ring is its area. */
 TEST(shapes_have_their_area)
 {
     Random random = {11};
@@ -67,8 +65,8 @@ TEST(shapes_have_their_area)
     }
 }
 
-/* A clipped line has the pixels of the whole one; nothing is written outside
- * (the sanitizers see to that). */
+/* A clipped line has the pixels of the whole one, and no other pixel changes
+ * (sanitizers notice writes outside). */
 TEST(shapes_are_clipped)
 {
     Random random = {13};
@@ -96,8 +94,8 @@ TEST(shapes_are_clipped)
 
 /* ---- colours, history, plot ---------------------------------------------- */
 
-/* Quantities that come later were 0 before; what is no number, or too much, is
- * left out. */
+/* Quantities that appear later count as 0 before; numbers that are not finite
+ * or too many are left out. */
 TEST(history_goes_by_names)
 {
     static History history;
@@ -119,8 +117,7 @@ TEST(history_goes_by_names)
     CHECK(history.count == HISTORY_POINTS);
 }
 
-/* What crosses the edge of the axes is cut there, whatever draws it; what has
- * its middle beyond is left out. */
+/* Shapes are cut at the edge of the axes, and left out if centred outside. */
 TEST(plots_keep_to_their_axes)
 {
     const Axis axis = {0, 1, .label = NULL};
@@ -141,14 +138,14 @@ TEST(plots_keep_to_their_axes)
             CHECK(!plot_disc(&plot, out, 9, COLOUR_X));
         if (shape == 4)
             plot_ring(&plot, out, 9, 2, COLOUR_X);
-        double inside = ink_in(&paper.canvas, plot.box);
+        double inside = ink_of_box(&paper.canvas, plot.box);
         CHECK_NEAR(ink(&paper.canvas), inside, 1e-9);
         CHECK((inside > 100) == (shape < 3));
     }
     paper_free(&paper);
 }
 
-/* Three digits, and a power of ten only where zeros would be many. */
+/* Numbers have three digits, and a power of ten only instead of many zeros. */
 TEST(numbers_are_read)
 {
     const struct {
@@ -166,7 +163,7 @@ TEST(numbers_are_read)
         assert_string_equal(format_number(rows[i].value).text, rows[i].text);
 }
 
-/* Pixels of this colour, and the one farthest to the left. */
+/* Counts the pixels of a colour; left: the leftmost one. */
 static int count_pixels(const Canvas *canvas, Colour colour, int *left)
 {
     int count = 0;
@@ -180,8 +177,8 @@ static int count_pixels(const Canvas *canvas, Colour colour, int *left)
     return count;
 }
 
-/* Words stand to the right of their point, unless there is a line or are other
- * words, which stay whole; without a place they are nowhere. */
+/* Labels stand to the right of their point, unless a line or other words are
+ * there; without a finite point they are left out. */
 TEST(words_keep_off_lines_and_words)
 {
     const double middle[2] = {200, 150}, far[2] = {INFINITY, 0};
@@ -190,7 +187,7 @@ TEST(words_keep_off_lines_and_words)
         Paper paper;
         int left, one = 0;
         assert_int_equal(paper_create(400, 300, &paper), 0);
-        Plot plot = {.paper = &paper, /* its unit is a pixel, y up */
+        Plot plot = {.paper = &paper, /* unit: a pixel, y up */
                      .box = {0, 0, 400, 300},
                      .camera = {{1, 1}, {0, 300}},
                      .has_text = true,
@@ -214,12 +211,12 @@ TEST(words_keep_off_lines_and_words)
 
 /* ---- frames ------------------------------------------------------------- */
 
-/* The frame of a step, with and without words; free both. */
-static void frame_of(const char *line, int step, Canvas frame[2])
+/* Paints the frame of a step, with and without words; free both. */
+static void paint_step(const char *line, int step, Canvas frame[2])
 {
     char whole[160];
     snprintf(whole, sizeof whole, "%s --steps %d", line, step);
-    begin(whole);
+    begin_player(whole);
     player.screen.draws_frames = true; /* E along p is kept for the picture */
     player.play.mode = MODE_RUN;
     while (player.past.step < step) {
@@ -227,11 +224,11 @@ static void frame_of(const char *line, int step, Canvas frame[2])
         CHECK(!status || status_is_unconverged(status));
     }
     paint_frames(frame);
-    end();
+    end_player();
 }
 
-/* The pictures that `make pictures` made are those of now; with all variations
- * also of those that take long to come to. */
+/* The pictures of `make pictures` equal frames of now; those of late steps only
+ * with all variations. */
 TEST(readme_shows_what_is_drawn)
 {
     char name[32], line[128], file[64];
@@ -243,7 +240,7 @@ TEST(readme_shows_what_is_drawn)
         if (!tests_are_long() && (strstr("dent tear", name) || step == 100))
             continue;
         Canvas frame[2];
-        frame_of(line, step, frame);
+        paint_step(line, step, frame);
         snprintf(file, sizeof file, "tests/data/%s.png", name);
         int far = count_far_pixels(file, frame);
         if (far)

@@ -1,22 +1,21 @@
-/* Curves of E along p and of the energies, and the time between two steps,
- * without a window. */
+/* test_player.c - curves of E along p and of energies, and the time between
+ * steps, without a window */
 #include "test.h"
 #include "attended.h"
 
 #include <math.h>
 #include <time.h>
 
-/* The curve E(x + alpha p) - E(x) ends where the step went, in polynomials and
- * with contact; what is drawn of the last test is a p that belongs there, or
- * none. */
+/* The curve E(x + alpha p) - E(x) passes the end of the step, with polynomials
+ * and contact; the last test shows its own p, or none. */
 TEST(the_curve_goes_through_the_step)
 {
     static const char *const lines[] = {"square", "drop --segments 6",
                                         "dent --segments 6",
                                         "tear --segments 6", "slope"};
-    for (int i = 0; i < 5; i++) { /* slope: three runs, one is shown */
+    for (int i = 0; i < 5; i++) { /* slope has three runs, one is shown */
         int rough = 0, seen = 0;
-        begin(lines[i]);
+        begin_player(lines[i]);
         for (int step = 0; step < 90; step++) {
             /* with all lines of the step */
             past_set_goal(&player.past, step + 1, true);
@@ -30,7 +29,7 @@ TEST(the_curve_goes_through_the_step)
                 if (trace.at_line != LINE_UPDATE)
                     continue;
                 seen++;
-                if (!trace.p) { /* of the first one where pins move */
+                if (!trace.p) { /* the first update with moving pins has no p */
                     CHECK(i == 3 && iterate == 0 && !trace.energy_difference);
                     continue;
                 }
@@ -50,43 +49,42 @@ TEST(the_curve_goes_through_the_step)
         const StepTrace *kept = &past_pane(0)->trace;
         step_trace_show(kept, -1, &whole);
         CHECK(whole.residual > 0);
-        end();
+        end_player();
     }
 }
 
-/* The clock of the window, s; < 0: the real one. */
-static double wound = -1;
+/* s, time of the window; < 0: the real clock */
+static double fake_time = -1;
 
 int __real_clock_gettime(clockid_t clock, struct timespec *now);
 
 int __wrap_clock_gettime(clockid_t clock, struct timespec *now)
 {
-    if (wound < 0)
+    if (fake_time < 0)
         return __real_clock_gettime(clock, now);
-    now->tv_sec = (time_t)wound;
-    now->tv_nsec = (long)(1e9 * (wound - (double)now->tv_sec));
+    now->tv_sec = (time_t)fake_time;
+    now->tv_nsec = (long)(1e9 * (fake_time - (double)now->tv_sec));
     return 0;
 }
 
 static void begin_window(const char *line)
 {
-    begin(line);
+    begin_player(line);
     player.screen.draws_frames = true;
     player.screen.window = &window_sdl;
     player.screen.paper_size[0] = player.screen.paper_size[1] = 100;
-    wound = 100;
+    fake_time = 100;
 }
 
 static void pass_time(int ticks)
 {
     while (ticks-- > 0) {
-        wound += 1 / 240.0;
+        fake_time += 1 / 240.0;
         CHECK_OK(player_make_frame(&player));
     }
 }
 
-/* At speed s time makes 60 2^s steps a second, and the window waits until the
- * next one is due. */
+/* Speed s makes 60 2^s steps a second; the window waits for the next one. */
 TEST(steps_are_due_at_the_speed_that_was_asked_for)
 {
     for (int speed = -5; speed <= 3; speed++) {
@@ -97,20 +95,19 @@ TEST(steps_are_due_at_the_speed_that_was_asked_for)
         const double every = ldexp(1, speed < 0 ? -speed : 0) / 60;
         CHECK_NEAR(player_find_wait_time(&player), fmin(1e3 * every, 200), 1);
         const long before = player.past.step;
-        wound += 9 * every;
+        fake_time += 9 * every;
         CHECK(player_find_wait_time(&player) == 0);
-        wound -= 9 * every;
+        fake_time -= 9 * every;
         pass_time(3 * 240);
         CHECK_NEAR(player.past.step - before, 180 * ldexp(1, speed),
                    fmax(1, ldexp(1, speed)));
-        wound = -1;
-        end();
+        fake_time = -1;
+        end_player();
     }
 }
 
-/* While the sheet is open its scenes make a step in each frame, and the run
- * waits. */
-TEST(the_sheet_is_alive)
+/* In the open overview scenes step in each frame, and the run waits. */
+TEST(the_overview_is_alive)
 {
     const FrameContent *content = &player.screen.frame.content;
     begin_window("square");
@@ -120,32 +117,31 @@ TEST(the_sheet_is_alive)
         for (int i = 0; i < content->sheet.cells; i++) {
             const Simulation *cell = content->sheet.cell[i].simulation;
             const bool moves = cell->scene->parts & HAS_TIME;
-            if (i > 0) /* that shows a page, which may end */
+            if (i > 0) /* cell 0 shows a page, which may end */
                 assert_int_equal(cell->steps, moves ? frames + 2 : 0);
         }
     assert_int_equal(player.past.step, 0);
-    wound = -1;
-    end();
+    fake_time = -1;
+    end_player();
 }
 
-static const History *history_now(void)
+static const History *read_history(void)
 {
     static History history;
     past_fill_history(&player.past, 0, &history);
     return &history;
 }
 
-/* Curves have the steps that are known, also of a long run the first and the
- * newest, in order; a change at an old step ends them there, and undone they
- * are as before. */
+/* Curves have the known steps in order, of a long run the first and the newest;
+ * an edit at an old step shortens them, and undo restores them. */
 TEST(curves_span_what_is_known)
 {
-    begin("square --segments 1 --stretch 1 --gravity 9.81");
+    begin_player("square --segments 1 --stretch 1 --gravity 9.81");
     for (int newest = 1; newest <= 2100; newest++) {
         CHECK_OK(obey("step"));
         if (newest % 300)
             continue;
-        const History *history = history_now();
+        const History *history = read_history();
         int count = history->count, pace = 1;
         while (newest / pace > HISTORY_POINTS - 2)
             pace *= 2;
@@ -153,15 +149,15 @@ TEST(curves_span_what_is_known)
         for (int i = 0; i < count; i++)
             CHECK_NEAR(history->time[i], 0.004 * pace * i, 1e-9);
     }
-    double before = history_now()->value[1][400];
+    double before = read_history()->value[1][400];
     CHECK_OK(obey("goto 30"));
     CHECK_OK(obey("set stiffness 2e5"));
-    CHECK(history_now()->count == 31);
+    CHECK(read_history()->count == 31);
     CHECK_OK(obey("step"));
     CHECK_OK(obey("undo"));
-    CHECK(history_now()->count == 2100 / 4 + 1);
-    CHECK(history_now()->value[1][400] == before);
-    end();
+    CHECK(read_history()->count == 2100 / 4 + 1);
+    CHECK(read_history()->value[1][400] == before);
+    end_player();
 }
 
 TESTS(NULL, NULL)

@@ -1,51 +1,51 @@
-/* A step is a pure function of the state and the settings: whoever makes it,
- * whatever was made before, the next state has the same bits. */
+/* test_pure.c - a step is a pure function of the state and the settings: the
+ * next state has the same bits, whatever its simulation did before */
 #include "test.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { STEPS = 36 }; /* no multiple of 37 */
+enum { STEPS = 36 }; /* not a multiple of 37, see check_steps_are_pure */
 
-/* The state after the next step; bytes out. */
-static void step(Simulation *simulation, void *bytes)
+/* Makes a step and saves the state. bytes out */
+static void make_step(Simulation *simulation, void *bytes)
 {
     Status status = simulation_step(simulation);
     CHECK(!status || status_is_unconverged(status));
     state_save(simulation, bytes);
 }
 
-/* Other settings for a step, in which they count, and those from before again:
- * nothing of it may stay. */
-static void disturb(const Options *options, Simulation *used)
+/* Makes a step with other settings, restores them, and leaves no trace. */
+static void disturb(const Options *options, Simulation *old)
 {
-    int last = used->system.nodes - 1;
-    bool pinned = used->system.pinned[last];
+    int last = old->system.nodes - 1;
+    bool pinned = old->system.pinned[last];
     bool damps =
-        used->run[0].method->supports_all_terms && used->system.springs > 0;
-    simulation_set(used, OPTION_SLOT(timestep), 2 * options->timestep);
-    CHECK_OK(simulation_pin(used, last, !pinned));
-    CHECK_OK(simulation_hold(used, 0, 0.1, 0.2));
+        old->run[0].method->supports_all_terms && old->system.springs > 0;
+    simulation_set(old, OPTION_SLOT(timestep), 2 * options->timestep);
+    CHECK_OK(simulation_pin(old, last, !pinned));
+    CHECK_OK(simulation_hold(old, 0, 0.1, 0.2));
     if (damps)
-        CHECK_OK(simulation_set(used, OPTION_SLOT(damping), 1e8));
-    simulation_step(used);
+        CHECK_OK(simulation_set(old, OPTION_SLOT(damping), 1e8));
+    simulation_step(old);
     if (damps) {
-        const Newton *newton = used->run[0].newton;
+        const Newton *newton = old->run[0].newton;
         CHECK(newton->rounding.max_curvature ==
               system_curvature_bound(newton->system));
     }
     if (damps)
-        CHECK_OK(simulation_set(used, OPTION_SLOT(damping), options->damping));
-    CHECK_OK(simulation_hold(used, -1, 0, 0));
-    CHECK_OK(simulation_pin(used, last, pinned));
-    simulation_set(used, OPTION_SLOT(timestep), options->timestep);
+        CHECK_OK(simulation_set(old, OPTION_SLOT(damping), options->damping));
+    CHECK_OK(simulation_hold(old, -1, 0, 0));
+    CHECK_OK(simulation_pin(old, last, pinned));
+    simulation_set(old, OPTION_SLOT(timestep), options->timestep);
 }
 
-/* From `first`, a simulation that was never used makes the next step, and one
- * that has made many others does. */
-static void check_step(const Options *options, Simulation *used,
-                       const unsigned char *states, size_t size, int first)
+/* Checks that step first + 1 has the saved bits in a new simulation, after
+ * other steps, and after a step with other settings. */
+static void check_step_is_pure(const Options *options, Simulation *old,
+                               const unsigned char *states, size_t size,
+                               int first)
 {
     const unsigned char *from = states + (size_t)first * size;
     unsigned char *bytes = malloc(size);
@@ -55,23 +55,23 @@ static void check_step(const Options *options, Simulation *used,
     for (int i = 0; i < 3; i++) {
         static const char *const after[] = {"none", "other steps",
                                             "other settings"};
-        Simulation *simulation = i == 0 ? &fresh : used;
+        Simulation *simulation = i == 0 ? &fresh : old;
         if (i == 2)
-            disturb(options, used);
+            disturb(options, old);
         state_restore(from, simulation);
-        step(simulation, bytes);
+        make_step(simulation, bytes);
         if (memcmp(bytes, from + size, size) != 0)
             fail_msg("%s, %s: step %d has other bits after %s",
-                     options->scene->name, used->run[0].method->label,
-                     first + 1, after[i]);
+                     options->scene->name, old->run[0].method->label, first + 1,
+                     after[i]);
     }
     simulation_free(&fresh);
     free(bytes);
 }
 
-/* Steps made one after the other, and then each of them again, in another
- * order. Returns false where this method refuses the scene. */
-static bool check_run(const Options *options)
+/* Makes steps in order, and each of them again in another order. Returns false
+ * if the method refuses the scene. */
+static bool check_steps_are_pure(const Options *options)
 {
     Simulation simulation;
     Status status = simulation_create(options, NULL, NULL, &simulation);
@@ -82,15 +82,15 @@ static bool check_run(const Options *options)
     if (!status)
         state_save(&simulation, states);
     for (int i = 0; i < STEPS && !status; i++)
-        step(&simulation, states + (size_t)(i + 1) * size);
+        make_step(&simulation, states + (size_t)(i + 1) * size);
     for (int i = 0; i < STEPS && !status; i++)
-        check_step(options, &simulation, states, size, i * 37 % STEPS);
+        check_step_is_pure(options, &simulation, states, size, i * 37 % STEPS);
     simulation_free(&simulation);
     free(states);
     return !status;
 }
 
-/* Every scene in which time passes, with every method that can. */
+/* Steps are pure in all scenes with time, with all methods that apply. */
 TEST(steps_are_pure)
 {
     int runs = 0;
@@ -101,18 +101,18 @@ TEST(steps_are_pure)
         if (!(scene->parts & HAS_TIME) || scene->step)
             continue;
         Options options = line_options(line);
-        runs += check_run(&options);
+        runs += check_steps_are_pure(&options);
         for (const IntegratorMethod *method = integrator_methods; method->name;
              method++) {
             options.integrator = method - integrator_methods;
             options.timestep = method->is_implicit ? options.timestep : 1e-4;
-            runs += check_run(&options);
+            runs += check_steps_are_pure(&options);
         }
     }
     CHECK(runs > 40);
 }
 
-/* With every way to find a step, and terms that remember something. */
+/* Steps are pure with each solver and with terms that have a memory. */
 TEST(all_solvers_are_pure)
 {
     static const char *const lines[] = {
@@ -135,31 +135,30 @@ TEST(all_solvers_are_pure)
     };
     for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
         Options options = line_options(lines[i]);
-        CHECK(check_run(&options));
+        CHECK(check_steps_are_pure(&options));
     }
 }
 
-/* What a method remembers is of steps of one length: after a step of another
- * it begins as after a start. */
+/* A method forgets earlier steps if the time step changes. */
 TEST(another_timestep_begins_anew)
 {
     static const char *const methods[] = {"bdf2", "verlet"};
     for (int m = 0; m < 2; m++) {
-        Simulation *used =
+        Simulation *old =
             make_steps(simulate("--segments 3 --timestep 1e-3 --integrator %s",
                                 methods[m]),
                        5);
         Simulation *fresh = simulate(
             "--segments 3 --timestep 2e-3 --integrator %s", methods[m]);
-        unsigned char *bytes = malloc(state_save(used, NULL));
+        unsigned char *bytes = malloc(state_save(old, NULL));
         CHECK(bytes != NULL);
-        state_save(used, bytes);
+        state_save(old, bytes);
         state_restore(bytes, fresh);
         free(bytes);
         fresh->run[0].memory_h = 0;
-        simulation_set(used, OPTION_SLOT(timestep), 2e-3);
+        simulation_set(old, OPTION_SLOT(timestep), 2e-3);
         for (int i = 0; i < 3; i++)
-            CHECK(state_hash(make_steps(used, 1), 1) ==
+            CHECK(state_hash(make_steps(old, 1), 1) ==
                   state_hash(make_steps(fresh, 1), 1));
     }
 }

@@ -1,6 +1,6 @@
-/* The program and src/lecture.c against the slides' own: trajectories of the
- * lecture's Python code, in tests/data/reference.  (Against each other, with
- * other sizes, densities, stiffnesses: check_lecture.sh.) */
+/* test_reference.c - the program and src/lecture.c against trajectories of the
+ * lecture's Python code in tests/data/reference. (check_lecture.sh compares
+ * both with other sizes, densities and stiffnesses.) */
 #include "test.h"
 
 #include <math.h>
@@ -19,7 +19,7 @@ int main(int argc, char **argv);
 
 enum { ROWS = 1024 };
 
-/* Newton updates, as they were printed or seen. */
+/* Newton updates of a table or of a run */
 typedef struct Updates {
     int count;
     struct {
@@ -65,9 +65,9 @@ static bool store_update(void *user, const NewtonRecord *record)
     return true;
 }
 
-/* The same updates in the same steps with the same alpha, a power of two, or
- * what a gap of the size 1e-3 lets through; residuals to 1e-8: those near the
- * end of a step are differences of nearly equal numbers. */
+/* Checks that updates have the same steps and alpha: a power of two exactly,
+ * the limit of a gap of 1e-3 to 1e-11. Residuals agree to 1e-8, since those
+ * near the end of a step are differences of nearly equal numbers. */
 static void check_updates(const Updates *got, const Updates *expected)
 {
     CHECK_NEAR(got->count, expected->count, 0);
@@ -82,7 +82,7 @@ static void check_updates(const Updates *got, const Updates *expected)
     }
 }
 
-/* The rows of one step in a table of states. */
+/* Checks the rows of one step in a table of states. */
 static void check_state(FILE *file, long step, int nodes, const double *x,
                         const double *v, double x_tolerance, double v_tolerance)
 {
@@ -102,11 +102,11 @@ static void check_state(FILE *file, long step, int nodes, const double *x,
 
 /* ---- the slides' trajectories ------------------------------------------ */
 
-/* Rows of the table in tests/data/reference/README.md. */
+/* A row of the table in tests/data/reference/README.md */
 typedef struct Case {
     char name[32], who[8], line[320];
     int every, steps;
-    double v; /* m/s, the largest velocity in it, about */
+    double v; /* m/s, about the largest velocity */
 } Case;
 
 static Case cases[32];
@@ -133,7 +133,7 @@ static bool case_is_for(const Case *one, const char *who)
     return strcmp(one->who, who) == 0;
 }
 
-/* The state that a file begins with: no farther than this from where it is. */
+/* Reads the first state of a file, at most this far from the run's, m. */
 static void read_start(FILE *file, TimeIntegrator *run, double most)
 {
     for (int i = 0; i < 2 * run->system->nodes; i += 2) {
@@ -144,14 +144,13 @@ static void read_start(FILE *file, TimeIntegrator *run, double most)
     }
 }
 
-/* Lessons 2, 3 and 4 by the slides' own programs at the tolerance 1e-6; lessons
- * 6, 7 and 8 by a second program at the tolerance 1e-9 (their own cuts the
- * entries of the Hessian to whole numbers): blocks that are pulled and slide,
- * fall in on themselves, are pressed; two of them that are pressed, meet at a
- * corner, rub.  These begin with the first step of the file.  The program
- * minimises to 1e-9 m/s; what the files' tolerance has left is up to 2e-8 m a
- * step with 1e-6 m/s, in up to 120 steps. */
-TEST(the_program_goes_the_slides_way)
+/* The program follows the references: lessons 2, 3 and 4 by the slides'
+ * programs at the tolerance 1e-6; lessons 6, 7 and 8 by a second program at
+ * 1e-9 (the slides' one cuts Hessian entries to integers), with pulled,
+ * sliding, collapsing, pressed and rubbing blocks, from the first step of the
+ * file. The program minimises to 1e-9 m/s; the tolerance 1e-6 leaves errors of
+ * 2e-8 m a step, in up to 120 steps. */
+TEST(the_program_follows_the_slides)
 {
     for (int i = 0; i < count; i++) {
         const Case *it = &cases[i];
@@ -170,14 +169,14 @@ TEST(the_program_goes_the_slides_way)
             check_state(file, step, run->system->nodes, run->x, run->v,
                         solid ? 1e-8 : 1e-6, (solid ? 1e-8 : 1e-6) / run->h);
         }
-        CHECK(fscanf(file, " %*c") == EOF); /* nothing is left */
+        CHECK(fscanf(file, " %*c") == EOF); /* the file ends here */
         fclose(file);
     }
 }
 
-/* The fifth program, solved tightly: a ceiling that comes down at 0.5 m/s.
- * There a stiff spring draws it along and misses by 1e-6 m; here it is where it
- * belongs.  Friction is the ground's alone. */
+/* The fifth program, solved tightly: a ceiling comes down at 0.5 m/s. A stiff
+ * spring pulls it in the reference, with an error of 1e-6 m; here it is exact.
+ * Only the ground has friction. */
 TEST(a_ceiling_comes_down_as_in_the_lesson)
 {
     Simulation *scene = simulate(
@@ -210,9 +209,9 @@ static void free_solid(Solid *solid)
     free(solid->e);
 }
 
-/* Velocities as precisely as two positions 1e-9 apart are over h.  A step
- * leaves no memory behind: 20 kB, for what the C library keeps. */
-TEST(lecture_goes_the_slides_way)
+/* lecture.c follows the slides; velocities have the error of two positions,
+ * 1e-9, over h. A step leaves no memory behind: 20 kB for the C library. */
+TEST(lecture_follows_the_slides)
 {
     static Updates got, expected;
     for (int i = 0; i < count && case_is_for(&cases[i], "lecture"); i++) {
@@ -242,8 +241,8 @@ TEST(lecture_goes_the_slides_way)
     }
 }
 
-/* step_forward in the slide's order: x is updated, then p is tested.  Where p
- * is so short that rounding of E hides what it gains, all of it is used. */
+/* Makes a step of lecture.c that updates x and then tests p. All of p is used
+ * if it is so short that rounding of E hides its effect. */
 static void update_then_test(Solid *solid, double h, double tol, int step,
                              Updates *updates)
 {
@@ -277,10 +276,10 @@ static void update_then_test(Solid *solid, double h, double tol, int step,
     free(x_n);
 }
 
-/* The same updates but for the last one of a step, which the program leaves out
- * where it would be shorter than a millionth of a spring (negligible, m/s).
- * Directions from the factor of an update before are refined to some 1e-4 of
- * themselves; the next p is down to 1/400 of them, or 1e-3 of the tolerance. */
+/* Checks that updates agree but for the last one of a step, which the program
+ * omits if it is shorter than a millionth of a spring (negligible, m/s).
+ * Directions by the factor of an earlier update are refined to 1e-4; the next p
+ * is down to 1/400 of them, or 1e-3 of the tolerance. */
 static void check_same_updates(const Updates *got, const Updates *expected,
                                double tolerance, double negligible)
 {
@@ -302,10 +301,10 @@ static void check_same_updates(const Updates *got, const Updates *expected,
     CHECK(i == got->count && i > 10);
 }
 
-/* The program's loop is lecture.c's, turned round: update by update at the
- * slides' tolerance, where refined directions make 1e-5 m in 15 steps, and to
- * 1e-8 m at 1e-9 m/s. */
-TEST(the_program_is_lecture_turned_round)
+/* The loop of the program is that of lecture.c with the test last: update by
+ * update at the slides' tolerance, where refined directions differ by 1e-5 m in
+ * 15 steps, and to 1e-8 m at 1e-9 m/s. */
+TEST(the_program_makes_the_updates_of_lecture)
 {
     static Updates got, expected;
     for (int i = 0; i < count && case_is_for(&cases[i], "lecture"); i++)
@@ -337,8 +336,8 @@ TEST(the_program_is_lecture_turned_round)
         }
 }
 
-/* Both explicit methods, 20 steps. */
-TEST(explicit_euler_is_the_product_s)
+/* Both explicit methods agree in 20 steps. */
+TEST(explicit_euler_agrees_with_the_program)
 {
     static const char *const lines[] = {
         "--integrator forward-euler --timestep 0.001",
@@ -360,8 +359,8 @@ TEST(explicit_euler_is_the_product_s)
     }
 }
 
-/* By which part of the start's energy that of the stretched square strays in so
- * many steps of c/n_seg; or 1000, if it is more. */
+/* Returns the largest relative change of the energy of the stretched square in
+ * `steps` steps of c/n_seg, at most 1000. */
 static double find_largest_deviation(int n_seg, double c, int steps)
 {
     Solid solid = square(1, n_seg, 1000, 1e5);
@@ -381,9 +380,9 @@ static double find_largest_deviation(int n_seg, double c, int steps)
     return most;
 }
 
-/* The two steps that are named above explicit_euler.  x and v are half a step
- * apart, which alone is a tenth of the energy with 4 segments; all three stray
- * by 0.19, 0.09 and 0.05 of it. */
+/* Both time steps named above explicit_euler behave as it says. x and v are
+ * half a step apart, a tenth of the energy with 4 segments; deviations are
+ * 0.19, 0.09 and 0.05. */
 TEST(symplectic_euler_stays_as_long_as_it_says)
 {
     static const int n_seg[] = {4, 8, 16};

@@ -1,6 +1,6 @@
-/* The table of scenes, the landscape and the map held to formulas written here
- * once more, contact between bodies, and the ledger while hands change a run
- * (what pages say of scenes: claims.txt). */
+/* test_scenes.c - the table of scenes, the landscape and the envelope against
+ * formulas written here, contact between bodies, and the ledger while hands
+ * change a run (claims of pages: claims.txt) */
 #include "test.h"
 
 #include <math.h>
@@ -10,7 +10,7 @@
 
 #include "model/self_contact.h"
 
-/* Steps until the scene is done, at most `limit`; the status of the last. */
+/* Makes at most `limit` steps until the scene is over; last status. */
 static Status run_to_end(Simulation *simulation, int limit)
 {
     Status status = simulation->status;
@@ -22,8 +22,7 @@ static Status run_to_end(Simulation *simulation, int limit)
 
 /* ---- the table ---------------------------------------------------------- */
 
-/* A name by which it is found, a sentence of one line, numbers of its own that
- * mean something in it, and a first step. */
+/* Each scene has a name, a short sentence, valid options, a first step. */
 TEST(scenes_are_complete)
 {
     for (const Scene *scene = scenes; scene->name; scene++) {
@@ -50,8 +49,8 @@ TEST(scenes_are_complete)
 
 /* ---- landscape ---------------------------------------------------------- */
 
-/* E decreases from record to record by what each says, and on demand the
- * Hessian is projected where it is not positive definite. */
+/* Checks that E decreases by the recorded changes, and that projection on
+ * demand acts where the Hessian is not positive definite. */
 static void check_path(const Simulation *simulation)
 {
     const Descent *descent = &simulation->descent;
@@ -73,9 +72,9 @@ static void check_path(const Simulation *simulation)
     }
 }
 
-/* From a grid of starts the clamped direction is downhill and the run ends at
- * a minimum; the raw one is downhill where E is convex, uphill elsewhere from
- * some. */
+/* From a grid of starts the clamped direction is downhill and the run ends at a
+ * minimum. The unprojected one is downhill where E is convex, and uphill at
+ * some other starts. */
 TEST(landscape_is_downhill_from_everywhere)
 {
     int uphill = 0, hollow = 0;
@@ -95,7 +94,7 @@ TEST(landscape_is_downhill_from_everywhere)
         CHECK_OK(run_to_end(simulation, 100));
         check_path(simulation);
         CHECK(!descent_hessian_index(simulation, x[0], x[1]));
-        free_all_begun();
+        free_simulations();
     }
     CHECK(uphill > 5 && hollow > 100);
 }
@@ -108,7 +107,7 @@ static const EnvelopeCell *show_cell_run(Simulation *map, int column, int row)
     return &map->exhibit.envelope.cell[row][column];
 }
 
-/* A cell is the run that its command line makes. */
+/* A cell of the envelope equals the run of its command line. */
 TEST(envelope_cells_are_runs)
 {
     static const int cells[6][2] = {{13, 11}, {20, 8}, {24, 21},
@@ -137,8 +136,7 @@ TEST(envelope_cells_are_runs)
     CHECK(refused >= 1); /* cells that did not converge are compared, too */
 }
 
-/* Of a run that goes on only what may be moved counts: not where a ball began,
- * nor a cell that is torn. */
+/* Clearance of a running simulation ignores balls' starts and torn cells. */
 TEST(obstacles_have_room_in_what_was_torn)
 {
     char message[256];
@@ -153,9 +151,9 @@ TEST(obstacles_have_room_in_what_was_torn)
         STATUS_INVALID_INPUT);
 }
 
-/* Two bodies at rest, 0.2 m apart, have no entries for each other.  One that is
- * inside a step as near as half the barrier's width gets them there, once, and
- * the direction solves Newton's equation: 1e-10, rounding of a factor. */
+/* Two bodies at rest, 0.2 m apart, share no entries of the Hessian. A body that
+ * comes within half of d_hat inside a step adds them once, and the direction
+ * solves Newton's equation: 1e-10, rounding of a factor. */
 TEST(pairs_that_come_up_inside_a_step_have_entries)
 {
     Simulation *scene = simulate("return --segments 2 --body 0,0 --body 0,1.2");
@@ -174,7 +172,8 @@ TEST(pairs_that_come_up_inside_a_step_have_entries)
     newton->settings.max_iterations = 1;
     newton_start(newton, scene->run[0].x, u, 1e-4, 1e-30);
     CHECK_STATUS(newton_minimise(newton), STATUS_ITERATION_LIMIT);
-    Iterate before = newton->iterate; /* residual of the last direction */
+    Iterate before =
+        newton->iterate; /* for the residual of the last direction */
     before.u = newton->u_trial;
     before.x = newton->x_trial;
     incremental_potential_gradient(&before.E, before.u, before.x, before.g);
@@ -187,7 +186,7 @@ TEST(pairs_that_come_up_inside_a_step_have_entries)
     CHECK(!grown);
 }
 
-/* Pinned all over, one is moved down on the other, 0.2 m below it. */
+/* A body of pinned nodes moves down and stops at another, 0.2 m below. */
 TEST(a_body_that_is_pushed_stops_at_another)
 {
     Simulation *scene = simulate("--segments 2 --body 0,0 --body 0.1,1.2 "
@@ -236,9 +235,9 @@ static Status change_scene(Simulation *scene, int deed)
     }
 }
 
-/* A hand, a pin, another time step, stiffness, mu or eta is booked as work:
- * nothing that is lost changes with it, in the steps after it all that is lost
- * grows, and no broken spring heals. */
+/* A hand, a pin, another time step, stiffness, mu or eta is booked as work and
+ * changes no loss. In the steps after it losses only grow, and no broken spring
+ * heals. */
 TEST(what_hands_do_is_work)
 {
     static const char *const lines[] = {"drop --segments 4 --at -0.3,0.4",
@@ -252,7 +251,7 @@ TEST(what_hands_do_is_work)
     for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
         Simulation *scene = simulate("%s", lines[i]);
         simulation_set(scene, OPTION_SLOT(tolerance), 1e-8);
-        int blocked = 0; /* the ceiling, by the node that is pinned */
+        int blocked = 0; /* the pinned node blocks the ceiling */
         for (int n = 0; n < 24 * 5; n++) {
             Energies before = simulation_energies(scene, 0);
             int broken = count_broken_springs(scene);

@@ -1,6 +1,5 @@
-/* Sessions: tests/data/sessions.txt, what hands do in the window and what they
- * see, as text.  This driver turns each line into the Input that a window would
- * send. */
+/* test_session.c - plays tests/data/sessions.txt: hands act in the window and
+ * see its answers. Each line becomes the Input that a window would send. */
 #include "golden.h"
 #include "model/contact.h"
 #include "oracle.h"
@@ -13,19 +12,19 @@
 #include <limits.h>
 #include <math.h>
 
-enum { SIDE = 900, MARKS = 16, CHANGES = 80, STEPS = 80 };
+enum { WINDOW_SIDE = 900, MARKS = 16, CHANGES = 80, STEPS = 80 };
 
-static uint64_t marks[MARKS]; /* by letter */
-static double mouse[2];       /* pixels */
-static bool open_player;
-static double heap_before;  /* bytes, as the session began */
-static char home[PATH_MAX]; /* where the tests began */
+static uint64_t marked_hashes[MARKS]; /* by letter, a to p */
+static double mouse[2];               /* pixels, position */
+static bool player_is_open;
+static double heap_at_start;        /* bytes, at the start of the session */
+static char start_folder[PATH_MAX]; /* working folder of the suite */
 static char folder[] = "/tmp/elasto-session-XXXXXX";
 
-/* What the window shows, as player_build_frame filled it last. */
+/* What the window shows, as player_build_frame filled it */
 static const FrameContent *const content = &player.screen.frame.content;
 
-static Layout layout_now(void)
+static Layout find_layout(void)
 {
     const Canvas *canvas = &player_prepare_paper(&player)->canvas;
     return layout_create(content, canvas->width, canvas->height);
@@ -48,8 +47,8 @@ static uint64_t hash_box(const Canvas *canvas, Box box)
     return hash;
 }
 
-/* Where the nodes of the active pane are drawn. */
-static uint64_t shape_shown(void)
+/* Returns a hash of the node positions that the active pane shows. */
+static uint64_t hash_shape(void)
 {
     player_build_frame(&player);
     const Pane *pane = active_pane(content);
@@ -58,32 +57,32 @@ static uint64_t shape_shown(void)
                       2 * sizeof(double) * (size_t)nodes);
 }
 
-/* Hash of the picture without its message, of its cards, of the state or of the
- * square's shape.  The picture is drawn as in a window: only after a change. */
-static uint64_t hash_shown(const char *what)
+/* Returns a hash of the picture without message, of the cards, of the state or
+ * of the shape. As in a window, only a change redraws the picture. */
+static uint64_t hash_aspect(const char *aspect)
 {
     char note[sizeof player.note];
-    if (strcmp(what, "state") == 0)
+    if (strcmp(aspect, "state") == 0)
         return player_hash(&player);
-    if (strcmp(what, "shape") == 0)
-        return shape_shown();
+    if (strcmp(aspect, "shape") == 0)
+        return hash_shape();
     memcpy(note, player.note, sizeof note);
     player.note[0] = '\0';
     if (player.screen.must_redraw)
         CHECK_STATUS(player_draw(&player), STATUS_OK);
     memcpy(player.note, note, sizeof note);
     const Canvas *canvas = &player_prepare_paper(&player)->canvas;
-    return hash_box(canvas, strcmp(what, "cards") == 0
-                                ? layout_now().column
+    return hash_box(canvas, strcmp(aspect, "cards") == 0
+                                ? find_layout().column
                                 : (Box){0, 0, canvas->width, canvas->height});
 }
 
-/* Texts of the last frame, a line each; `listed` has those in the column. */
-static char written[1 << 16], listed[1 << 15];
+/* Texts of the last frame, a line each: of the window, and of its column */
+static char window_text[1 << 16], column_text[1 << 15];
 static Box column;
 static struct {
-    size_t start; /* in `written` */
-    double x, y;  /* pixels, where the text stands */
+    size_t start; /* offset in window_text */
+    double x, y;  /* pixels, middle of the left end */
     double size;  /* pixels */
     Colour colour;
 } texts[1024];
@@ -95,53 +94,53 @@ int __real_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
 int __wrap_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
                      double x, double y, Align align, const char *markup)
 {
-    size_t used = strlen(written), more = strlen(listed);
+    size_t used = strlen(window_text), more = strlen(column_text);
     texts[text_count].start = used;
     texts[text_count].x = x;
     texts[text_count].y = y + 0.5 * style->size;
     texts[text_count].size = style->size;
     texts[text_count].colour = style->colour;
     text_count += text_count < 1023;
-    snprintf(written + used, sizeof written - used, "%s\n", markup);
+    snprintf(window_text + used, sizeof window_text - used, "%s\n", markup);
     if (box_contains(column, x, y)) /* key and meaning are two texts */
-        snprintf(listed + more, sizeof listed - more, "%s%s", markup,
+        snprintf(column_text + more, sizeof column_text - more, "%s%s", markup,
                  style->face == FACE_BOLD ? " " : "\n");
     return __real_text_draw(text, canvas, style, x, y, align, markup);
 }
 
-/* Draws the window anew, and keeps its texts. */
-static void write_window(void)
+/* Draws the window and collects its texts. */
+static void collect_texts(void)
 {
-    written[0] = listed[0] = '\0';
+    window_text[0] = column_text[0] = '\0';
     text_count = 0;
     player_build_frame(&player);
-    column = layout_now().column;
+    column = find_layout().column;
     CHECK_STATUS(player_draw(&player), STATUS_OK);
 }
 
-/* Whether the window, or the column, has a text with these words, or texts with
- * \ between them, one after the other. */
-static void read_words(const char *verb, char *words)
+/* Checks "reads", "lacks" and "list": the window, or the column, has a text
+ * with these words. \ stands between two texts that follow each other. */
+static void check_words(const char *verb, char *words)
 {
-    const char *among = strcmp(verb, "list") == 0 ? listed : written;
+    const char *among = strcmp(verb, "list") == 0 ? column_text : window_text;
     bool wanted = strcmp(verb, "lacks") != 0;
     for (char *at = words; (at = strchr(at, '\\'));)
         *at = '\n';
-    write_window();
+    collect_texts();
     if ((strstr(among, words) != NULL) != wanted) {
-        fputs(among, stderr); /* cmocka cuts what is long */
+        fputs(among, stderr); /* cmocka cuts long messages */
         fail_msg("%s '%s'", wanted ? "no" : "there is", words);
     }
 }
 
-/* The text with these words that is nearest to the mouse. */
+/* Returns the text with these words that is nearest to the mouse. */
 static int find_text(const char *words)
 {
     int nearest = -1;
     double distance = INFINITY;
-    write_window();
+    collect_texts();
     for (int i = 0; i < text_count; i++) {
-        const char *text = written + texts[i].start;
+        const char *text = window_text + texts[i].start;
         const char *at = strstr(text, words);
         double away = hypot(texts[i].x - mouse[0], texts[i].y - mouse[1]);
         if (at && at < strchr(text, '\n') && away < distance) {
@@ -150,41 +149,41 @@ static int find_text(const char *words)
         }
     }
     if (nearest < 0)
-        fail_msg("no '%s':\n%s", words, written);
+        fail_msg("no '%s':\n%s", words, window_text);
     return nearest;
 }
 
-/* Pixels a metre of the first pane, and before the mouse did something. */
+/* Pixels per metre of the first pane before the last action of the mouse */
 static double scale_before;
 
-static double scale_now(void)
+static double find_scale(void)
 {
     player_build_frame(&player);
-    Layout layout = layout_now();
+    Layout layout = find_layout();
     return camera_of_pane(content, &layout, 0).scale[0];
 }
 
 static void finish_session(void)
 {
-    if (open_player)
-        end();
-    open_player = false;
+    if (player_is_open)
+        end_player();
+    player_is_open = false;
 }
 
 static void begin_session(const char *line)
 {
     finish_session();
     begin_script("0 pause\n", line);
-    open_player = true;
+    player_is_open = true;
     mouse[0] = mouse[1] = -1;
     player.screen.draws_frames = true;
-    player.screen.paper_size[0] = player.screen.paper_size[1] = SIDE;
+    player.screen.paper_size[0] = player.screen.paper_size[1] = WINDOW_SIDE;
     CHECK_OK(player_draw(&player)); /* as a window does before any input */
-    heap_before = heap_in_use();
-    scale_before = scale_now();
+    heap_at_start = heap_in_use();
+    scale_before = find_scale();
 }
 
-/* A refused command leaves its message as a note. */
+/* Shows the message of a refused command as a note. */
 static void show_result(Status status)
 {
     CHECK(!status || status == STATUS_INVALID_INPUT ||
@@ -207,7 +206,7 @@ static void press_key(const char *name)
     player_put_input(input);
 }
 
-/* As the window names the key of a letter. */
+/* Presses the key of a letter by its name in the window. */
 static void press_letter(char letter)
 {
     char name[16];
@@ -216,7 +215,7 @@ static void press_letter(char letter)
     press_key(letter == ' ' ? "Space" : name);
 }
 
-static const Setting *number_shown(const char *name, int *place)
+static const Setting *find_setting(const char *name, int *place)
 {
     player_build_frame(&player);
     for (int i = 0; i < content->settings.count; i++)
@@ -229,22 +228,22 @@ static const Setting *number_shown(const char *name, int *place)
     return NULL;
 }
 
-/* The middle of a box, or its lower left corner, where a stage is empty. */
+/* Moves the mouse to the middle of a box or its empty lower left corner. */
 static void point_into(Box box, bool corner)
 {
     mouse[0] = box.x + (corner ? 0.1 : 0.5) * box.width;
     mouse[1] = box.y + (corner ? 0.95 : 0.5) * box.height;
 }
 
-/* Whether the mouse is on this grip. */
+/* Returns true if the mouse is on this grip. */
 static bool is_grip(const Layout *layout, int grip)
 {
     Pick pick = frame_pick(content, layout, mouse[0], mouse[1]);
     return pick.kind == PICK_HANDLE && pick.index == grip;
 }
 
-/* Whether the place is something in a pane's picture. */
-static bool point_in_pane(const char *place, const Layout *layout)
+/* Moves the mouse to a place in the picture of a pane; false: it is not one. */
+static bool point_at_pane(const char *place, const Layout *layout)
 {
     const char *of = strstr(place, " of ");
     int i = 0, p = of ? atoi(of + 4) : 0;
@@ -266,7 +265,7 @@ static bool point_in_pane(const char *place, const Layout *layout)
     return true;
 }
 
-/* The chip with this key, or the cell of the sheet with this scene; -1: none */
+/* Return the chip with this key, and the cell with this scene; -1: none. */
 static int find_chip(const char *key)
 {
     int i = content->chips.count - 1;
@@ -288,7 +287,7 @@ static void point_at(const char *place)
     double x, y;
     int i = 0;
     player_build_frame(&player);
-    Layout layout = layout_now();
+    Layout layout = find_layout();
     if (sscanf(place, "%lf %lf", &x, &y) == 2) {
         mouse[0] += x;
         mouse[1] += y;
@@ -315,20 +314,20 @@ static void point_at(const char *place)
     } else if (strncmp(place, "cell ", 5) == 0) {
         assert_true((i = find_cell(place + 5)) >= 0);
         point_into(layout.cell[i], false);
-    } else if (!point_in_pane(place, &layout)) {
-        number_shown(place, &i);
+    } else if (!point_at_pane(place, &layout)) {
+        find_setting(place, &i);
         mouse[0] = layout.setting[i].x + 2;
         mouse[1] = layout.setting[i].y + layout.setting[i].height / 2;
     }
 }
 
-/* Returns false if this is nothing that a mouse does. */
+/* Sends an action of the mouse; false: the verb is not one. */
 static bool use_mouse(const char *verb, const char *place)
 {
     static const struct {
         const char *verb;
         Input input;
-    } deeds[] = {
+    } actions[] = {
         {"press", {.kind = INPUT_PRESS, .button = BUTTON_LEFT, .clicks = 1}},
         {"double", {.kind = INPUT_PRESS, .button = BUTTON_LEFT, .clicks = 2}},
         {"release", {.kind = INPUT_RELEASE, .button = BUTTON_LEFT}},
@@ -338,23 +337,23 @@ static bool use_mouse(const char *verb, const char *place)
         {"wheel", {.kind = INPUT_WHEEL, .wheel_notches = 1}},
         {"wheel-out", {.kind = INPUT_WHEEL, .wheel_notches = -1}},
         {"leave", {.kind = INPUT_LEAVE}}};
-    for (size_t i = 0; i < sizeof deeds / sizeof *deeds; i++)
-        if (strcmp(deeds[i].verb, verb) == 0) {
+    for (size_t i = 0; i < sizeof actions / sizeof *actions; i++)
+        if (strcmp(actions[i].verb, verb) == 0) {
             point_at(place);
-            scale_before = scale_now();
-            player_put_input(deeds[i].input);
+            scale_before = find_scale();
+            player_put_input(actions[i].input);
             return true;
         }
     return false;
 }
 
-/* The window gets another size. */
+/* Changes the size of the window. */
 static void resize_window(const char *size)
 {
     int *now = player.screen.paper_size;
     CHECK(sscanf(size, "%d %d", &now[0], &now[1]) == 2);
     player_put_input((Input){.kind = INPUT_REDRAW});
-    hash_shown("");
+    hash_aspect("");
 }
 
 static void run_until(long step)
@@ -368,7 +367,7 @@ static void run_until(long step)
     player_run(&player);
 }
 
-/* As in a window where a step takes longer than a frame. */
+/* Begins a step and stops within it, as in a window after a slow frame. */
 static void begin_step(void)
 {
     Past *past = &player.past;
@@ -377,23 +376,23 @@ static void begin_step(void)
         CHECK_STATUS(past_do_work(past), STATUS_RUNNING);
 }
 
-/* Counts the files of the session's folder; `away` removes them. */
-static int count_files(bool away)
+/* Counts the files of the session's folder, and removes them if asked to. */
+static int count_files(bool remove_them)
 {
     glob_t found;
     int count = glob("*", 0, NULL, &found) == 0 ? (int)found.gl_pathc : 0;
-    for (int i = 0; i < count && away; i++)
+    for (int i = 0; i < count && remove_them; i++)
         remove(found.gl_pathv[i]);
     globfree(&found);
     return count;
 }
 
-/* The script that Y writes leads a run without a window to the same bits. */
-static void replay(const char *line)
+/* Checks that the script of Y leads a run without a window to these bits. */
+static void check_replay(const char *line)
 {
     char script[65536] = "", paused[160];
     glob_t found;
-    show_result(obey("hash")); /* a lit number would take Y */
+    show_result(obey("hash")); /* a selected number would take the key Y */
     assert_int_equal(glob("elasto_*.script", 0, NULL, &found), 0);
     FILE *file = fopen(found.gl_pathv[0], "r");
     assert_true(file && fread(script, 1, sizeof script - 1, file) > 0);
@@ -404,12 +403,12 @@ static void replay(const char *line)
     finish_session();
     snprintf(paused, sizeof paused, "%s --paused", line);
     begin_script(script, paused);
-    open_player = true;
+    player_is_open = true;
     player_run(&player); /* some scenes have steps that do not converge */
     CHECK(player_hash(&player) == hash && !player.commands.has_refused_line);
 }
 
-/* The rows of the last step. */
+/* Checks the rows of the last step in the file `states` against a new run. */
 static void check_tables(const char *line)
 {
     char whole[160];
@@ -417,29 +416,28 @@ static void check_tables(const char *line)
     snprintf(whole, sizeof whole, "%s --states states2", line);
     begin_script("0 play\n", whole);
     player_run(&player);
-    end();
+    end_player();
     CHECK(0 ==
           system("nodes=$(grep -c '^0,' states2); tail -n $nodes states >rows; "
                  "tail -n $nodes states2 | cmp - rows"));
 }
 
-static void compare(const char *verb, const char *rest)
+static void compare_mark(const char *verb, const char *rest)
 {
-    uint64_t now = hash_shown(rest[1] ? rest + 2 : ""),
-             *mark = &marks[(rest[0] - 'a') % MARKS];
+    uint64_t now = hash_aspect(rest[1] ? rest + 2 : ""),
+             *mark = &marked_hashes[(rest[0] - 'a') % MARKS];
     if (strcmp(verb, "mark") == 0)
         *mark = now;
     else if ((now == *mark) != (strcmp(verb, "same") == 0))
         fail_msg("not %s: %s", verb, rest);
 }
 
-/* Whether the window, away from words, is tests/data/NAME.png; with PICTURES=1
- * in the environment it becomes so. */
+/* Compares the window without words with data/NAME.png; PICTURES=1: writes. */
 static void check_picture(const char *name)
 {
     char file[PATH_MAX + 64];
     Canvas frame[2];
-    snprintf(file, sizeof file, "%s/tests/data/%s.png", home, name);
+    snprintf(file, sizeof file, "%s/tests/data/%s.png", start_folder, name);
     player_build_frame(&player);
     paint_frames(frame);
     if (getenv("PICTURES"))
@@ -448,11 +446,11 @@ static void check_picture(const char *name)
         fail_msg("%s differs; if it should: make pictures", file);
 }
 
-/* ---- what is seen -------------------------------------------------------- */
+/* ---- facts of the window ----------------------------------------------- */
 
-static char facts[1 << 15]; /* a line each: "at 3"; "says", a tab, the text */
+static char facts[1 << 15]; /* a line each: "at 3", "says\tTEXT" */
 
-static void fact(const char *format, ...)
+static void add_fact(const char *format, ...)
 {
     size_t used = strlen(facts);
     va_list arguments;
@@ -462,13 +460,12 @@ static void fact(const char *format, ...)
     strcat(facts, "\n");
 }
 
-static const char *text_or(const char *text)
+static const char *text_or_nothing(const char *text)
 {
     return text && text[0] ? text : "<nothing>";
 }
 
-/* Whether all nodes of a pane are in its part of the window, and more than a
- * dot. */
+/* Returns true if all nodes of a pane are in its box, larger than a dot. */
 static bool pane_has_all(const Layout *layout, int p)
 {
     const Pane *pane = &content->pane[p];
@@ -488,32 +485,32 @@ static bool pane_has_all(const Layout *layout, int p)
 /* Adds the facts of panes, numbers, chips and cards. */
 static void collect_parts(void)
 {
-    Layout layout = layout_now();
+    Layout layout = find_layout();
     char order[512] = "";
     for (int p = 0; p < content->panes; p++) {
         const Trace *trace = content->pane[p].trace;
-        fact("inside %d %d", p, pane_has_all(&layout, p));
-        fact("label %d\t%s", p, text_or(content->pane[p].label));
-        fact("line %d %d", p, trace ? (int)trace->at_line : 0);
+        add_fact("inside %d %d", p, pane_has_all(&layout, p));
+        add_fact("label %d\t%s", p, text_or_nothing(content->pane[p].label));
+        add_fact("line %d %d", p, trace ? (int)trace->at_line : 0);
     }
     for (int i = 0; i < content->settings.count; i++) {
         const Setting *setting = &content->settings.item[i];
-        fact("number %s %s", setting->name, setting->value);
-        fact("changed %s %d", setting->name, setting->is_changed);
+        add_fact("number %s %s", setting->name, setting->value);
+        add_fact("changed %s %d", setting->name, setting->is_changed);
         append(order, sizeof order, "%s ", setting->name);
     }
-    fact("order\t%s", order);
+    add_fact("order\t%s", order);
     for (int i = 0; i < content->chips.count; i++) {
-        fact("chip %s %s", content->chips.chip[i].key,
-             content->chips.chip[i].label);
-        fact("lit %s %d", content->chips.chip[i].key,
-             content->chips.chip[i].is_highlighted);
+        add_fact("chip %s %s", content->chips.chip[i].key,
+                 content->chips.chip[i].label);
+        add_fact("lit %s %d", content->chips.chip[i].key,
+                 content->chips.chip[i].is_highlighted);
     }
     for (int c = 0; c < active_picture(content)->count; c++)
-        fact("card %d %s", c,
-             content->cards.closed_cards >> c & 1 ? "closed"
-             : content->cards.enlarged == c       ? "large"
-                                                  : "open");
+        add_fact("card %d %s", c,
+                 content->cards.closed_cards >> c & 1 ? "closed"
+                 : content->cards.enlarged == c       ? "large"
+                                                      : "open");
 }
 
 /* Collects what the window shows, as lines of text. */
@@ -525,49 +522,50 @@ static void collect_facts(void)
     const LecturePage *page = content->lecture.page;
     const Trace *trace = content->pane[content->active_pane].trace;
     facts[0] = '\0';
-    fact("at %ld", content->time_line.step);
-    fact("newest %ld", past_newest(&player.past));
-    fact("ended %d", player.is_quitting);
-    fact("files %d", count_files(false));
-    fact("page %d", page ? (int)(page - lecture_pages) + 1 : 0);
-    fact("page %s", page ? page->name : "none");
-    fact("stands %d", content->time_line.is_paused);
-    fact("panes %d", content->panes);
-    fact("ghost %d", content->pane[content->active_pane].ghost_x != NULL);
-    fact("speed %d", player.play.log_speed);
-    fact("scene %s", player_simulation(&player)->scene->name);
-    fact("over %s %d", kinds[content->view->hovered.kind],
-         content->view->hovered.index);
-    double scale = scale_now();
-    fact("scale %s", scale < scale_before   ? "smaller"
-                     : scale > scale_before ? "larger"
-                                            : "same");
-    fact("residual %.5g", trace ? trace->residual : -1);
+    add_fact("at %ld", content->time_line.step);
+    add_fact("newest %ld", past_newest(&player.past));
+    add_fact("ended %d", player.is_quitting);
+    add_fact("files %d", count_files(false));
+    add_fact("page %d", page ? (int)(page - lecture_pages) + 1 : 0);
+    add_fact("page %s", page ? page->name : "none");
+    add_fact("stands %d", content->time_line.is_paused);
+    add_fact("panes %d", content->panes);
+    add_fact("ghost %d", content->pane[content->active_pane].ghost_x != NULL);
+    add_fact("speed %d", player.play.log_speed);
+    add_fact("scene %s", player_simulation(&player)->scene->name);
+    add_fact("over %s %d", kinds[content->view->hovered.kind],
+             content->view->hovered.index);
+    double scale = find_scale();
+    add_fact("scale %s", scale < scale_before   ? "smaller"
+                         : scale > scale_before ? "larger"
+                                                : "same");
+    add_fact("residual %.5g", trace ? trace->residual : -1);
     const Newton *newton =
         content->pane[content->active_pane].simulation->run->newton;
-    fact("solver\t%s %s", newton ? solver_name(newton->active_solver) : "none",
-         newton && newton->refusal_reason ? newton->refusal_reason : "");
-    fact("says\t%s", text_or(player.note));
-    fact("topic\t%s", text_or(content->title_bar.topic));
-    fact("state\t%s", text_or(content->title_bar.state));
-    fact("time\t%s", text_or(content->time_line.label));
-    fact("sentence\t%s", text_or(content->title_bar.sentence));
-    fact("method\t%s", text_or(content->title_bar.method));
+    add_fact("solver\t%s %s",
+             newton ? solver_name(newton->active_solver) : "none",
+             newton && newton->refusal_reason ? newton->refusal_reason : "");
+    add_fact("says\t%s", text_or_nothing(player.note));
+    add_fact("topic\t%s", text_or_nothing(content->title_bar.topic));
+    add_fact("state\t%s", text_or_nothing(content->title_bar.state));
+    add_fact("time\t%s", text_or_nothing(content->time_line.label));
+    add_fact("sentence\t%s", text_or_nothing(content->title_bar.sentence));
+    add_fact("method\t%s", text_or_nothing(content->title_bar.method));
     collect_parts();
 }
 
 /* ---- records ------------------------------------------------------------- */
 
-static char record[1 << 20];       /* lines of a session, and their changes */
-static char window_texts[1 << 17]; /* that were recorded last */
+static char record[1 << 20];         /* lines, and facts they changed */
+static char recorded_texts[1 << 17]; /* texts that were recorded last */
 
-static void begin_record(void)
+static void clear_record(void)
 {
-    record[0] = facts[0] = window_texts[0] = '\0';
+    record[0] = facts[0] = recorded_texts[0] = '\0';
 }
 
-/* Adds the lines of a text to the record that an earlier text does not have. */
-static void record_changes(const char *before, const char *now)
+/* Adds lines of a text to the record that an earlier text does not have. */
+static void add_changes_to_record(const char *before, const char *now)
 {
     for (size_t length; *now; now += length + (now[length] == '\n')) {
         char line[1024];
@@ -579,9 +577,9 @@ static void record_changes(const char *before, const char *now)
     }
 }
 
-/* Records a line of a session, and the facts and values that it has changed.
- * The texts of a page change often, so they are left out. */
-static void record_facts(const char *line)
+/* Adds a line of a session to the record, and the facts and values it changed;
+ * on a page without texts, which change often. */
+static void add_facts_to_record(const char *line)
 {
     static char before[sizeof facts], head[160];
     const Energies ledger = simulation_energies(player_simulation(&player), 0);
@@ -590,25 +588,25 @@ static void record_facts(const char *line)
     const LiveValues *values = &active_pane(content)->values;
     collect_facts();
     for (int i = 0; i < ledger.rows; i++)
-        fact("%s %.9g", ledger.row[i].name, ledger.row[i].value);
+        add_fact("%s %.9g", ledger.row[i].name, ledger.row[i].value);
     if (content->lecture.page)
         for (char *at = facts; (at = strchr(at, '\t'));)
             memset(at, '.', strcspn(at, "\n"));
-    fact("values %d", values->count); /* some may be gone */
+    add_fact("values %d", values->count); /* some may be gone */
     for (int i = 0; i < values->count; i++) {
         const LiveValue *entry = &values->value[i];
         if (entry->text)
-            fact("value %s %d: %s", entry->name, entry->run, entry->text);
+            add_fact("value %s %d: %s", entry->name, entry->run, entry->text);
         else if (!strstr(entry->name, " ms")) /* of a clock */
-            fact("value %s %d: %.5g %.5g", entry->name, entry->run,
-                 entry->value[0], entry->value[1]);
+            add_fact("value %s %d: %.5g %.5g", entry->name, entry->run,
+                     entry->value[0], entry->value[1]);
     }
     snprintf(head, sizeof head, "> %s\n", line);
-    record_changes("", head);
-    record_changes(before, facts);
+    add_changes_to_record("", head);
+    add_changes_to_record(before, facts);
 }
 
-/* The card of the column in which a text stands, or "". */
+/* Returns the name of the card in which a text stands, or "". */
 static const char *find_card(const Layout *layout, double x, double y)
 {
     for (int c = 0; c < layout->cards; c++)
@@ -617,8 +615,8 @@ static const char *find_card(const Layout *layout, double x, double y)
     return "";
 }
 
-/* Writes how much red, green and blue a box of the window lacks, in white
- * pixels, and where it lacks most of them, pixels from its corner. */
+/* Writes the red, green and blue that a box lacks, in white pixels, and the
+ * centre of what is lacking, pixels from the corner of the box. */
 static int write_ink(const Canvas *canvas, Box box, const char *name, char *out)
 {
     double ink[3] = {0}, at[2] = {0}, all = 0;
@@ -637,8 +635,8 @@ static int write_ink(const Canvas *canvas, Box box, const char *name, char *out)
                    ink[0], at[0] / all, at[1] / all, name);
 }
 
-/* Writes the ink of the window without its words: of each part of the picture,
- * and of the cards, unless the text of a page makes them larger or smaller. */
+/* Writes the ink of the window without words: of 25 parts of the picture, and
+ * of the cards unless the text of a page changes their sizes. */
 static int write_shapes(const Layout *layout, char *out)
 {
     enum { PARTS = 5 };
@@ -669,20 +667,20 @@ static int write_shapes(const Layout *layout, char *out)
     return (int)(at - out);
 }
 
-/* Records the shapes and the texts of the window that are new: places, sizes,
- * colours and words.  On a page, texts of cards have no place, and its own text
- * is left out; its code is there. */
-static void record_words(const char *unused)
+/* Adds the shapes and texts of the window that are new to the record: places,
+ * sizes, colours and words. On a page texts of cards have no place, and the
+ * text of the page itself is left out. */
+static void add_window_to_record(const char *unused)
 {
-    static char before[sizeof window_texts];
-    char *now = window_texts;
+    static char before[sizeof recorded_texts];
+    char *now = recorded_texts;
     int count = 0;
     (void)unused;
-    write_window();
-    const Layout layout = layout_now();
+    collect_texts();
+    const Layout layout = find_layout();
     memcpy(before, now, sizeof before);
     for (int i = 0; i < text_count; i++) {
-        const char *text = written + texts[i].start;
+        const char *text = window_text + texts[i].start;
         const double x = texts[i].x, y = texts[i].y;
         const char *card = find_card(&layout, x, y);
         const Colour colour = texts[i].colour & 0xffffff;
@@ -700,11 +698,11 @@ static void record_words(const char *unused)
     }
     now += sprintf(now, "%d | texts\n", count);
     write_shapes(&layout, now);
-    record_changes(before, window_texts);
+    add_changes_to_record(before, recorded_texts);
 }
 
-/* Records a file that the session wrote, without the run times of the log. */
-static void record_file(const char *name)
+/* Adds a file to the record, without the run times of the log. */
+static void add_file_to_record(const char *name)
 {
     char line[1024];
     finish_session();
@@ -715,13 +713,13 @@ static void record_file(const char *name)
         for (int commas = 0; *end != '\n' && (commas += *end == ',') < 11;)
             end++;
         strcpy(end, "\n");
-        record_changes("", line);
+        add_changes_to_record("", line);
     }
     fclose(file);
 }
 
-/* Whether a line is as it was.  Numbers at its begin, which are pixels, may
- * change a little, since versions of the library of fonts differ. */
+/* Returns true if a line equals that of a record. Numbers at its start are
+ * pixels and may differ a little, as versions of the font library do. */
 static bool is_same_line(const char *was, const char *is)
 {
     double a, b;
@@ -734,12 +732,12 @@ static bool is_same_line(const char *was, const char *is)
             return false;
 }
 
-/* Whether the record is that of tests/data/records/NAME.txt; with PICTURES=1 in
- * the environment it becomes so. */
+/* Compares the record with data/records/NAME.txt; PICTURES=1 writes it. */
 static void check_record(const char *name)
 {
     char path[PATH_MAX + 64], was[1024];
-    snprintf(path, sizeof path, "%s/tests/data/records/%s.txt", home, name);
+    snprintf(path, sizeof path, "%s/tests/data/records/%s.txt", start_folder,
+             name);
     FILE *file = fopen(path, getenv("PICTURES") ? "w+" : "r");
     assert_non_null(file);
     if (getenv("PICTURES"))
@@ -757,8 +755,8 @@ static void check_record(const char *name)
     fclose(file);
 }
 
-/* Whether this line is one of the facts, or some words of a text. */
-static void look(const char *line)
+/* Checks that a line is one of the facts, or has some words of its text. */
+static void check_fact(const char *line)
 {
     static char copy[sizeof facts];
     bool found = false;
@@ -779,8 +777,8 @@ static void look(const char *line)
 
 /* ---- numbers ------------------------------------------------------------- */
 
-/* Newton's records of a descent, or of the last step of a square; returns how
- * many there are. */
+/* Finds the records of Newton's method, of a descent or of the last step, and
+ * returns their number. */
 static int find_records(const Simulation *simulation, const NewtonRecord **row)
 {
     const Records *made = &player.past.pane[content->active_pane].records;
@@ -795,7 +793,7 @@ static double count_records(const Simulation *simulation)
     return find_records(simulation, &row);
 }
 
-/* Updates in which E does not fall. */
+/* Counts the updates in which E does not fall. */
 static double count_rises(const Simulation *simulation)
 {
     const NewtonRecord *row;
@@ -805,7 +803,7 @@ static double count_rises(const Simulation *simulation)
     return rises;
 }
 
-/* J s^2, how far E has risen after the first updates, and at most. */
+/* Returns the rise of E in the first updates, J s^2. */
 static double find_rise(const Simulation *simulation, int updates)
 {
     const NewtonRecord *row;
@@ -832,7 +830,7 @@ static double add_masses(const Simulation *simulation)
     return sum;
 }
 
-/* m, height of the lowest node, and of the highest node of the first body */
+/* Return the height of the lowest node, and of the first body's highest, m. */
 static double find_lowest(const Simulation *simulation)
 {
     double low = INFINITY;
@@ -841,7 +839,7 @@ static double find_lowest(const Simulation *simulation)
     return low;
 }
 
-static double find_top(const Simulation *simulation)
+static double find_highest(const Simulation *simulation)
 {
     double high = -INFINITY;
     for (int i = 0; i < simulation->mesh.nodes / simulation->mesh.bodies; i++)
@@ -849,7 +847,7 @@ static double find_top(const Simulation *simulation)
     return high;
 }
 
-/* m, how far the farthest node is from its place at rest */
+/* Returns the largest distance of a node from its place at rest, m. */
 static double find_distance_from_rest(const Simulation *simulation)
 {
     const double *x = simulation->run[0].x, *rest = rest_x(simulation);
@@ -859,7 +857,7 @@ static double find_distance_from_rest(const Simulation *simulation)
     return most;
 }
 
-/* m/s, velocity of the centre of mass upwards */
+/* Returns the upward velocity of the centre of mass, m/s. */
 static double find_mean_vy(const Simulation *simulation)
 {
     double sum = 0;
@@ -888,13 +886,13 @@ static double count_crossings(const Simulation *simulation)
     return (double)exact_crossings(&simulation->system, simulation->run[0].x);
 }
 
-static double find_flattest(const Simulation *simulation)
+static double find_smallest_cell(const Simulation *simulation)
 {
     return smallest_cell(&simulation->system, simulation->run[0].x);
 }
 
-/* J, energy that a run has gained without work, and in how many steps. */
-static double find_gained(const Simulation *simulation)
+/* Return the energy gained without work, J, and the steps with a gain. */
+static double find_gained_energy(const Simulation *simulation)
 {
     return simulation->ledger[0].gained_energy;
 }
@@ -904,21 +902,20 @@ static double count_gains(const Simulation *simulation)
     return (double)simulation->ledger[0].gain_steps;
 }
 
-/* J, the total energy without the work done. */
+/* Returns the total energy without the work done, J. */
 static double find_own_energy(const Simulation *simulation)
 {
     Energies ledger = simulation_energies(simulation, 0);
     return ledger.total - ledger.work;
 }
 
-/* The height of the first wall, m */
-static double find_wall(const Simulation *simulation)
+/* Returns the height of the first wall, m. */
+static double find_wall_height(const Simulation *simulation)
 {
     return contact_of(&simulation->system)->obstacle[0].o[1];
 }
 
-/* The distance of the node that a hand pulls from the hand, and how far the
- * node moves in a step, m */
+/* Return the distance of the held node from the hand, and its step, m. */
 static double find_hand_distance(const Simulation *simulation)
 {
     const Control *control = past_control(&player.past, 0);
@@ -933,23 +930,22 @@ static double find_hand_step(const Simulation *simulation)
     return run->h * hypot(v[0], v[1]);
 }
 
-/* How far a node is from where it was as `rest` stopped, over the length of the
- * shortest spring. */
-static double rested[2 * 128];
+/* m, positions [2n] at which `rest` stopped */
+static double stopped_x[2 * 128];
 
 static double find_distance_from_stop(const Simulation *simulation)
 {
     const System *system = &simulation->system;
     double far = 0, l2 = INFINITY;
-    CHECK(2 * sizeof *rested * (size_t)system->nodes <= sizeof rested);
+    CHECK(2 * sizeof *stopped_x * (size_t)system->nodes <= sizeof stopped_x);
     for (int s = 0; s < system->springs; s++)
         l2 = fmin(l2, system->l2[s]);
     for (int i = 0; i < 2 * system->nodes; i++)
-        far = fmax(far, fabs(simulation->run[0].x[i] - rested[i]));
+        far = fmax(far, fabs(simulation->run[0].x[i] - stopped_x[i]));
     return far / sqrt(l2);
 }
 
-/* Runs until it pauses by itself, as it must within some hundred steps. */
+/* Runs until the player pauses by itself, within 3000 steps. */
 static void run_until_rest(void)
 {
     if (player_is_stopped(&player))
@@ -958,25 +954,25 @@ static void run_until_rest(void)
         show_result(player_make_step(&player));
     CHECK(player_is_stopped(&player));
     const Simulation *simulation = player_simulation(&player);
-    size_t size = 2 * sizeof *rested * (size_t)simulation->system.nodes;
-    memcpy(rested, simulation->run[0].x,
-           size < sizeof rested ? size : sizeof rested);
+    size_t size = 2 * sizeof *stopped_x * (size_t)simulation->system.nodes;
+    memcpy(stopped_x, simulation->run[0].x,
+           size < sizeof stopped_x ? size : sizeof stopped_x);
 }
 
-/* MB on the heap, more than as the session began. */
-static double find_grown(const Simulation *simulation)
+/* Returns the growth of the heap since the session began, MB. */
+static double find_heap_growth(const Simulation *simulation)
 {
     (void)simulation;
-    return (heap_in_use() - heap_before) / 1e6;
+    return (heap_in_use() - heap_at_start) / 1e6;
 }
 
-/* Steps of the run that did not converge. */
+/* Counts the steps that did not converge. */
 static double count_unconverged(const Simulation *simulation)
 {
     return (double)simulation->unconverged_steps;
 }
 
-/* What all steps of the run have taken. */
+/* Counters of all steps of the run */
 static const struct {
     const char *name;
     size_t place;
@@ -995,26 +991,25 @@ static const struct {
                {"highest rise", find_highest_rise},
                {"all masses", add_masses},
                {"lowest", find_lowest},
-               {"top", find_top},
+               {"top", find_highest},
                {"way from rest", find_distance_from_rest},
                {"mean vy", find_mean_vy},
                {"turned", count_turned},
                {"broken", count_broken_springs},
                {"crossings", count_crossings},
-               {"flattest", find_flattest},
-               {"grown", find_grown},
-               {"gained", find_gained},
+               {"flattest", find_smallest_cell},
+               {"grown", find_heap_growth},
+               {"gained", find_gained_energy},
                {"gains", count_gains},
                {"own energy", find_own_energy},
-               {"wall", find_wall},
+               {"wall", find_wall_height},
                {"hand distance", find_hand_distance},
                {"hand step", find_hand_step},
                {"way from stop", find_distance_from_stop},
                {"unconverged", count_unconverged}};
 
-/* Finds a number by its name: a name of the table above, a coordinate of a
- * node, a field of a record, a row of the ledger, or a value of texts; NaN:
- * unknown. */
+/* Finds a number by its name: of a table above, a coordinate of a node, a field
+ * of a record, an entry of the ledger, or a value of texts; NaN: unknown. */
 static double find_number(const char *name)
 {
     static const char *const fields[] = {"alpha",  "residual", "projected",
@@ -1059,8 +1054,8 @@ static double find_number(const char *name)
     return values_find_number(&pane->values, name);
 }
 
-/* Whether a number has these digits ("0.966", "6.0e-5"), or is within this
- * bound ("<8", ">0.1"). */
+/* Returns true if a number has these digits ("0.966", "6.0e-5"), or lies within
+ * this bound ("<8", ">0.1"). */
 static bool has_digits(double number, const char *digits)
 {
     double wanted = strtod(digits + strspn(digits, "<>"), NULL);
@@ -1085,8 +1080,8 @@ static void check_value(const char *line)
                  player.past.step, digits);
 }
 
-/* Makes steps of a line "STEPS NAME NUMBER"; the number holds after each. */
-static void store_value(const char *line)
+/* Makes the steps of "STEPS NAME NUMBER"; checks the number after each. */
+static void check_value_in_steps(const char *line)
 {
     for (long left = atol(line); left > 0; left--) {
         show_result(player_make_step(&player));
@@ -1094,16 +1089,16 @@ static void store_value(const char *line)
     }
 }
 
-static void session_line(const char *line)
+static void run_line(const char *line)
 {
     static const struct {
         const char *verb;
         void (*act)(const char *rest);
-    } acts[] = {{"begin", begin_session}, {"size", resize_window},
-                {"value", check_value},   {"keeps", store_value},
-                {"replays", replay},      {"tables", check_tables},
-                {"file", record_file},    {"picture", check_picture},
-                {"words", record_words}};
+    } acts[] = {{"begin", begin_session},       {"size", resize_window},
+                {"value", check_value},         {"keeps", check_value_in_steps},
+                {"replays", check_replay},      {"tables", check_tables},
+                {"file", add_file_to_record},   {"picture", check_picture},
+                {"words", add_window_to_record}};
     char verb[16] = "", rest[192] = "";
     sscanf(line, "%15s %191[^\n]", verb, rest);
     if (getenv("SHOW"))
@@ -1135,11 +1130,11 @@ static void session_line(const char *line)
     else if (strcmp(verb, "asks") == 0)
         player.setup.asks_guess = player.screen.must_redraw = true;
     else if (strstr("reads lacks list", verb))
-        read_words(verb, rest);
+        check_words(verb, rest);
     else if (strstr("mark same other", verb))
-        compare(verb, rest);
+        compare_mark(verb, rest);
     else if (!use_mouse(verb, rest))
-        look(line);
+        check_fact(line);
 }
 
 /* ---- sessions ----------------------------------------------------------- */
@@ -1150,12 +1145,12 @@ typedef struct Session {
     const char *name, **line;
 } Session;
 
-static Session sessions[SESSIONS + 1]; /* up to one without a name */
-/* Lines of all sessions; each session ends with a NULL. */
+static Session sessions[SESSIONS + 1]; /* the last has no name */
+/* Lines of all sessions; NULL ends each session */
 static const char *lines[LINES];
 static char session_text[1 << 18];
 
-/* Sessions and lines so far. */
+/* Number of sessions and of lines */
 static int session_count, line_count;
 
 static void read_sessions(const char *name)
@@ -1179,7 +1174,7 @@ static void read_sessions(const char *name)
     line_count++;
 }
 
-static const Session *session_called(const char *name)
+static const Session *find_session(const char *name)
 {
     const Session *session = sessions;
     while (session->name && strcmp(session->name, name) != 0)
@@ -1187,42 +1182,42 @@ static const Session *session_called(const char *name)
     return session;
 }
 
-static const char *present; /* line of a session */
+static const char *current_line; /* line that runs now, for messages */
 
-static void a_session(void **state)
+static void run_session(void **state)
 {
     const Session *session = *state;
     const bool records = strncmp(session->name, "record ", 7) == 0;
-    begin_record();
+    clear_record();
     for (const char **line = session->line; *line; line++) {
-        session_line(present = *line);
-        if (records && open_player)
-            record_facts(present);
+        run_line(current_line = *line);
+        if (records && player_is_open)
+            add_facts_to_record(current_line);
     }
     if (records)
         check_record(session->name + 7);
-    present = NULL;
+    current_line = NULL;
 }
 
-/* Says where a session has failed. */
+/* Prints the line at which a session has failed, and cleans up. */
 static int end_session(void **unused)
 {
     (void)unused;
-    if (present)
-        print_error("    at: %s\n", present);
+    if (current_line)
+        print_error("    at: %s\n", current_line);
     finish_session();
     count_files(true);
-    present = NULL;
+    current_line = NULL;
     return 0;
 }
 
-/* ---- a hand on every scene ---------------------------------------------- */
+/* ---- a hand in every scene ---------------------------------------------- */
 
-/* The place where a drag starts, its length in pixels, and the letters of what
- * the scene can do: g the hand pulls, d a point is dragged, p pins, k there is
- * a k, l lines of Algorithm 3, f the projection, s the line search, m other
- * methods. */
-static const struct Scene_row {
+/* Scenes with the place where a drag starts, its length in pixels, and letters
+ * for what applies to the scene: g the hand pulls, d a point is dragged, p
+ * pins, k the stiffness k, l lines of Algorithm 3, f the projection, s the line
+ * search, m other methods */
+static const struct SceneRow {
     const char *scene, *start;
     int dx, dy;
     const char *can;
@@ -1247,10 +1242,10 @@ static const struct Scene_row {
 };
 enum { SCENES = sizeof rows / sizeof *rows };
 
-/* The line with this scene's places.  Returns false where the scene cannot do
- * what it is about: "[k] " and "[-k] ". */
-static bool fill_in(const char *pattern, const struct Scene_row *row,
-                    char *line, size_t size)
+/* Fills the places of a scene into a line. Returns false if the line is for
+ * other scenes: "[k] " needs the letter k, "[-k] " its absence. */
+static bool fill_pattern(const char *pattern, const struct SceneRow *row,
+                         char *line, size_t size)
 {
     if (pattern[0] == '[') {
         bool lacks = pattern[1] == '-';
@@ -1270,20 +1265,20 @@ static bool fill_in(const char *pattern, const struct Scene_row *row,
     return true;
 }
 
-static void a_hand_on_this_scene(void **state)
+static void drag_in_scene(void **state)
 {
     static char line[128];
-    const struct Scene_row *row = *state;
+    const struct SceneRow *row = *state;
     snprintf(line, sizeof line, "begin %s --paused", row->scene);
-    session_line(present = line);
-    for (const char **act = session_called("hand")->line; *act; act++)
-        if (fill_in(*act, row, line, sizeof line))
-            session_line(line);
-    replay(row->scene);
-    present = NULL;
+    run_line(current_line = line);
+    for (const char **act = find_session("hand")->line; *act; act++)
+        if (fill_pattern(*act, row, line, sizeof line))
+            run_line(line);
+    check_replay(row->scene);
+    current_line = NULL;
 }
 
-/* Each grip of each scene is found where it was dragged to. */
+/* Checks that each grip of each scene is found where it was dragged to. */
 static void grips_go_where_they_are_dragged(void **unused)
 {
     (void)unused;
@@ -1293,28 +1288,28 @@ static void grips_go_where_they_are_dragged(void **unused)
              i++, grips++) {
             char line[80];
             double at[SCENE_MAX_HANDLES][2];
-            bool flat = scene->parts & HAS_ONE_COORDINATE; /* x alone counts */
+            bool flat = scene->parts & HAS_ONE_COORDINATE; /* y is ignored */
             snprintf(line, sizeof line, "begin %s --paused", scene->name);
-            session_line(line);
+            run_line(line);
             snprintf(line, sizeof line, "press grip %d", i);
-            session_line(present = line);
-            session_line("move +9 +9");
-            session_line("move m 0.4,-0.3");
-            session_line("release +0 +0");
+            run_line(current_line = line);
+            run_line("move +9 +9");
+            run_line("move m 0.4,-0.3");
+            run_line("release +0 +0");
             exhibit_list_handles(player_simulation(&player), at);
             CHECK_NEAR(at[i][0], 0.4, 1e-9);
             CHECK(flat || fabs(at[i][1] + 0.3) < 1e-9);
         }
     CHECK(grips > 8);
-    present = NULL;
+    current_line = NULL;
 }
 
 /* ---- random keys -------------------------------------------------------- */
 
-/* The rest of the row, and what else is seen of the run. */
-static uint64_t all_but(int place)
+/* Hashes the state, the step, and all settings but one. */
+static uint64_t hash_all_but(int place)
 {
-    uint64_t hash = hash_shown("state") + (uint64_t)player.past.step;
+    uint64_t hash = hash_aspect("state") + (uint64_t)player.past.step;
     player_build_frame(&player);
     for (int i = 0; i < content->settings.count; i++)
         if (i != place)
@@ -1323,8 +1318,8 @@ static uint64_t all_but(int place)
     return hash;
 }
 
-/* Whatever is typed into an open field, only its own number changes; after
- * Escape not even that. */
+/* Checks that random keys in an open field change its number alone; after
+ * Escape not even this number. */
 static void random_keys_stay_in_their_field(void **unused)
 {
     (void)unused;
@@ -1338,15 +1333,15 @@ static void random_keys_stay_in_their_field(void **unused)
     Random random = {19};
     int set = 0, refused = 0;
     for (int round = 0; round < ROUNDS; round++) {
-        if (round == 0 || set > 0) { /* a number that was set is no more */
-            session_line("begin square --segments 2 --paused");
-            session_line("key N N");
+        if (round == 0 || set > 0) { /* a number was set: begin anew */
+            run_line("begin square --segments 2 --paused");
+            run_line("key N N");
         }
-        uint64_t before = hash_shown("");
+        uint64_t before = hash_aspect("");
         int place = random_below(&random, player.screen.frame.options);
         for (int i = 0; i <= place; i++)
             press_key("Tab");
-        uint64_t rest = all_but(place);
+        uint64_t rest = hash_all_but(place);
         press_letter("0123456789.,+-"[random_below(&random, 14)]);
         for (int i = random_below(&random, 12); i > 0; i--)
             if (random_below(&random, 4) == 0)
@@ -1365,16 +1360,16 @@ static void random_keys_stay_in_their_field(void **unused)
         CHECK(!player.hands.selected && past_panes(&player.past) == 1 &&
               player_is_stopped(&player));
         if (set && player.past.step == 2) /* a mesh size begins a new run */
-            CHECK(all_but(place) == rest);
+            CHECK(hash_all_but(place) == rest);
         if (!set)
-            CHECK(hash_shown("") == before);
+            CHECK(hash_aspect("") == before);
         assert_string_equal(player_simulation(&player)->scene->name, "square");
         assert_int_equal(count_files(false), 0);
     }
     CHECK(refused > ROUNDS / 10);
 }
 
-/* Hash of the states, the times and the ledgers of all panes. */
+/* Returns a hash of the states, times and ledgers of all panes. */
 static uint64_t hash_run(void)
 {
     uint64_t hash = STATE_HASH_SEED;
@@ -1383,7 +1378,7 @@ static uint64_t hash_run(void)
     return hash;
 }
 
-/* Goes to each step, backwards or forwards; its run has the hash of before. */
+/* Goes to each step, back or forwards; a second visit finds its hash. */
 static void visit_steps(uint64_t *hash, bool again)
 {
     const long newest = past_newest(&player.past);
@@ -1399,13 +1394,12 @@ static void visit_steps(uint64_t *hash, bool again)
     }
 }
 
-/* Undoes and redoes every change, which leads back to the same bits, in all
- * steps between. */
+/* Undoes and redoes all changes, which must restore the bits of every step. */
 static void undo_and_redo(uint64_t started)
 {
     static uint64_t hash[CHANGES][STEPS];
     int back = 0;
-    session_line("release 350 300");
+    run_line("release 350 300");
     const uint64_t end = player_hash(&player);
     const long step = player.past.step;
     for (; player.past.current > 0; back++) {
@@ -1426,9 +1420,9 @@ static void undo_and_redo(uint64_t started)
     CHECK(player_hash(&player) == end);
 }
 
-/* Whatever hands do, with plenty of memory for states or little: each step of
- * each change stays as it was, Y's script leads to the same bits, none of its
- * lines is refused, and the window shows what it showed. */
+/* Acts at random, with memory for many states or few: each step of each change
+ * keeps its bits, the script of Y leads to the same bits without a refused
+ * line, and the window shows what it showed. */
 static void record_of_random_hands(void **unused)
 {
     (void)unused;
@@ -1438,32 +1432,32 @@ static void record_of_random_hands(void **unused)
         "drop --segments 2", "square --segments 2 --integrator bdf2"};
     static const size_t states[] = {1, 6, 1000};
     Random random = {21};
-    begin_record();
-    const char **acts = session_called("acts")->line;
+    clear_record();
+    const char **acts = find_session("acts")->line;
     int count = 0;
     while (acts[count])
         count++;
     for (int round = 0; round < ROUNDS; round++) {
         char line[80];
         snprintf(line, sizeof line, "begin %s --paused", scene[round % 4]);
-        session_line(line);
+        run_line(line);
         player.past.max_bytes = states[round % 3] * player.past.used_bytes;
         const uint64_t started = player_hash(&player);
         for (int i = 0; i < LENGTH; i++) {
-            session_line(present = acts[random_below(&random, count)]);
-            player.is_quitting = false; /* by Escape */
-            record_facts(present);
+            run_line(current_line = acts[random_below(&random, count)]);
+            player.is_quitting = false; /* Escape may quit */
+            add_facts_to_record(current_line);
         }
         undo_and_redo(started);
-        replay(scene[round % 4]);
+        check_replay(scene[round % 4]);
         count_files(true);
     }
     check_record("hands");
-    present = NULL;
+    current_line = NULL;
 }
 
-/* A page that is left and entered again looks as it did at first.  The race
- * measures its own times. */
+/* Checks that a page which is left and entered again looks the same. The race,
+ * which measures times, is left out. */
 static void pages_are_the_same_when_they_are_entered_again(void **unused)
 {
     (void)unused;
@@ -1471,21 +1465,20 @@ static void pages_are_the_same_when_they_are_entered_again(void **unused)
         char line[64];
         if (strcmp(lecture_pages[i].name, "order") == 0)
             continue;
-        session_line("begin square --paused");
+        run_line("begin square --paused");
         snprintf(line, sizeof line, "do page %s", lecture_pages[i].name);
-        session_line(present = line);
-        session_line("mark a");
-        session_line("key N N");
+        run_line(current_line = line);
+        run_line("mark a");
+        run_line("key N N");
         show_result(obey("page-back"));
         show_result(obey("page-on"));
-        session_line(line);
-        session_line("same a");
-        present = NULL;
+        run_line(line);
+        run_line("same a");
+        current_line = NULL;
     }
 }
 
-/* Each page of the lecture has a session that does what its Try says, and one
- * that holds its claim. */
+/* Checks that each page has a session for its Try, and one for its claim. */
 static void each_page_is_tried_and_held(void **unused)
 {
     (void)unused;
@@ -1494,7 +1487,7 @@ static void each_page_is_tried_and_held(void **unused)
             char name[32];
             snprintf(name, sizeof name, "%s %s", claim ? "claim" : "try",
                      page->name);
-            if (!session_called(name)->name)
+            if (!find_session(name)->name)
                 fail_msg("no session '%s'", name);
         }
 }
@@ -1511,23 +1504,22 @@ int main(int argc, char **argv)
     int count = 5;
     read_sessions("tests/data/sessions.txt");
     read_sessions("tests/data/claims.txt");
-    assert_true(getcwd(home, sizeof home) && mkdtemp(folder));
+    assert_true(getcwd(start_folder, sizeof start_folder) && mkdtemp(folder));
     for (int i = 0; i < session_count; i++)
         if (strcmp(sessions[i].name, "hand") &&
             strcmp(sessions[i].name, "acts"))
             tests[count++] =
-                (struct CMUnitTest){sessions[i].name, a_session, NULL,
+                (struct CMUnitTest){sessions[i].name, run_session, NULL,
                                     end_session, (void *)&sessions[i]};
     for (int i = 0; i < SCENES; i++)
-        tests[count++] =
-            (struct CMUnitTest){rows[i].scene, a_hand_on_this_scene, NULL,
-                                end_session, (void *)&rows[i]};
+        tests[count++] = (struct CMUnitTest){rows[i].scene, drag_in_scene, NULL,
+                                             end_session, (void *)&rows[i]};
     assert_int_equal(chdir(folder), 0);
     if (argc > 1)
         cmocka_set_test_filter(argv[1]);
     int failed =
         _cmocka_run_group_tests("sessions", tests, (size_t)count, NULL, NULL);
-    assert_int_equal(chdir(home), 0);
+    assert_int_equal(chdir(start_folder), 0);
     rmdir(folder);
     return failed;
 }

@@ -1,5 +1,4 @@
-/* Frames: what is drawn of given contents, where, and what the mouse finds
- * there. */
+/* test_show.c - frames: what is drawn, where, and what the mouse finds */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,7 +8,7 @@
 #include "picture/colour_map.h"
 #include "test.h"
 
-/* ---- a scene after some steps, and what a player would show of it -------- */
+/* ---- a scene after some steps, as a player would show it ---------------- */
 
 static Simulation simulation;
 static History history;
@@ -18,7 +17,7 @@ static View view;
 static Paper paper;
 static Layout layout;
 
-static void set_size(int width, int height)
+static void set_paper_size(int width, int height)
 {
     paper_free(&paper);
     assert_int_equal(paper_create(width, height, &paper), 0);
@@ -33,7 +32,7 @@ static void sample_energies(void)
     history_add_point(&history, simulation_time(&simulation), rows, row);
 }
 
-/* Replaces the simulation of the test before. */
+/* Creates the simulation of a test, and frees the last one. */
 static void begin_show(const char *line, int steps)
 {
     simulation_free(&simulation);
@@ -51,7 +50,7 @@ static void begin_show(const char *line, int steps)
     content.view = &view;
     content.pane[0].history = &history;
     frame_compute_values(&content);
-    set_size(1280, 800);
+    set_paper_size(1280, 800);
 }
 
 static int end_show(void **unused)
@@ -70,7 +69,7 @@ static void draw(void)
     layout = layout_create(&content, width, height);
 }
 
-/* Letters have colours, too. */
+/* Draws the frame without words, whose letters would be counted as colours. */
 static void draw_without_words(void)
 {
     text_free(paper.text);
@@ -83,7 +82,7 @@ static Colour pixel(int x, int y)
     return paper.canvas.pixels[y * paper.canvas.width + x];
 }
 
-/* Pixels of exactly this colour inside a box. */
+/* Counts the pixels of a colour inside a box. */
 static int count_colour(Box box, Colour colour)
 {
     int count = 0;
@@ -93,12 +92,12 @@ static int count_colour(Box box, Colour colour)
     return count;
 }
 
-static int on_stage(Colour colour)
+static int count_on_stage(Colour colour)
 {
     return count_colour(layout.stage, colour);
 }
 
-/* Picks so many pixels beside a point of the world. */
+/* Picks at some pixels right of and below a point of the world. */
 static Pick pick_at(double x, double y, double right, double down)
 {
     const double world[2] = {x, y};
@@ -108,15 +107,14 @@ static Pick pick_at(double x, double y, double right, double down)
     return frame_pick(&content, &layout, at[0] + right, at[1] + down);
 }
 
-static bool picks(Pick pick, PickKind kind, int index)
+static bool is_pick(Pick pick, PickKind kind, int index)
 {
     return pick.kind == kind && pick.index == index;
 }
 
 /* ---- all of a frame ------------------------------------------------------ */
 
-/* Any size can be drawn of any scene, all there is at once, and blown-up
- * positions do no harm. */
+/* Each scene is drawn in any size, and with positions that are not finite. */
 TEST(every_size_is_drawn)
 {
     const int sizes[][2] = {{1, 1},     {1, 900},    {2000, 3}, {199, 201},
@@ -138,7 +136,7 @@ TEST(every_size_is_drawn)
                     simulation.run[0].x[0] = NAN;
                     simulation.run[0].x[1] = mode == 1 ? 1e300 : -INFINITY;
                 }
-                set_size(sizes[i][0], sizes[i][1]);
+                set_paper_size(sizes[i][0], sizes[i][1]);
                 frame_expand_texts(&content);
                 draw();
             }
@@ -150,12 +148,12 @@ enum { ENERGIES = 4 };
 
 #define ALL_ENERGIES " --segments 6 --yield 0.05 --tear 0.5 --damping 0.01"
 
-/* Cells below five pixels are faces with a blue outline, inside which each
- * pixel is covered; what has folded over is dark, and stands above the rest. */
+/* Cells below five pixels are filled faces with a blue outline; folded cells
+ * are dark and above the others. */
 TEST(fine_squares_are_faces)
 {
     begin_show("square --segments 90 --turn 17 --stretch 1.3", 0);
-    set_size(400, 400);
+    set_paper_size(400, 400);
     content.is_bare = true;
     draw();
     int white = 0, covered = 0, blue = 0;
@@ -171,29 +169,29 @@ TEST(fine_squares_are_faces)
         }
         covered += right > left ? right - left + 1 : 0;
     }
-    double width = 400 / 1.75; /* of the side; a pixel of outline around it */
+    double width =
+        400 / 1.75; /* width of the square; the outline adds a pixel */
     CHECK(white == 0 && blue > 3 * width);
     CHECK_NEAR(covered, width * width / 1.3, 8 * width);
-    CHECK(on_stage(COLOUR_FOLDED) == 0);
+    CHECK(count_on_stage(COLOUR_FOLDED) == 0);
     double *x = simulation.run[0].x;
     int row = 91, middle = 45 * row + 45;
-    for (int k = 0; k < 2; k++) { /* two nodes trade their places */
+    for (int k = 0; k < 2; k++) { /* two nodes are exchanged */
         double kept = x[2 * middle + k];
         x[2 * middle + k] = x[2 * (middle + 3 * row) + k];
         x[2 * (middle + 3 * row) + k] = kept;
     }
     draw();
-    int dark = on_stage(COLOUR_FOLDED);
+    int dark = count_on_stage(COLOUR_FOLDED);
     CHECK(dark > 10 && dark < 400);
     content.shows_strain = true;
     draw();
-    CHECK(on_stage(COLOUR_FOLDED) == dark);
+    CHECK(count_on_stage(COLOUR_FOLDED) == dark);
     Colour stretched = pixel(200, 150);
     CHECK((stretched >> 16 & 255) > (stretched & 255));
 }
 
-/* However far nodes fly, the view goes with them as long as there are numbers;
- * beyond them words say why nothing is seen. */
+/* The view follows nodes as far as numbers reach; then words say why not. */
 TEST(what_flies_far_is_drawn_or_reported)
 {
     begin_show("square", 0);
@@ -203,25 +201,26 @@ TEST(what_flies_far_is_drawn_or_reported)
         for (int i = 0; i < size; i++)
             x[i] = far * rest_x(&simulation)[i];
         draw();
-        CHECK(on_stage(COLOUR_X) > 500 && on_stage(COLOUR_WARNING) == 0);
+        CHECK(count_on_stage(COLOUR_X) > 500 &&
+              count_on_stage(COLOUR_WARNING) == 0);
     }
-    for (int i = 0; i < size; i++) /* two nodes alone, far above and below */
+    for (int i = 0; i < size; i++) /* only two nodes are far above and below */
         x[i] = i == 2 * 11 + 1 ? 1e220 : i == 2 * 13 + 1 ? -1e220 : 0;
     draw();
-    CHECK(on_stage(COLOUR_X) > 300);
+    CHECK(count_on_stage(COLOUR_X) > 300);
     view.hovered = (Pick){.kind = PICK_SPRING, .index = 0};
     draw();
-    CHECK(on_stage(COLOUR_NOTE) > 1000);
+    CHECK(count_on_stage(COLOUR_NOTE) > 1000);
     for (int part = 0; part < 2; part++) { /* first one node, then all nodes */
         for (int i = 0; i < (part ? size : 1); i++)
             x[i] = i % 2 ? INFINITY : NAN;
         draw();
-        CHECK(on_stage(COLOUR_WARNING) > 20);
+        CHECK(count_on_stage(COLOUR_WARNING) > 20);
     }
 }
 
-/* From step to step the camera moves by a small part of the stage, except where
- * the view grows or shrinks by a factor of 1.5, once each way. */
+/* The camera moves by a small part of the stage in a step, except where the
+ * view grows or shrinks by 1.5, once each way. */
 TEST(the_camera_does_not_jump)
 {
     static const char *const lines[] = {
@@ -253,9 +252,9 @@ TEST(the_camera_does_not_jump)
 
 /* ---- what the mouse finds ------------------------------------------------ */
 
-/* Every node is picked where it is drawn, also after zooming; so is the middle
- * of a spring, within 8 pixels, half as far as a node, and not where it is
- * broken; left or right of the square there is nothing. */
+/* Each node is picked where it is drawn, also after zooming. A spring is picked
+ * at its middle within 8 pixels, half as far as a node, and not where it is
+ * broken; beside the square nothing is. */
 TEST(the_mouse_finds_nodes_and_springs)
 {
     begin_show("square", 2);
@@ -272,18 +271,18 @@ TEST(the_mouse_finds_nodes_and_springs)
             camera_to_pixel(&camera, x + 2 * i, at);
             if (!box_contains(layout.stage, at[0] - 2, at[1] + 3))
                 continue;
-            CHECK(picks(pick, PICK_NODE, i));
+            CHECK(is_pick(pick, PICK_NODE, i));
             CHECK_NEAR(pick.point[0], x[2 * i] - 2 / camera.scale[0], 1e-12);
         }
         camera_to_pixel(&camera, middle, at);
-        CHECK(picks(pick_at(middle[0], middle[1], 0, 1), PICK_SPRING, 0));
+        CHECK(is_pick(pick_at(middle[0], middle[1], 0, 1), PICK_SPRING, 0));
         lens_zoom(&view.lens, layout.pane[0], at[0], at[1], 2.5);
     }
     view.lens = LENS_FITS;
     for (int s = 0; s < system->springs; s++) { /* also where diagonals cross */
         const double *p = x + 2 * system->e[2 * s];
         const double *q = x + 2 * system->e[2 * s + 1];
-        CHECK(picks(
+        CHECK(is_pick(
             pick_at(0.54 * p[0] + 0.46 * q[0], 0.54 * p[1] + 0.46 * q[1], 0, 0),
             PICK_SPRING, s));
     }
@@ -293,22 +292,24 @@ TEST(the_mouse_finds_nodes_and_springs)
     while (system->e[2 * left] != 0 || system->e[2 * left + 1] != 1)
         left++;
     double column = 0.5 * (x[0] + x[2]), height = 0.5 * (x[1] + x[3]);
-    CHECK(picks(pick_at(column, height, -6, 0), PICK_SPRING, left));
+    CHECK(is_pick(pick_at(column, height, -6, 0), PICK_SPRING, left));
     CHECK(pick_at(column, height, -12, 0).kind == PICK_NONE);
     system->k[left] = 0;
     CHECK(pick_at(column, height, -6, 0).kind == PICK_NONE);
-    begin_show("square", 0); /* before the first step its sides are edges */
+    begin_show("square",
+               0); /* sides of the square can be picked before the first step */
     content.time_line.is_paused = true;
     for (int side = 0; side < 2; side++)
-        CHECK(picks(pick_at(side ? 0.7 : -0.7, 0.125, 0, 0), PICK_EDGE, side));
+        CHECK(
+            is_pick(pick_at(side ? 0.7 : -0.7, 0.125, 0, 0), PICK_EDGE, side));
 }
 
-/* ---- what is written -------------------------------------------------- */
+/* ---- what is written ----------------------------------------------- */
 
-/* Every text that a frame writes. */
-static char written[500][160];
-static double written_at[500], written_top[500];
-static int writings;
+/* Texts of a frame, and pixels of their left ends and tops */
+static char texts[500][160];
+static double text_left[500], text_top[500];
+static int text_count;
 
 int __real_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
                      double x, double y, Align align, const char *markup);
@@ -316,28 +317,27 @@ int __real_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
 int __wrap_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
                      double x, double y, Align align, const char *markup)
 {
-    written_at[writings % 500] = x;
-    written_top[writings % 500] = y;
-    if (writings < 500)
-        snprintf(written[writings++], sizeof *written, "%s", markup);
+    text_left[text_count % 500] = x;
+    text_top[text_count % 500] = y;
+    if (text_count < 500)
+        snprintf(texts[text_count++], sizeof *texts, "%s", markup);
     return __real_text_draw(text, canvas, style, x, y, align, markup);
 }
 
-/* Whether a text of the frame that is drawn now begins so. */
+/* Draws the frame, and returns true if one of its texts begins so. */
 static bool is_drawn(const char *text)
 {
-    writings = 0;
+    text_count = 0;
     draw();
-    for (int i = 0; i < writings; i++)
-        if (strncmp(written[i], text, strlen(text)) == 0)
+    for (int i = 0; i < text_count; i++)
+        if (strncmp(texts[i], text, strlen(text)) == 0)
             return true;
     return false;
 }
 
-/* Numbers of a text have the digits that it asks for; in a formula those with a
- * sign or a power of ten stand in parentheses, and 1/4 is one.  A line with
- * what is not known is left out; what stands behind "@" is said for each run.
- */
+/* Numbers in a text have the requested digits; in a formula those with a sign
+ * or a power of ten are in parentheses. Lines with unknown values are left out;
+ * lines behind "@" are repeated for each run. */
 TEST(texts_say_what_is_known)
 {
     static const struct {
@@ -370,10 +370,9 @@ TEST(texts_say_what_is_known)
 
 /* ---- cards --------------------------------------------------------------- */
 
-/* On the map of inertia, |x - x_tilde|^2 / 2, the names of contours are where
- * it has their value, along the ray of the picture. 4 pixels: the ray is walked
- * in paces of 5 mm. */
-TEST(maps_have_levels)
+/* On the map of inertia, |x - x_tilde|^2 / 2, labels of contours stand at their
+ * values along a ray. 4 pixels: the ray has points every 5 mm. */
+TEST(maps_of_inertia_label_their_contours)
 {
     static const double levels[] = {0.2, 0.6, 1};
     begin_show("landscape --projection none --start 0.6,0.9 --timestep 0.1", 0);
@@ -387,13 +386,13 @@ TEST(maps_have_levels)
         double far = sqrt(2 * levels[k]), at[2], near = INFINITY;
         plot_to_pixel(&stage, (double[]){target[0] + 0.62 * far, target[1]},
                       at);
-        for (int i = 0; i < writings && i < 500; i++)
-            if (strtod(written[i], NULL) == levels[k])
-                near = fmin(near, fabs(written_at[i] - at[0]));
+        for (int i = 0; i < text_count && i < 500; i++)
+            if (strtod(texts[i], NULL) == levels[k])
+                near = fmin(near, fabs(text_left[i] - at[0]));
         CHECK_AT_MOST(near, 4);
     }
     draw_without_words();
-    for (int k = 0; k < 3; k++) { /* the contour itself lies there, too */
+    for (int k = 0; k < 3; k++) { /* the contour itself is there, too */
         double at[2], far = sqrt(2 * levels[k]);
         int darkest = -9;
         plot_to_pixel(&stage, (double[]){target[0], target[1] - far}, at);
@@ -405,9 +404,8 @@ TEST(maps_have_levels)
     }
 }
 
-/* The plot of energies is at least 2.5 ems high between legend and numbers, and
- * has two numbers of y: in low windows, in large letters, with ten energies,
- * with six panes. */
+/* The plot of energies is at least 2.5 ems high and has two numbers of y: in
+ * low windows, in large type, with ten energies, with six panes. */
 TEST(the_plot_of_energies_stays_high)
 {
     static const struct {
@@ -421,7 +419,7 @@ TEST(the_plot_of_energies_stays_high)
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         begin_show(rows[i].line, 8);
         for (int s = 0; s < history.series; s++)
-            history.value[s][4] = -1000 * s; /* all are seen */
+            history.value[s][4] = -1000 * s; /* all curves are visible */
         content.settings.count = 12;
         for (int k = 0; k < 12; k++)
             content.settings.item[k] =
@@ -433,26 +431,26 @@ TEST(the_plot_of_energies_stays_high)
             content.pane[k].label = "turned by 30 \u00b0, h 0.02 s";
         content.cards.closed_cards &= ~(1u << ENERGIES);
         content.cards.enlarged = strstr(rows[i].line, "big") ? ENERGIES : -1;
-        set_size(rows[i].wide, rows[i].high);
-        writings = 0;
+        set_paper_size(rows[i].wide, rows[i].high);
+        text_count = 0;
         draw();
         const Box card = layout.card[ENERGIES];
         double legend = 0, below = 0;
         int numbers = 0;
-        for (int k = 0; k < writings && k < 500; k++) {
-            const char *text = written[k];
-            if (!box_contains(card, written_at[k], written_top[k]) ||
-                written_top[k] < card.y + 1.5 * paper.em)
+        for (int k = 0; k < text_count && k < 500; k++) {
+            const char *text = texts[k];
+            if (!box_contains(card, text_left[k], text_top[k]) ||
+                text_top[k] < card.y + 1.5 * paper.em)
                 continue;
             if (strcmp(text, "t in s") == 0)
-                below = written_top[k];
+                below = text_top[k];
             else if (strchr("+tkecgpdfw", text[0]) || strstr(text, " J"))
-                legend = fmax(legend, written_top[k]);
+                legend = fmax(legend, text_top[k]);
             else
-                numbers += written_at[k] < card.x + 5 * paper.em &&
+                numbers += text_left[k] < card.x + 5 * paper.em &&
                            strcmp(text, "0") != 0;
         }
-        /* a row of the legend, the air above the plot and below it */
+        /* a row of the legend, and the air above and below the plot */
         CHECK_AT_MOST((1.275 + 0.5 + 0.25 + 2.5) * paper.em - 3,
                       below - legend);
         CHECK(legend > 0 && numbers > 0);

@@ -1,5 +1,4 @@
-/* A short run of what `make stress` does for minutes, and proofs that its
- * judge sees a broken promise. */
+/* test_stress.c - a short `make stress`, whose judge notices broken promises */
 #include "test.h"
 #include "stress.h"
 
@@ -20,19 +19,18 @@ TEST(named_cases_keep_the_promise)
     }
 }
 
-/* Of each kind some; and they are scenes that can be solved, not excuses. */
+/* Random scenes of each kind keep the promise, and most of them converge. */
 TEST(random_scenes_keep_the_promise)
 {
     static const char *const kinds[] = {"s", "cccctbww", "f", "mn", "k"};
     for (int i = 0; i < 5; i++) {
         Tally tally = {0};
         char reason[512] = "";
-        const long count = tests_many(1000, 32) / (i == 3 ? 3 : 1);
+        const long count = choose_count(1000, 32) / (i == 3 ? 3 : 1);
         bool good =
             stress_scenes(kinds[i], 1, count, i % 2 ? 10 : 2, &tally, reason);
         if (!good)
-            print_error("build/stress --line '%s': %s\n", stress_present,
-                        reason);
+            print_error("build/stress --line '%s': %s\n", stress_line, reason);
         CHECK(good);
         CHECK(tally.steps[VERDICT_CONVERGED] >
               2 * tally.steps[VERDICT_REPORTED]);
@@ -41,7 +39,7 @@ TEST(random_scenes_keep_the_promise)
     }
 }
 
-/* Steps that break one promise each, and else are those of the slides. */
+/* Steps of an integrator that break one promise each */
 static void reduce_step(TimeIntegrator *run)
 {
     integrator_methods[0].finish(run);
@@ -49,37 +47,37 @@ static void reduce_step(TimeIntegrator *run)
         run->newton->iterate.u[i] *= 0.9;
 }
 
-static void cross_ground(TimeIntegrator *run)
+static void put_node_below_ground(TimeIntegrator *run)
 {
     integrator_methods[0].finish(run);
     run->new_x[1] = -0.7;
 }
 
-static void shift(TimeIntegrator *run)
+static void add_momentum(TimeIntegrator *run)
 {
     integrator_methods[0].finish(run);
     for (size_t i = 0; i < run->x_length; i++)
         run->new_v[i] += 1e-5;
 }
 
-static void turn(TimeIntegrator *run)
+static void add_angular_momentum(TimeIntegrator *run)
 {
     integrator_methods[0].finish(run);
     for (size_t i = 0; i < run->x_length; i++)
         run->new_v[i] += (i % 2 ? 1e-3 : -1e-3) * run->new_x[i ^ 1];
 }
 
-/* A tolerance that grows behind the judge's back. */
+/* m/s, the true tolerance while a step has a larger one */
 static double tolerance;
 
-static void loosen(TimeIntegrator *run)
+static void loosen_tolerance(TimeIntegrator *run)
 {
     tolerance = run->newton->settings.tolerance;
     run->newton->settings.tolerance = 1;
     integrator_methods[0].set_target(run);
 }
 
-static void tighten(TimeIntegrator *run)
+static void restore_tolerance(TimeIntegrator *run)
 {
     run->newton->settings.tolerance = tolerance;
     integrator_methods[0].finish(run);
@@ -94,11 +92,15 @@ TEST(broken_promises_are_noticed)
     } rows[] = {
         {"--segments 2", NULL, reduce_step, "E rises"},
         {"--segments 2 --integrator midpoint", NULL, reduce_step, "E rises"},
-        {"--segments 2", loosen, tighten, "the residual is"},
-        {"--segments 12", loosen, tighten, "the residual is"},
-        {"--segments 2 --ground 0,1,0,-0.6", NULL, cross_ground, "gap is -0.1"},
-        {"--segments 2", NULL, shift, "momentum"},
-        {"--segments 2 --material neo-hookean", NULL, turn, "angular"},
+        {"--segments 2", loosen_tolerance, restore_tolerance,
+         "the residual is"},
+        {"--segments 12", loosen_tolerance, restore_tolerance,
+         "the residual is"},
+        {"--segments 2 --ground 0,1,0,-0.6", NULL, put_node_below_ground,
+         "gap is -0.1"},
+        {"--segments 2", NULL, add_momentum, "momentum"},
+        {"--segments 2 --material neo-hookean", NULL, add_angular_momentum,
+         "angular"},
     };
     for (int i = 0; i < 7; i++) {
         Watch watch;
@@ -118,15 +120,14 @@ TEST(broken_promises_are_noticed)
     }
 }
 
-/* Stops at the given record; 0: never. */
+/* Stops at the record whose number `user` counts down; 0: never. */
 static bool stop_at_record(void *user, const NewtonRecord *record)
 {
     (void)record;
     return --*(int *)user != 0;
 }
 
-/* A step that is left in a pause, at whatever record, moved nothing, and is
- * made again to the same bits. */
+/* An interrupted step moves no node, and is made later with the same bits. */
 TEST(interruptions_leave_no_trace)
 {
     for (int i = 0; integrator_methods[i].name; i++)
@@ -156,18 +157,20 @@ TEST(interruptions_leave_no_trace)
         }
 }
 
-/* The judge of large squares (test_multigrid has their steps) sees an iterate
- * that is not the end. */
+/* The test of large squares rejects an iterate before the end (test_multigrid
+ * has whole steps). */
 TEST(an_unfinished_search_is_noticed)
 {
     Simulation *simulation = simulate("--segments 12 --solver multigrid");
     Newton *newton = simulation->run[0].newton;
     newton_start(newton, simulation->run[0].x, NULL, 1.6e-5, 0.01);
-    CHECK(large_judge(&newton->iterate.E, newton->iterate.u, newton->settings.h,
-                      newton->tolerance) == LARGE_FAILED);
+    CHECK(test_large_residual(&newton->iterate.E, newton->iterate.u,
+                              newton->settings.h,
+                              newton->tolerance) == LARGE_FAILED);
     CHECK_OK(newton_minimise(newton));
-    CHECK(large_judge(&newton->iterate.E, newton->iterate.u, newton->settings.h,
-                      newton->tolerance) == LARGE_PASSED);
+    CHECK(test_large_residual(&newton->iterate.E, newton->iterate.u,
+                              newton->settings.h,
+                              newton->tolerance) == LARGE_PASSED);
 }
 
 TESTS(NULL, NULL)

@@ -1,7 +1,6 @@
-/* What term.h promises, of every term that a row of the table or an option
- * brings, at random places: held to the headers' formulas (oracle.h).  A new
- * term is a formula there, and a row here where its option alone does not bring
- * it. */
+/* test_terms.c - the promises of term.h, tested for each term at random points
+ * against the oracle. A new term needs a formula there, and a row here unless
+ * an option brings it alone. */
 #include "oracle.h"
 
 #include <float.h>
@@ -20,16 +19,17 @@
 
 enum { SIZE = 2 * 40 };
 
-/* What a row is made of: a few nodes, and one kind of thing between them. */
+/* A system of a few nodes with one kind of energy, or two */
 typedef struct Row {
     const char *name;
     enum { SPRING, GRAPH, WALL, BALL, FREE_BALL, CORNER, GRID, PAIR } shape;
-    double yield, hardening; /* side by side, as options have them */
-    double damping, pull;    /* 0: none */
-    bool rubs, flat;         /* flat: no spring has a length */
-    bool solid;              /* triangles for springs */
-    double far; /* alpha goes up to this, where nothing limits it */
-    const OptionRow *option; /* or NULL: another term, by its own numbers */
+    double yield, hardening; /* adjacent: plastic_energy.configure reads both */
+    double damping, pull;    /* 0: none; pull in J/m^2 */
+    bool rubs, flat;         /* flat: springs have no rest length */
+    bool solid;              /* triangles instead of springs */
+    double far;              /* largest alpha, if no term limits it */
+    const OptionRow
+        *option; /* row of the option that brings the term, or NULL */
 } Row;
 
 static const Row rows[] = {
@@ -57,7 +57,7 @@ static const Row rows[] = {
 };
 enum { ROWS = sizeof rows / sizeof *rows };
 
-/* One random place of a row. */
+/* One random point of a row, with directions p and q */
 typedef struct Case {
     System system;
     EvalPoint at;
@@ -88,7 +88,7 @@ static void make_contact(const Row *row, Random *random, Case *c)
                                     random_logarithmic(random, 0.02, 50)));
 }
 
-/* The numbers of an option that brings a term alone. */
+/* Configures the term of an option with random numbers. */
 static void set_option(const OptionRow *option, Random *random,
                        const SquareMesh *mesh, System *system)
 {
@@ -120,7 +120,7 @@ static void make_grid(const Row *row, Random *random, Case *c)
         set_option(row->option, random, &mesh, &c->system);
     if (row->shape == GRID && !row->solid && random_below(random, 2))
         c->system.k[random_below(random, c->system.springs)] = 0;
-    if (row->shape == CORNER) { /* one triangle is left, without springs */
+    if (row->shape == CORNER) { /* one triangle remains, without springs */
         const Cells *cells = system_find_term(&c->system, &cell_energy)->data;
         const int *side = cells->side_springs[0];
         for (int s = 0; s < c->system.springs; s++)
@@ -129,9 +129,8 @@ static void make_grid(const Row *row, Random *random, Case *c)
     }
 }
 
-/* Two cells, springs and all, but without their energy: a corner of the second
- * one, which is turned, is near the right edge of the first, or past its end.
- */
+/* Makes two cells whose springs have no energy: a corner of the second, turned
+ * cell is near the right edge of the first, or beyond its end. */
 static void make_pair(const Row *row, Random *random, Case *c)
 {
     const Barrier barrier = {.d_hat = 0.2, .c = 24};
@@ -150,7 +149,7 @@ static void make_pair(const Row *row, Random *random, Case *c)
         square_mesh_rest_position(&mesh, i, x);
         if (i < 4)
             continue;
-        double right = x[0] + 0.5, high = x[1] - 0.5; /* index of the corner */
+        double right = x[0] + 0.5, high = x[1] - 0.5; /* 0, 0 at the corner */
         x[0] = 0.5 + away + cos(angle) * right - sin(angle) * high;
         x[1] = up + sin(angle) * right + cos(angle) * high;
     }
@@ -160,7 +159,7 @@ static void make_pair(const Row *row, Random *random, Case *c)
                                     random_logarithmic(random, 0.02, 50)));
 }
 
-/* Nodes, springs and contacts of the row, at x_n. */
+/* Creates the nodes, springs and contacts of a row, at x_n. */
 static void make_shape(const Row *row, Random *random, Case *c)
 {
     if (row->shape == GRAPH) {
@@ -188,7 +187,7 @@ static void make_shape(const Row *row, Random *random, Case *c)
     c->system.k[0] = 7;
 }
 
-/* A field and a hand, of one node each. */
+/* Adds a field and a hand, which pull one node each. */
 static void set_pulls(Random *random, double strength, System *system)
 {
     const Pull all = {.node = random_below(random, system->nodes),
@@ -201,7 +200,7 @@ static void set_pulls(Random *random, double strength, System *system)
     CHECK_OK(pull_configure(system, &hand_energy, &one));
 }
 
-/* What else the row has: pulls, flow, damping. */
+/* Adds the pulls, the flow and the damping of a row. */
 static void add_terms(const Row *row, Random *random, System *system)
 {
     if (row->pull > 0)
@@ -218,7 +217,7 @@ static void add_terms(const Row *row, Random *random, System *system)
         CHECK_OK(damping.configure(system, NULL, &row->damping));
 }
 
-/* Random u that all terms allow, and two directions. */
+/* Draws random u that all terms allow, and random directions. */
 static void make_positions(const Row *row, Random *random, Case *c)
 {
     double shake = row->flat            ? 1e-8
@@ -245,7 +244,7 @@ static void make_positions(const Row *row, Random *random, Case *c)
                        exact_crossings(&c->system, c->x) == 0;
         }
     }
-    c->at.term = NULL; /* before the first */
+    c->at.term = NULL; /* evaluation starts with the first term */
 }
 
 static void make_case(const Row *row, Random *random, Case *c)
@@ -267,10 +266,10 @@ static void make_case(const Row *row, Random *random, Case *c)
     make_positions(row, random, c);
 }
 
-/* TermKind's hessian, without a matrix; a force that is the same everywhere has
- * none. */
-static int times_hessian(const Case *c, const TermKind *kind,
-                         Projection projection, const double *q, double *out)
+/* Multiplies by the Hessian of a term: out += H q; a constant force has none.
+ * Returns the number of changed blocks. */
+static int multiply_hessian(const Case *c, const TermKind *kind,
+                            Projection projection, const double *q, double *out)
 {
     return kind->hessian ? kind->hessian(&c->at, projection, NULL, q, out) : 0;
 }
@@ -283,19 +282,21 @@ static double dot(const Case *c, const double *a, const double *b)
     return sum;
 }
 
-static const Row *row; /* of the present test */
-static long looked;    /* how often a property said something */
+static const Row *row;   /* row of the running test */
+static long comparisons; /* number of comparisons */
 
-/* What the formula says, and how far an ulp in each coordinate moves it. */
-static Jet oracle(const Case *c, const TermKind *kind, Real alpha, Jet *noise)
+/* Returns energy and derivatives by the oracle; noise: errors by an ulp. */
+static Jet evaluate_oracle(const Case *c, const TermKind *kind, Real alpha,
+                           Jet *noise)
 {
     Random random = {1};
-    Spot spot = {.at = &c->at, .h = c->h, .alpha = alpha, .p = c->p, .q = c->q};
-    Jet part = oracle_energy(&spot, kind), size = spot.size;
+    Probe probe = {
+        .at = &c->at, .h = c->h, .alpha = alpha, .p = c->p, .q = c->q};
+    Jet part = oracle_energy(&probe, kind), size = probe.size;
     *noise = (Jet){1e-12L * size.f, 1e-12L * size.p, 0, 1e-12L * size.pq};
-    spot.jitter = &random;
+    probe.jitter = &random;
     for (int i = 0; i < 8; i++) {
-        Jet other = oracle_energy(&spot, kind);
+        Jet other = oracle_energy(&probe, kind);
         noise->f += 80 * fabsl(other.f - part.f);
         noise->p += 80 * fabsl(other.p - part.p);
         noise->pq += 80 * fabsl(other.pq - part.pq);
@@ -303,9 +304,9 @@ static Jet oracle(const Case *c, const TermKind *kind, Real alpha, Jet *noise)
     return part;
 }
 
-static void check(const char *what, Real got, Real expected, Real tolerance)
+static void compare(const char *what, Real got, Real expected, Real tolerance)
 {
-    looked++;
+    comparisons++;
     if (got == expected) /* both infinite: behind a wall */
         return;
     if (!(fabsl(got - expected) <= tolerance))
@@ -313,8 +314,8 @@ static void check(const char *what, Real got, Real expected, Real tolerance)
     check_near(what, got, expected, tolerance, __FILE__, __LINE__);
 }
 
-/* Two ulps of each product in a.b: more than what an ulp in the coordinates
- * makes of it where a and b are nearly across. */
+/* Returns two ulps of each product in a.b, which exceed the effect of an ulp in
+ * the coordinates where a and b are nearly orthogonal. */
 static Real dot_noise(const Case *c, const double *a, const double *b)
 {
     Real sum = 0;
@@ -323,48 +324,48 @@ static Real dot_noise(const Case *c, const double *a, const double *b)
     return 4 * DBL_EPSILON * sum;
 }
 
-/* The same of p H q. */
-static Real entries_noise(Case *c, const TermKind *kind)
+/* Returns two ulps of each product in p H q. */
+static Real product_noise(Case *c, const TermKind *kind)
 {
     Real sum = 0;
     for (int i = 0; i < c->size; i++) {
         double unit[SIZE] = {0}, column[SIZE] = {0};
         unit[i] = c->q[i];
-        times_hessian(c, kind, PROJECTION_NONE, unit, column);
+        multiply_hessian(c, kind, PROJECTION_NONE, unit, column);
         sum += dot_noise(c, c->p, column);
     }
     return sum;
 }
 
-/* value, gradient, Hessian: those of the formula. */
+/* Checks value, gradient and Hessian against the oracle. */
 static void check_derivatives(Case *c, const TermKind *kind)
 {
     Jet noise;
     double g[SIZE] = {0}, Hq[SIZE] = {0}, Hp[SIZE] = {0};
-    Jet formula = oracle(c, kind, 0, &noise);
+    Jet formula = evaluate_oracle(c, kind, 0, &noise);
     kind->gradient(&c->at, g);
     noise.p += dot_noise(c, g, c->p);
-    noise.pq += entries_noise(c, kind);
-    times_hessian(c, kind, PROJECTION_NONE, c->q, Hq);
-    times_hessian(c, kind, PROJECTION_NONE, c->p, Hp);
+    noise.pq += product_noise(c, kind);
+    multiply_hessian(c, kind, PROJECTION_NONE, c->q, Hq);
+    multiply_hessian(c, kind, PROJECTION_NONE, c->p, Hp);
     if (!(system_term_data(&c->system, &damping) && !kind->is_external))
-        check("value", c->at.weight * kind->value(&c->at), formula.f, noise.f);
-    check("gradient", dot(c, g, c->p), formula.p, noise.p);
-    check("Hessian", dot(c, Hq, c->p), formula.pq, noise.pq);
-    check("symmetry", dot(c, Hp, c->q), formula.pq, noise.pq);
-    for (int f = 0; f < PROJECTION_COUNT; f++) { /* it says what it changes */
+        compare("value", c->at.weight * kind->value(&c->at), formula.f,
+                noise.f);
+    compare("gradient", dot(c, g, c->p), formula.p, noise.p);
+    compare("Hessian", dot(c, Hq, c->p), formula.pq, noise.pq);
+    compare("symmetry", dot(c, Hp, c->q), formula.pq, noise.pq);
+    for (int f = 0; f < PROJECTION_COUNT; f++) { /* the result counts changes */
         double projected[SIZE] = {0};
         bool differs = false;
-        int changed = times_hessian(c, kind, (Projection)f, c->q, projected);
+        int changed = multiply_hessian(c, kind, (Projection)f, c->q, projected);
         for (int i = 0; i < c->size; i++)
             differs = differs || projected[i] != Hq[i];
         CHECK((changed > 0) == differs);
     }
-    for (int i = 0; i < c->size && kind->is_diagonal;
-         i++) /* the same everywhere */
-        check("curvature", fabs(Hq[i]), 0,
-              c->at.weight * kind->curvature_bound(&c->at) * fabs(c->q[i]) *
-                  (1 + 4 * DBL_EPSILON));
+    for (int i = 0; i < c->size && kind->is_diagonal; i++) /* H is constant */
+        compare("curvature", fabs(Hq[i]), 0,
+                c->at.weight * kind->curvature_bound(&c->at) * fabs(c->q[i]) *
+                    (1 + 4 * DBL_EPSILON));
     if (kind->is_external)
         return;
     Real sum[3] = {0}, size = 0;
@@ -374,13 +375,12 @@ static void check_derivatives(Case *c, const TermKind *kind)
         sum[2] += (Real)arm * g[i];
         size += fabs(g[i]) * (1 + fabs(c->x[i]));
     }
-    /* where the tangent is of x_n, they may turn all */
+    /* friction with the tangent at x_n has a torque */
     for (int i = 0; i < (kind == &self_friction_energy ? 2 : 3); i++)
-        check("forces add up to nothing", sum[i], 0, 1e-14L * size);
+        compare("forces add up to nothing", sum[i], 0, 1e-14L * size);
 }
 
-/* E along p: exact where it moves much, right to its last digits where it moves
- * next to nothing. */
+/* Checks E along p: large changes exactly, tiny ones to their last digits. */
 static void check_line(Case *c, const TermKind *kind, Random *random)
 {
     double q[3] = {0}, g[SIZE] = {0}, reach = INFINITY;
@@ -392,8 +392,8 @@ static void check_line(Case *c, const TermKind *kind, Random *random)
     double alpha = random_below(random, 4) == 0
                        ? 1e-9
                        : most * random_logarithmic(random, 1e-9, 1);
-    Jet noise[2], start = oracle(c, kind, 0, &noise[0]);
-    Jet end = oracle(c, kind, alpha, &noise[1]);
+    Jet noise[2], start = evaluate_oracle(c, kind, 0, &noise[0]);
+    Jet end = evaluate_oracle(c, kind, alpha, &noise[1]);
     kind->gradient(&c->at, g);
     if (kind->line_polynomial)
         kind->line_polynomial(&c->at, c->p, q);
@@ -401,18 +401,18 @@ static void check_line(Case *c, const TermKind *kind, Random *random)
     if (kind->line_remainder)
         got += kind->line_remainder(&c->at, c->p, alpha);
     Real expected = end.f - start.f - alpha * start.p;
-    check("change", got, expected,
-          1e-13L * (fabsl(expected) + fabsl(end.f) + alpha * fabsl(start.p)) +
-              noise[0].f + noise[1].f + alpha * noise[0].p);
+    compare("change", got, expected,
+            1e-13L * (fabsl(expected) + fabsl(end.f) + alpha * fabsl(start.p)) +
+                noise[0].f + noise[1].f + alpha * noise[0].p);
     memcpy(c->q, c->p, sizeof c->p);
-    start = oracle(c, kind, 0, &noise[0]);
+    start = evaluate_oracle(c, kind, 0, &noise[0]);
     if (alpha == 1e-9)
-        check("small change", got, alpha * alpha / 2 * start.pq,
-              alpha * alpha * (1e-3L * fabsl(start.pq) + noise[0].pq));
+        compare("small change", got, alpha * alpha / 2 * start.pq,
+                alpha * alpha * (1e-3L * fabsl(start.pq) + noise[0].pq));
 }
 
-/* The smallest part that is left of a gap, or of the area of a triangle. */
-static double part_left(const Case *c, const double *x)
+/* Returns the smallest share that is left of a gap or a triangle's area. */
+static double find_remaining_share(const Case *c, const double *x)
 {
     const Contact *contact = contact_of(&c->system);
     double least = INFINITY;
@@ -425,7 +425,7 @@ static double part_left(const Case *c, const double *x)
                : smallest_cell(&c->system, x) / smallest_cell(&c->system, c->x);
 }
 
-/* Before the limit every place is allowed; there a tenth is left. */
+/* Checks that points before the limit are feasible; a tenth is left there. */
 static void check_max_step(Case *c, const TermKind *kind)
 {
     double x[SIZE],
@@ -441,7 +441,7 @@ static void check_max_step(Case *c, const TermKind *kind)
               exact_crossings(&c->system, x) == 0);
     }
     long crossings = 0;
-    for (int k = 2; k < 8; k++) { /* soon the other tenth is gone, too */
+    for (int k = 2; k < 8; k++) { /* this step uses up the last tenth */
         double behind = (1 + pow(10, -k)) * alpha / 0.9;
         for (int i = 0; i < c->size; i++)
             other.x[i] = c->x[i] + behind * c->p[i];
@@ -449,12 +449,12 @@ static void check_max_step(Case *c, const TermKind *kind)
     }
     if (row->shape == PAIR)
         CHECK(crossings > 0);
-    else if (row->shape != GRID) /* there another corner may be the smallest */
-        check("what the limit leaves", part_left(c, x), 0.1, 1e-8);
+    else if (row->shape != GRID) /* in a grid another corner may be smallest */
+        compare("what the limit leaves", find_remaining_share(c, x), 0.1, 1e-8);
 }
 
-/* The matrix is the products' one, and projected it has the blocks' negative
- * eigenvalues cut or mirrored. */
+/* Checks that the matrix agrees with products, and that projection cuts or
+ * mirrors the negative eigenvalues of its blocks. */
 static void check_projection(Case *c, Random *random)
 {
     IncrementalPotential E = {&c->system, c->at.weight, c->x_n, c->u};
@@ -476,7 +476,7 @@ static void check_projection(Case *c, Random *random)
         Real sum = 0;
         for (int j = 0; j < n; j++)
             sum += (Real)plain[n * i + j] * c->q[j];
-        check("matrix", Hq[i], sum, 2e-14L * scale);
+        compare("matrix", Hq[i], sum, 2e-14L * scale);
     }
     exact_derivatives(&E, c->u, c->x, c->h, 0, g, exact_plain);
     const Projection projections[2] = {PROJECTION_CLAMP, PROJECTION_ABS};
@@ -498,52 +498,51 @@ static void check_projection(Case *c, Random *random)
             more += pq * ((Real)H[i] - plain[i]);
             expected += pq * (exact_H[i] - exact_plain[i]);
         }
-        /* Of a gap of 2 mm an ulp of x is 1e-13, of W'' three times as much. */
+        /* An ulp of x is 1e-13 of a gap of 2 mm, and 3e-13 of its W''. */
         Real relative = 1e-14L * n + (row->shape == PAIR ? 4e-13L : 0);
-        check("projection", more, expected, relative * scale);
+        compare("projection", more, expected, relative * scale);
     }
     sparse_free(&A);
 }
 
-/* Inertia and all terms together: E of a step, its first and second
- * derivatives. */
+/* Checks E of a step, with inertia and all terms, and its derivatives. */
 static void check_whole_step(Case *c, Random *random)
 {
     double u_tilde[SIZE], g[SIZE], Hq[SIZE];
     for (int i = 0; i < c->size; i++)
         u_tilde[i] = random_uniform(random, -1, 1);
     IncrementalPotential E = {&c->system, c->at.weight, c->x_n, u_tilde};
-    Spot spot = {.at = &c->at, .h = c->h, .p = c->p, .q = c->q};
-    Jet noise, part = oracle_step(&spot, u_tilde), size = spot.size;
-    oracle(c, NULL, 0, &noise);
+    Probe probe = {.at = &c->at, .h = c->h, .p = c->p, .q = c->q};
+    Jet noise, part = oracle_step(&probe, u_tilde), size = probe.size;
+    evaluate_oracle(c, NULL, 0, &noise);
     Iterate iterate = {.E = E, .u = c->u, .x = c->x, .g = g, .p = c->p};
     incremental_potential_gradient(&E, c->u, c->x, g);
     incremental_potential_product(&iterate, PROJECTION_NONE, c->q, Hq);
-    check("E's gradient", dot(c, g, c->p), part.p, noise.p + 1e-13L * size.p);
-    check("E's Hessian", dot(c, Hq, c->p), part.pq,
-          noise.pq + dot_noise(c, Hq, c->p) + 1e-13L * size.pq);
+    compare("E's gradient", dot(c, g, c->p), part.p, noise.p + 1e-13L * size.p);
+    compare("E's Hessian", dot(c, Hq, c->p), part.pq,
+            noise.pq + dot_noise(c, Hq, c->p) + 1e-13L * size.pq);
     if (!system_term_data(&c->system, &damping))
-        check("E", incremental_potential_value(&E, c->u, c->x), part.f,
-              noise.f + 1e-13L * size.f);
+        compare("E", incremental_potential_value(&E, c->u, c->x), part.f,
+                noise.f + 1e-13L * size.f);
     const LineEnergy along = incremental_potential_prepare_line(&iterate);
-    spot.alpha = 1e-3L;
-    Real change = oracle_step(&spot, u_tilde).f - part.f;
-    check("E along p", line_energy_difference(&along, 1e-3), change,
-          2 * noise.f + noise.p + 1e-13L * size.f);
+    probe.alpha = 1e-3L;
+    Real change = oracle_step(&probe, u_tilde).f - part.f;
+    compare("E along p", line_energy_difference(&along, 1e-3), change,
+            2 * noise.f + noise.p + 1e-13L * size.f);
 }
 
-static void row_is_right(void **state)
+static void terms_match_the_oracle(void **state)
 {
     row = *state;
-    looked = 0;
+    comparisons = 0;
     Random random = {strlen(row->name) + (uint64_t)row->shape};
-    for (int n = 0; n < tests_many(2000, 150); n++) {
+    for (int n = 0; n < choose_count(2000, 150); n++) {
         static Case c;
         make_case(row, &random, &c);
         for (const TermKind *kind; (kind = eval_point_next_term(&c.at));) {
             if (!kind->value)
                 continue;
-            CHECK(!(kind->value(&c.at) < 0)); /* E is its own size */
+            CHECK(!(kind->value(&c.at) < 0)); /* tolerances are relative to E */
             check_derivatives(&c, kind);
             check_max_step(&c, kind);
             check_line(&c, kind, &random);
@@ -552,10 +551,10 @@ static void row_is_right(void **state)
         check_whole_step(&c, &random);
         system_free(&c.system);
     }
-    CHECK(looked > 1000);
+    CHECK(comparisons > 1000);
 }
 
-/* -M^-1 grad P, by each node's own mass; 1e-12: rounding. */
+/* Checks a = -M^-1 grad P at each node; 1e-12: rounding. */
 static void accelerations_are_forces_over_masses(void **unused)
 {
     (void)unused;
@@ -568,9 +567,9 @@ static void accelerations_are_forces_over_masses(void **unused)
     for (int i = 0; i < 2 * system.nodes; i++) {
         double one[MAX_SIZE] = {0};
         one[i] = 1;
-        Spot spot = {.at = &at, .p = one};
-        Real force = -oracle_energy(&spot, NULL).p;
-        CHECK_NEAR(a[i] * system.m[i / 2], force, 1e-12L * spot.size.p);
+        Probe probe = {.at = &at, .p = one};
+        Real force = -oracle_energy(&probe, NULL).p;
+        CHECK_NEAR(a[i] * system.m[i / 2], force, 1e-12L * probe.size.p);
     }
     system_free(&system);
 }
@@ -589,8 +588,8 @@ int main(int argc, char **argv)
                                  .far = 1e3,
                                  .option = option};
     for (int i = 0; i < count; i++)
-        tests[1 + i] =
-            (struct CMUnitTest){all[i].name, row_is_right, NULL, NULL, &all[i]};
+        tests[1 + i] = (struct CMUnitTest){all[i].name, terms_match_the_oracle,
+                                           NULL, NULL, &all[i]};
     if (argc > 1)
         cmocka_set_test_filter(argv[1]);
     return _cmocka_run_group_tests("terms", tests, 1 + (size_t)count, NULL,

@@ -1,14 +1,13 @@
-/* The loops of multigrid and of CHOLMOD's panels, compiled for one and for two
- * numbers at a time and linked into this suite: their bits are those of the
- * program, which takes as many numbers as the processor has.  The program is
- * named by ELASTO, or build/elasto. */
+/* test_widths.c - loops of multigrid and of CHOLMOD's panels, compiled for one
+ * and two numbers at a time, give the bits of the program (ELASTO, or
+ * build/elasto), which uses the widest registers of the processor. */
 #include "test.h"
 
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-/* What the program prints as its state after so many steps. */
+/* Returns the hash that the program prints after some steps. */
 static uint64_t program_hash(const char *line, int steps)
 {
     const char *program = getenv("ELASTO");

@@ -16,13 +16,13 @@ enum { MAX_RUNS = 1024 };
 static struct {
     Simulation *run[MAX_RUNS];
     int count;
-    char line[400]; /* of the last that began */
-} begun;
+    char line[400]; /* command line of the newest simulation */
+} tested;
 
 static void end_test(const char *file, int line)
 {
-    if (begun.count > 0)
-        print_error("in: %s\n", begun.line);
+    if (tested.count > 0)
+        print_error("in: %s\n", tested.line);
     _fail(file, line);
 }
 
@@ -83,7 +83,7 @@ bool tests_are_long(void)
     return set && *set;
 }
 
-int tests_many(int all, int some)
+int choose_count(int all, int some)
 {
 #ifdef __SANITIZE_ADDRESS__
     all /= 5;
@@ -91,7 +91,7 @@ int tests_many(int all, int some)
     return tests_are_long() ? all : some;
 }
 
-/* SplitMix64 (Steele, Lea, Flood 2014). */
+/* Returns 64 random bits: SplitMix64 (Steele, Lea, Flood 2014). */
 static uint64_t random_bits(Random *random)
 {
     uint64_t z = random->state += 0x9e3779b97f4a7c15u;
@@ -196,15 +196,15 @@ Simulation *simulate_watched(NewtonObserver observer, void *user,
 {
     va_list words;
     Simulation *run = calloc(1, sizeof *run);
-    CHECK(run && begun.count < MAX_RUNS);
+    CHECK(run && tested.count < MAX_RUNS);
     va_start(words, line);
-    vsnprintf(begun.line, sizeof begun.line, line, words);
+    vsnprintf(tested.line, sizeof tested.line, line, words);
     va_end(words);
-    simulation_from_line(begun.line, observer, user, run);
-    return begun.run[begun.count++] = run;
+    simulation_from_line(tested.line, observer, user, run);
+    return tested.run[tested.count++] = run;
 }
 
-/* Takes the control, which is dropped, too. */
+/* Applies and releases a control. */
 static Status apply_control(Simulation *simulation, Control *control)
 {
     Status status = control_apply(simulation, control);
@@ -242,11 +242,11 @@ Simulation *make_steps(Simulation *simulation, int count)
     return simulation;
 }
 
-void free_all_begun(void)
+void free_simulations(void)
 {
-    while (begun.count > 0) {
-        simulation_free(begun.run[--begun.count]);
-        free(begun.run[begun.count]);
+    while (tested.count > 0) {
+        simulation_free(tested.run[--tested.count]);
+        free(tested.run[tested.count]);
     }
 }
 

@@ -7,10 +7,9 @@ static void spring_hess(const Solid *solid, const Vec2 *x, double scale,
         Spring e = solid->e[s];
         Vec2 d = sub(x[e.j], x[e.i]);
         double stretch = 2 * e.k / e.l2 * (dot(d, d) - e.l2);
-        double D[2][2] = {{4 * e.k / e.l2 * d.x * d.x + stretch,
-                           4 * e.k / e.l2 * d.x * d.y},
-                          {4 * e.k / e.l2 * d.y * d.x,
-                           4 * e.k / e.l2 * d.y * d.y + stretch}};
+        double D[2][2] = {
+            {4 * e.k / e.l2 * d.x * d.x + stretch, 4 * e.k / e.l2 * d.x * d.y},
+            {4 * e.k / e.l2 * d.y * d.x, 4 * e.k / e.l2 * d.y * d.y + stretch}};
         double block[4][4] = {{D[0][0], D[0][1], -D[0][0], -D[0][1]},
                               {D[1][0], D[1][1], -D[1][0], -D[1][1]},
                               {-D[0][0], -D[0][1], D[0][0], D[0][1]},
