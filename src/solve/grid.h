@@ -36,11 +36,11 @@ enum { BAND_ROWS = 8 };
 
 /* Layout of a plane: where the number of each node is stored. */
 typedef struct RowLayout {
-    int nodes;    /* number of nodes in a row, and of rows: n + 1 */
-    int count[2]; /* number of even and of odd columns */
+    int nodes;      /* number of nodes in a row, and of rows: n + 1 */
+    int count[2];   /* number of even and of odd columns */
     int odd_offset; /* distance from a row's even columns to its odd ones */
-    int pitch;    /* distance from one row to the next */
-    int plane;    /* length of a plane, with the ghosts */
+    int pitch;      /* distance from one row to the next */
+    int plane;      /* length of a plane, with the ghosts */
 } RowLayout;
 
 RowLayout lay_out_rows(int nodes);
@@ -113,10 +113,8 @@ void grid_write_state(const Grid *grid, Iterate *at);
 double grid_gradient(const Grid *grid, double *g);
 
 /* Returns |r|_(M^-1)^2 of the linear residual r = -g - H p, with H clamped to
- * be positive semi-definite (psd.h).
- *   largest  out, max over nodes of |p_x| + |p_y| */
-double grid_linear_residual(const Grid *grid, const double *g, const double *p,
-                            double *largest);
+ * be positive semi-definite (psd.h). */
+double grid_linear_residual(const Grid *grid, const double *g, const double *p);
 
 /* Writes the quartic E(x + a p) - E(x) = q[0] a + q[1] a^2 + ... + q[3] a^4. */
 void grid_line_polynomial(const Grid *grid, const double *p, double quartic[4]);

@@ -46,9 +46,9 @@ FAST double grid_gradient(const Grid *grid, double *g)
     Doubles uy = DOUBLES(py, q) - DOUBLES(py, q + (to))
 
 FAST double grid_linear_residual(const Grid *grid, const double *g,
-                                 const double *p, double *largest)
+                                 const double *p)
 {
-    double total = 0, most[LANES] = {0};
+    double total = 0;
     BANDS
     {
         const double *const px = p, *const py = px + plane;
@@ -76,16 +76,8 @@ FAST double grid_linear_residual(const Grid *grid, const double *g,
             DOUBLES(sum, e) += DOUBLES(local.inverse_m, q + at.mass_shift) *
                                (fx * fx + fy * fy);
         }
-        EACH_RUN_OF (local, band)
-            EACH_OF (NEXT(at, LANES)) {
-                double size = fabs(px[at.first + e]) + fabs(py[at.first + e]);
-                most[e] = size > most[e] ? size : most[e];
-            }
         total += sum_lanes(sum);
     }
-    *largest = 0;
-    for (int e = 0; e < LANES; e++)
-        *largest = fmax(*largest, most[e]);
     return total;
 }
 

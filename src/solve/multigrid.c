@@ -1,6 +1,7 @@
 /* multigrid.c - the phases of Newton's loop on a square grid of springs. */
 #include "solve/multigrid.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -19,6 +20,11 @@ static const double NEARBY = 0.05;
  * lowers E by more than PACE times the last direction's decrease, divided by
  * the number of tiles. */
 static const double STALLS = 0.3, PACE = 0.01;
+
+/* If the first sweep of all tiles in a step lowers E by less than USELESS times
+ * the last direction's decrease, the tiles rest for REST iterations. */
+static const double USELESS = 0.005;
+enum { REST = 5 };
 
 /* Number of iterations after which Newton takes over; most steps need ten. */
 enum { MAX_MG_ITERATIONS = 200 };
@@ -46,6 +52,7 @@ struct Multigrid {
     Quartic line_E;          /* E(x + alpha p) - E(x), J s^2 */
     unsigned version;        /* System.version that the grid was made for */
     double weight;           /* s^2, weight of P that the grid was made for */
+    int tiles_rest_until;    /* iteration before which tiles do not relax */
     bool has_relaxed;        /* tiles relaxed in the last update */
     bool change_was_hidden;  /* rounding hid the last iteration's change of E,
                                 and p_bound did not fall */
@@ -145,6 +152,7 @@ static Status multigrid_read_problem(Newton *newton)
     Multigrid *mg = newton->multigrid;
     mg->has_relaxed = mg->change_was_hidden = mg->cycle.is_clamped = false;
     mg->largest_change = mg->p_size = 0;
+    mg->tiles_rest_until = 0;
     incremental_potential_absorb_pulls(at, m, u_tilde);
     if (mg->weight != at->E.weight || mg->version != system->version) {
         grid_read_system(&mg->grid, at, m);
@@ -180,9 +188,9 @@ static void multigrid_compute_direction(Newton *newton)
     double largest;
     if (v_cycle_solve(&mg->cycle, mg->g, mg->gradient_norm2, longest, mg->p,
                       &largest)) {
-        double square = grid_linear_residual(&mg->grid, mg->g, mg->p, &largest);
-        newton->passes_test =
-            p_passes_test(&mg->grid, largest, square, longest);
+        double square = grid_linear_residual(&mg->grid, mg->g, mg->p);
+        newton->passes_test = p_passes_test(
+            &mg->grid, largest * (1 + FLT_EPSILON), square, longest);
     }
     newton->record.residual = largest / h;
     newton->counters.cycles = mg->cycle.cycles;
@@ -229,29 +237,38 @@ static void multigrid_compute_line_polynomial(Multigrid *mg)
 }
 
 /* Makes p conjugate to the direction before, unless tiles have relaxed since.
- * Finds the step length at which E, a quartic along p, is lowest. */
+ * Finds the alpha at which E, a quartic along p, is lowest; 0 if E rises.
+ *   last_size, last_slope  p_size and grad E . p, grid units, of the direction
+ *                          before */
+static void multigrid_search_line(Newton *newton, double last_size,
+                                  double last_slope)
+{
+    Multigrid *mg = newton->multigrid;
+    NewtonRecord *record = &newton->record;
+    double beta = 0;
+    if (record->iteration > 0 && !mg->has_relaxed)
+        beta = grid_conjugate_p(&mg->grid, mg->g, mg->last_g, mg->last_p,
+                                last_slope, mg->p);
+    mg->p_size = record->residual * newton->settings.h + beta * last_size;
+    multigrid_compute_line_polynomial(mg);
+    record->slope = mg->line_E.q[0];
+    record->alpha =
+        record->slope <= 0 ? minimise_quartic(&mg->line_E, &record->trials) : 0;
+}
+
+/* Finds the step length.  If E does not fall along p, the exact Hessian is not
+ * positive definite, and the clamped Hessian gives another p. */
 static Status multigrid_find_step_length(Newton *newton)
 {
     Multigrid *mg = newton->multigrid;
     NewtonRecord *record = &newton->record;
     const double last_size = mg->p_size;
     const double last_slope = mg->line_E.q[0] * mg->grid.energy_unit;
-    for (bool again = true; again;) {
-        double beta = 0;
-        if (record->iteration > 0 && !mg->has_relaxed)
-            beta = grid_conjugate_p(&mg->grid, mg->g, mg->last_g, mg->last_p,
-                                    last_slope, mg->p);
-        mg->p_size = record->residual * newton->settings.h + beta * last_size;
-        multigrid_compute_line_polynomial(mg);
-        record->slope = mg->line_E.q[0];
-        record->alpha = record->slope <= 0
-                            ? minimise_quartic(&mg->line_E, &record->trials)
-                            : 0;
-        again = !(record->alpha > 0) && !mg->cycle.is_clamped;
-        if (again) { /* H is not positive definite */
-            multigrid_clamp_hessian(mg);
-            multigrid_compute_direction(newton);
-        }
+    multigrid_search_line(newton, last_size, last_slope);
+    if (!(record->alpha > 0) && !mg->cycle.is_clamped) {
+        multigrid_clamp_hessian(mg);
+        multigrid_compute_direction(newton);
+        multigrid_search_line(newton, last_size, last_slope);
     }
     if (!isfinite(record->slope))
         return STATUS_NOT_FINITE;
@@ -276,10 +293,17 @@ static Status multigrid_update_iterate(Newton *newton)
     newton->counters.updates++;
     if (newton->passes_test)
         return STATUS_OK;
-    mg->has_relaxed = mg->p_bound > STALLS * mg->last_p_bound;
-    if (mg->has_relaxed) {
+    const bool is_poor = mg->p_bound > STALLS * mg->last_p_bound;
+    if (is_poor)
         multigrid_clamp_hessian(mg);
-        tiles_relax(&mg->tiles, PACE * record->change * unit / tiles, p);
+    mg->has_relaxed = is_poor && record->iteration >= mg->tiles_rest_until &&
+                      record->residual > SMALL_P * newton->tolerance;
+    if (mg->has_relaxed) {
+        const double change = record->change * unit;
+        double first = tiles_relax(&mg->tiles, PACE * change / tiles, p);
+        if (mg->tiles_rest_until == 0)
+            mg->tiles_rest_until =
+                record->iteration + (first > USELESS * change ? REST : 1);
         multigrid_compute_line_polynomial(mg);
         double alpha = minimise_quartic(&mg->line_E, &(int){0});
         if (alpha > 0) { /* not if numbers overflowed in single precision */

@@ -18,9 +18,14 @@ static const float OVER_RELAXED = 1.8f, SHORTER = 0.25f;
 static const float DEFINITE = 0.0025f;
 
 /* A round sweeps the tiles with at least SHARE of the largest activity.  A
- * sweep adds SPREAD of its change of E to the activity of the tiles around.
- * Rounds end when no activity is STANDS_OUT times the mean. */
-static const double SHARE = 0.5, SPREAD = 0.1, STANDS_OUT = 2;
+ * sweep adds SPREAD of its change of E to the activity of the tiles around. */
+static const double SHARE = 0.5, SPREAD = 0.1;
+
+/* A direction of the whole square takes the time of DIRECTION_SWEEPS sweeps of
+ * all tiles.  Rounds end when a sweep lowers E by less than WORTH times the
+ * mean decrease in a sweep's time, from the relaxation's start to the end of
+ * the next direction. */
+static const double DIRECTION_SWEEPS = 7, WORTH = 0.25;
 
 /* Limit of the rounds, which rounding could keep from ending. */
 enum { MAX_TILE_ROUNDS = 10000 };
@@ -29,7 +34,7 @@ void tiles_lay_out(const Grid *grid, Memory *memory, Tiles *tiles)
 {
     int high = grid->segments / TILE_ROWS + 1;
     int wide = (grid->rows.count[0] + LANES - 1) / LANES;
-    size_t count = (size_t)high * (size_t)wide;
+    size_t count = (size_t)(high * wide + LANES - 1) / LANES * LANES;
     *tiles = (Tiles){.grid = grid, .rows = high, .columns = wide};
     tiles->activity =
         memory_take_piece(memory, count * sizeof *tiles->activity);
@@ -243,7 +248,21 @@ INLINE void begin_relaxation(const Tiles *tiles, double *g)
             start_g[c * plane + e] *= grid->float_m[e];
 }
 
-FAST void tiles_relax(Tiles *tiles, double pace, double *p)
+/* Returns the largest activity of all tiles, which is the lowest number. */
+INLINE double find_largest_activity(const Tiles *tiles)
+{
+    double low[LANES] = {0}, largest = 0;
+    for (int t = 0; t < tiles->rows * tiles->columns; t += LANES)
+        EACH_OF (LANES) { /* zeros follow the last tile */
+            double activity = tiles->activity[t + e];
+            low[e] = activity < low[e] ? activity : low[e];
+        }
+    for (int e = 0; e < LANES; e++)
+        largest = low[e] < largest ? low[e] : largest;
+    return largest;
+}
+
+FAST double tiles_relax(Tiles *tiles, double pace, double *p)
 {
     int count = tiles->rows * tiles->columns, visits;
     double rounding = tiles->grid->segments * FLT_EPSILON; /* error of x */
@@ -252,21 +271,19 @@ FAST void tiles_relax(Tiles *tiles, double pace, double *p)
     begin_relaxation(tiles, p);
     for (int t = 0; t < count; t++)
         tiles->activity[t] = 0;
-    double lowered = sweep_tiles(tiles, 0, &visits);
+    const double first_change = sweep_tiles(tiles, 0, &visits);
+    double change = first_change, sweeps = (1 + DIRECTION_SWEEPS) * count;
     for (int t = 0; t < count; t++)
         tiles->activity[t] = tiles->last_change[t];
-    for (int round = 0; round < MAX_TILE_ROUNDS; round++) {
-        double sum = 0, most = 0;
-        for (int t = 0; t < count; t++) {
-            sum += tiles->activity[t];
-            most = tiles->activity[t] < most ? tiles->activity[t] : most;
-        }
-        if (!(most < 0 && most <= STANDS_OUT * sum / count))
-            break;
-        lowered = sweep_tiles(tiles, SHARE * most, &visits);
-        if (!(lowered < pace * visits))
-            break;
+    bool pays = change < 0;
+    for (int round = 0; round < MAX_TILE_ROUNDS && pays; round++) {
+        double least = SHARE * find_largest_activity(tiles);
+        double lowered = sweep_tiles(tiles, least, &visits);
+        change += lowered;
+        sweeps += visits;
+        pays = lowered < fmin(pace, WORTH * change / sweeps) * visits;
     }
     EACH_OF (2 * tiles->grid->rows.plane)
         p[e] = (double)tiles->u[e];
+    return first_change;
 }

@@ -21,24 +21,25 @@
 
 typedef struct Tiles {
     const Grid *grid;
-    int rows, columns; /* number of tiles in a column and in a row */
-    double *activity;  /* [tiles] change of E that a sweep may bring, < 0 */
+    int rows, columns;   /* number of tiles in a column and in a row */
+    double *activity;    /* [tiles] change of E that a sweep may bring, < 0 */
     double *last_change; /* [tiles] change of E by the tile's last sweep */
     int *active;         /* [tiles] numbers of the tiles that are swept next */
     bool has_tiny_moves; /* nodes move by less than the rounding of
                             Grid.float_x, which stays as at the start */
-    float *u;          /* [2 planes] displacements since the start */
-    float *start_g;    /* [2 planes] grad E at the start if has_tiny_moves,
-                          otherwise only the gradient of the masses' energy */
-    long sweeps;       /* sweeps of tiles since the object was made */
+    float *u;            /* [2 planes] displacements since the start */
+    float *start_g;      /* [2 planes] grad E at the start if has_tiny_moves,
+                            otherwise only the gradient of the masses' energy */
+    long sweeps;         /* sweeps of tiles since the object was made */
 } Tiles;
 
 void tiles_lay_out(const Grid *grid, Memory *memory, Tiles *tiles);
 
 /* Sweeps all tiles once, then in rounds those with the largest Tiles.activity,
- * until none stands out from the mean, or the sweeps of a round lower E on
- * average by less than the pace.
+ * until a sweep lowers E by less than the pace, or by little in comparison with
+ * the sweeps before.
  *   pace  grid units, < 0, change of E for which a tile's sweep is worth its
  *         time
- *   p     [2 planes] out, displacements of the nodes */
-void tiles_relax(Tiles *tiles, double pace, double *p);
+ *   p     [2 planes] out, displacements of the nodes
+ * Returns the change of E, grid units, by the first sweep of all tiles. */
+double tiles_relax(Tiles *tiles, double pace, double *p);

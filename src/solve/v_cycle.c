@@ -380,22 +380,21 @@ FAST static void multiply_by_level_matrix(const Level *level, double *sums)
 
 /* Makes a step of conjugate gradients, with the V-cycle x of b and w = A x:
  * d = x + beta d, A d = w + beta A d, p += alpha d, b -= alpha A d.  Returns
- * |b|_(M^-1)^2.
- *   largest  out, max over nodes of |p_x| + |p_y| */
+ * |b|_(M^-1)^2. */
 FAST static double advance_conjugate_gradients(const VCycle *of, float alpha,
-                                               float beta, double *largest)
+                                               float beta)
 {
     const VCycle cycle = *of;
     const Grid grid = *cycle.grid;
     const Level level = cycle.level[0];
     const ptrdiff_t plane = grid.rows.plane;
     double total = 0;
-    float most[LANES] = {0}, square[LANES];
+    float square[LANES];
     for (int band = 0; band < grid.bands; band++) {
         double sum[LANES] = {0};
         EACH_RUN_OF (grid, band) {
             EACH_OF (NEXT(at, LANES)) {
-                float size = 0, of_b = 0;
+                float of_b = 0;
                 for (ptrdiff_t c = 0, q = at.first + e; c < 2;
                      c++, q += plane) {
                     float d = level.x[q] + beta * cycle.d[q];
@@ -406,10 +405,8 @@ FAST static double advance_conjugate_gradients(const VCycle *of, float alpha,
                     cycle.Ad[q] = Ad;
                     cycle.p[q] = p;
                     level.b[q] = b;
-                    size += fabsf(p);
                     of_b += b * b;
                 }
-                most[e] = size > most[e] ? size : most[e];
                 square[e] = of_b;
             }
             EACH_OF (NEXT(at, LANES))
@@ -418,9 +415,6 @@ FAST static double advance_conjugate_gradients(const VCycle *of, float alpha,
         }
         total += sum_lanes(sum);
     }
-    *largest = 0;
-    for (int e = 0; e < LANES; e++)
-        *largest = fmax(*largest, most[e]);
     return total;
 }
 
@@ -434,20 +428,26 @@ bool p_passes_test(const Grid *grid, double largest, double square,
 enum { MAX_CYCLES = 60 };
 
 /* Conjugate gradients end when p would pass the test even with MARGIN times the
- * bound of its error.  If p is longer than HOPEFUL times the longest p that
- * passes, a further iteration costs no more than a p that is exact enough for
- * the test, and leaves a smaller error; then a linear residual of LOOSE times
- * the gradient is enough, in the norm of M^-1.  Else the limit is LEAST, which
- * is all that single precision reaches. */
-static const double MARGIN = 1.3, HOPEFUL = 0.2, LOOSE = 0.3, LEAST = 1e-4;
+ * bound of its error.  If p is not small (SMALL_P), a further iteration costs
+ * no more than a p that is exact enough for the test, and leaves a smaller
+ * error; then a linear residual of LOOSE times the gradient is enough, in the
+ * norm of M^-1.  Else the limit is LEAST, which is all that single precision
+ * reaches. */
+static const double MARGIN = 1.3, LOOSE = 0.5, LEAST = 1e-4;
+
+/* A small p whose bound (multigrid.h) is more than FAR times too large passes
+ * the test sooner by conjugate gradients than by further iterations, so the
+ * Hessian is clamped.  The bound is as large as that where springs are stiff in
+ * comparison with the masses. */
+static const double FAR = 1e4;
 
 /* Returns the largest |x_x| + |x_y| of a node. */
-FAST static double find_largest_x(const Level *level)
+FAST static double find_largest(const float *x, int plane)
 {
-    const float *const x = level->x, *const y = x + level->rows.plane;
+    const float *const y = x + plane;
     float most[LANES] = {0};
     double largest = 0;
-    for (int q = 0; q < level->rows.plane; q += LANES)
+    for (int q = 0; q < plane; q += LANES)
         EACH_OF (LANES) {
             float size = fabsf(x[q + e]) + fabsf(y[q + e]);
             most[e] = size > most[e] ? size : most[e];
@@ -461,7 +461,7 @@ FAST bool v_cycle_solve(VCycle *cycle, const double *g, double square,
                         double longest, double *p, double *largest)
 {
     const Grid *grid = cycle->grid;
-    const int numbers = 2 * grid->rows.plane;
+    const int plane = grid->rows.plane, numbers = 2 * plane;
     const double unit = power_of_two_scale(sqrt(square * grid->min_mass));
     const float *found = cycle->level->x;
     double last = 0, alpha = 1;
@@ -475,9 +475,15 @@ FAST bool v_cycle_solve(VCycle *cycle, const double *g, double square,
         cycle->is_set_up = true;
         cycle->cycles++;
         if (i == 0) {
-            *largest = find_largest_x(cycle->level) / unit;
-            if (!cycle->is_clamped)
-                break;
+            *largest = find_largest(found, plane) / unit;
+            if (!cycle->is_clamped) {
+                double bound = sqrt(2 / grid->min_mass * square);
+                if (*largest > SMALL_P * longest || bound <= FAR * longest)
+                    break;
+                cycle->is_clamped = true;
+                cycle->is_set_up = false;
+                return v_cycle_solve(cycle, g, square, longest, p, largest);
+            }
             found = cycle->p;
             for (int k = 0; k < 3; k++)
                 memset((float *[]){cycle->p, cycle->d, cycle->Ad}[k], 0,
@@ -490,13 +496,13 @@ FAST bool v_cycle_solve(VCycle *cycle, const double *g, double square,
             break;
         last = xb;
         alpha = xb / bend;
-        double rest = advance_conjugate_gradients(cycle, (float)alpha,
-                                                  (float)beta, largest);
+        double rest =
+            advance_conjugate_gradients(cycle, (float)alpha, (float)beta);
         double share = sqrt(rest / square) / unit;
-        *largest /= unit;
+        *largest = find_largest(found, plane) / unit;
         passes = p_passes_test(
             grid, *largest, MARGIN * MARGIN * share * share * square, longest);
-        if (share <= (*largest > HOPEFUL * longest ? LOOSE : LEAST))
+        if (share <= (*largest > SMALL_P * longest ? LOOSE : LEAST))
             break;
     }
     const double inverse_unit = 1 / unit;

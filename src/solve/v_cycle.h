@@ -1,7 +1,7 @@
 /* v_cycle.h - p = -H^-1 g without a factor: a multigrid V-cycle on the Hessian
- * H in single precision.  One cycle on the exact H finds p until the caller
- * clamps H.  From then on cycles precondition conjugate gradients, which tell
- * how exact p is.
+ * H in single precision.  One cycle on the exact H finds p until H is clamped:
+ * by the caller, or where the bound of p is far above a small p.  From then on
+ * cycles precondition conjugate gradients, which tell how exact p is.
  *
  * A level has a tensor, K = w 2k/l2 (iso I + along d d^T), for each spring and
  * a mass for each node; H x at a node is m x + sum K (x - x').  A coarser level
@@ -23,6 +23,10 @@
 
 enum { MAX_LEVELS = 24 };
 
+/* p is small if |p_x| + |p_y| is at most this part of the longest that passes
+ * the test. */
+static const double SMALL_P = 0.2;
+
 typedef struct Level {
     RowLayout rows;
     struct Level *coarse; /* next coarser level; NULL: there is none */
@@ -39,7 +43,7 @@ typedef struct VCycle {
     const Grid *grid;
     Level level[MAX_LEVELS]; /* the finest level first */
     float *p, *d, *Ad;       /* [2 planes] p, d, A d of conjugate gradients */
-    bool is_clamped;   /* negative eigenvalues of the springs become 0 */
+    bool is_clamped;         /* negative eigenvalues of the springs become 0 */
     bool is_set_up; /* has the tensors at grid->x; set to false when x moves */
     long cycles;    /* number of V-cycles so far */
 } VCycle;
