@@ -1,8 +1,8 @@
-/* build/stress: every named case, many random scenes and the envelope, within
- * minutes; ends with a table and the number of promises broken.
+/* stress.c - build/stress runs the named cases, many random scenes and the
+ * envelope, and prints a table and the number of broken promises.
  *
- *   --seed S     other random scenes (1)
- *   --line LINE  only this one, ten steps
+ *   --seed S     seed of the random scenes (1)
+ *   --line LINE  ten steps of this command line alone
  *   --quick      a tenth of the random scenes, no slow case, no envelope */
 #include "stress.h"
 

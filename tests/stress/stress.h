@@ -10,7 +10,7 @@
 
 /* ---- exact formulas (stress_exact.c) ----------------------------------- */
 
-/* An incremental potential; s for which walls have moved in this step */
+/* E of a step, and the time for which walls have moved in the step, s */
 typedef struct StepPotential {
     IncrementalPotential E;
     double moved;
@@ -27,7 +27,7 @@ long double wide_noise(const StepPotential *potential, const double *u,
 typedef enum LargeVerdict {
     LARGE_PASSED,
     LARGE_FAILED,
-    LARGE_UNDECIDED /* too close to the tolerance, or too slow */
+    LARGE_UNDECIDED /* near the tolerance, or too many iterations */
 } LargeVerdict;
 
 /* Tests by Algorithm 3, with clamped blocks and without a matrix, whether the

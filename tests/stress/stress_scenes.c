@@ -32,7 +32,7 @@ bool stress_rows(const char *name, bool (*take)(void *user, char *row),
 /* Parts of random lines: the rows below "= draw" of stress.txt */
 static struct LinePart {
     char kinds[16]; /* scenes that may have the part: letters of stress.h */
-    int one_in;     /* average number of scenes for each one with the part */
+    int one_in;     /* the part is in one of this many scenes */
     char format[STRESS_LINE_SIZE];
 } line_parts[96];
 static int line_part_count;

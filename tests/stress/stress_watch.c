@@ -76,7 +76,7 @@ static StepPotential step_potential(const Watch *watch)
 }
 
 /* Tests the residual of a large square of springs, whose blocks are clamped. */
-static void judge_large(Watch *watch, const double *u, double tolerance)
+static void judge_large_square(Watch *watch, const double *u, double tolerance)
 {
     IncrementalPotential E = watch_potential(watch);
     const NewtonSettings *settings = &watch->run->newton->settings;
@@ -128,7 +128,7 @@ static bool residual_holds(const Watch *watch, const double *u, double limit,
 /* Tests the residual with all terms; the iterate alone comes from the program.
  * A residual that 19 digits refuse is tested with 34, since rounding can only
  * raise one so small. Noise above the tolerance is allowed and counted. */
-static void judge_terms(Watch *watch, const double *u, double limit)
+static void judge_all_terms(Watch *watch, const double *u, double limit)
 {
     double noise, residual;
     watch->tally->judged++;
@@ -150,9 +150,9 @@ static void judge_terms(Watch *watch, const double *u, double limit)
 static void judge_convergence(Watch *watch, const double *u, double limit)
 {
     if (watch->residuals && watch_size(watch) <= LARGEST_SOLVED)
-        judge_terms(watch, u, limit);
+        judge_all_terms(watch, u, limit);
     else if (watch->residuals && watch->springs)
-        judge_large(watch, u, limit);
+        judge_large_square(watch, u, limit);
 }
 
 /* Tests the end of a minimisation: the last direction, which was used, passes
@@ -176,10 +176,10 @@ static void judge_step_end(Watch *watch)
                           fmin(limit, 1e-6 * sqrt(l2) / newton->settings.h));
 }
 
-/* Returns true if E rises between two iterates by more than rounding explains,
- * with 34 digits if 19 are too few. */
-static bool rises(Watch *watch, const double *from, const double *to, Real rise,
-                  Real scale)
+/* Returns true if E energy_rises between two iterates by more than rounding
+ * explains, with 34 digits if 19 are too few. */
+static bool energy_rises(Watch *watch, const double *from, const double *to,
+                         Real rise, Real scale)
 {
     StepPotential potential = step_potential(watch);
     if (rise <= 0)
@@ -223,7 +223,8 @@ static void watch_descent(Watch *watch, const double *u, const char *where)
     flat = flat && (watch->flat || was_flat || !isfinite(watch->energy));
     if (!isfinite(energy) && !flat)
         mark_wrong(watch, "E is %Lg %s", energy, where);
-    if (!flat && rises(watch, watch->u, u, energy - watch->energy, scale))
+    if (!flat &&
+        energy_rises(watch, watch->u, u, energy - watch->energy, scale))
         mark_wrong(watch, "E rises from %.17Lg to %.17Lg %s", watch->energy,
                    energy, where);
     watch->energy = energy;

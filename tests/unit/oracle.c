@@ -78,7 +78,7 @@ Real exact_strain(const System *system, const double *x, int s)
 
 /* Returns the random or chosen error of a flow limit. A spring that has flowed
  * begins the next step at its limit, and rounding decides whether it flows. */
-static Real shift_flow_limit(Probe *probe, Real E)
+static Real find_flow_limit_error(Probe *probe, Real E)
 {
     Real side =
         probe->jitter ? random_uniform(probe->jitter, -1, 1) : probe->side;
@@ -109,7 +109,7 @@ static void add_spring(Probe *probe, Jet *sum, const void *data, int s)
         Real yield = flow->yield_strain + flow->hardening * (Real)kappa;
         held = fminl(held, yield);
         over = fabsl(e) - held;
-        flows = fabsl(e) - yield > shift_flow_limit(probe, E.f);
+        flows = fabsl(e) - yield > find_flow_limit_error(probe, E.f);
     }
     V = jet_chain(E, held * (held / 2 + over) + hard * over * over / 2,
                   copysignl(held + hard * over, e), flows ? hard : 1);
@@ -214,9 +214,9 @@ static void add_wall_contact(Probe *probe, Jet *sum, const void *data, int i)
                          : add_wall_friction)(probe, sum, contact, node, k);
 }
 
-/* Boundary of the bodies, like boundary.h. `whole` and `sides` belong to the
- * springs of each node, which are its left or lower one, by direction: up,
- * right, and the diagonals up right and down right. */
+/* Boundary of the bodies, as in boundary.h. Index of `whole` and `sides`: the
+ * left or lower node of a spring, and its direction: up, right, up right, down
+ * right */
 typedef struct Outline {
     int edges, points, *point, (*edge)[2]; /* nodes of the boundary */
     unsigned char (*whole)[4]; /* [n] whether a spring is unbroken */
@@ -227,7 +227,7 @@ typedef struct Outline {
 
 enum { IN_A_TRIANGLE = 1, ON_AN_EDGE = 2 };
 
-static void outline_triangle(Outline *outline, int a, int high, int corner)
+static void add_outline_triangle(Outline *outline, int a, int high, int corner)
 {
     const int node[4] = {a, a + high, a + high + 1, a + 1};
     unsigned char(*sides)[4] = outline->sides;
@@ -238,7 +238,7 @@ static void outline_triangle(Outline *outline, int a, int high, int corner)
         outline->role[node[k]] |= k != (corner + 2) % 4 ? IN_A_TRIANGLE : 0;
 }
 
-static void outline_cell(Outline *outline, int a, int high)
+static void add_outline_cell(Outline *outline, int a, int high)
 {
     bool solid[4];
     for (int corner = 0; corner < 4; corner++)
@@ -249,7 +249,7 @@ static void outline_cell(Outline *outline, int a, int high)
     bool both = solid[0] && solid[2], others = solid[1] && solid[3];
     for (int corner = 0; corner < 4; corner++)
         if (solid[corner] && corner % 2 == (others && !both))
-            outline_triangle(outline, a, high, corner);
+            add_outline_triangle(outline, a, high, corner);
 }
 
 /* Returns the boundary, which is empty without self-contact. */
@@ -279,7 +279,7 @@ static Outline find_outline(const System *system)
     }
     for (int i = 0; i < n; i++)
         if (i % high < high - 1 && i / high % wide < wide - 1)
-            outline_cell(&it, i, high);
+            add_outline_cell(&it, i, high);
     for (int i = 0; i < 4 * n; i++)
         if (it.sides[i / 4][i % 4] == 1) {
             const int way[4] = {1, high, high + 1, high - 1};
@@ -384,7 +384,7 @@ static void add_self_contact(Probe *probe, Jet *sum, const void *data, int i)
         add_self_friction(probe, sum, self, p, end);
 }
 
-/* Computes J, area over area at rest; false: a spring is broken. */
+/* Computes J, area of triangle t over that at rest; false: it is torn. */
 static bool find_cell_area(Probe *probe, const Cells *cells, int t, Jet *J)
 {
     const double *k = probe->at->system->k;
@@ -444,7 +444,7 @@ static void add_pull(Probe *probe, Jet *sum, const void *data, int c)
         add_part(probe, sum, (Real)pull->k / 2, jet_mul(d, d));
 }
 
-/* What a term sums over */
+/* Objects over which a term sums */
 typedef enum Parts { SPRINGS, COORDINATES, WALLS, CELLS, SOLIDS, PAIRS } Parts;
 
 static int count_parts(const Probe *probe, Parts parts, const void *data)
@@ -546,7 +546,7 @@ static Frame make_frame(Probe *probe, Parts parts, const void *data, int i)
     return frame;
 }
 
-/* A row for each term; data: those of the term */
+/* Formula of each term, and what it sums over; data: those of the term */
 static const struct {
     const TermKind *kind;
     Parts parts;
@@ -928,7 +928,7 @@ static Real find_perturbed_residual(const Probe *probe, const double *u,
     return solve_densely(of);
 }
 
-/* exact_residual with a given probe->side. */
+/* Returns exact_residual for a given probe->side. */
 static double find_residual_on_side(const IncrementalPotential *E,
                                     const double *u, const double *x, double h,
                                     double moved, int lifts, int side,

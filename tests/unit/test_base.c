@@ -189,7 +189,8 @@ static void fill_matrix(Random *random, double *A)
 }
 
 /* Returns sum_p A[i, p] B[j, p], p = 0 ... k - 1. */
-static double product(const double *A, const double *B, int i, int j, int k)
+static double multiply_rows(const double *A, const double *B, int i, int j,
+                            int k)
 {
     double sum = 0;
     for (int p = 0; p < k; p++)
@@ -216,11 +217,12 @@ TEST(products_have_one_order_of_sums)
             for (int j = 0; j < MAX_ORDER; j++)
                 for (int i = 0; i < LD; i++) {
                     double *c = C + j * LD + i, *s = S + j * LD + i;
-                    CHECK(*c == (i < m && j < n ? product(A, B, i, j, k) : 7));
+                    CHECK(*c ==
+                          (i < m && j < n ? multiply_rows(A, B, i, j, k) : 7));
                     if (i >= m || j >= m)
                         CHECK(*s == 7);
                     else if (i >= j)
-                        CHECK(*s == product(A, A, i, j, k));
+                        CHECK(*s == multiply_rows(A, A, i, j, k));
                 }
         }
 }
@@ -245,10 +247,10 @@ TEST(factors_and_divisions_are_exact_to_rounding)
         dtrsm_("R", "L", "C", "N", &m, &n, &one, L, &ld, X, &ld);
         for (int j = 0; j < n; j++) {
             for (int i = j; i < n; i++)
-                CHECK_NEAR(product(L, L, i, j, j + 1), A[j * LD + i],
+                CHECK_NEAR(multiply_rows(L, L, i, j, j + 1), A[j * LD + i],
                            8 * DBL_EPSILON * (4 + n));
             for (int i = 0; i < m; i++)
-                CHECK_NEAR(product(X, L, i, j, j + 1), B[j * LD + i],
+                CHECK_NEAR(multiply_rows(X, L, i, j, j + 1), B[j * LD + i],
                            8 * DBL_EPSILON * (4 + n));
         }
         A[(n - 1) * LD + n - 1] = -1;

@@ -145,14 +145,14 @@ TEST(films_show_what_was_drawn)
         assert_int_equal(frames, count);
         check_format(row);
         check_frames(row, bytes, frames);
-        if (frames == FRAMES) /* .webm counts milliseconds */
+        if (frames == FRAMES) /* times of .webm are whole milliseconds */
             CHECK(fabs(find_rate(row->name, frames) / row->rate - 1) < 1e-2);
         CHECK(unlink(row->name) == 0);
     }
 }
 
 /* A larger canvas is cut off, a smaller one filled up with white. */
-TEST(sizes_may_change)
+TEST(frames_may_change_their_size)
 {
     static uint8_t bytes[3 * 20 * 30 * 3];
     Film film = open_film("sizes.apng");

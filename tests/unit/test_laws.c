@@ -22,23 +22,23 @@ static const double G = 9.81;
 /* ---- some masses ------------------------------------------------------- */
 
 /* System and run of a test; create_masses frees the last ones */
-static System few;
+static System masses;
 static TimeIntegrator run;
 
 /* Creates masses of 1 kg; springs of 1 J/m^2 and 1 m join 0 and s + 1. */
 static System *create_masses(int nodes, int springs)
 {
     time_integrator_free(&run);
-    system_free(&few);
+    system_free(&masses);
     memset(&run, 0, sizeof run);
-    CHECK_OK(system_create(nodes, springs, &few));
+    CHECK_OK(system_create(nodes, springs, &masses));
     for (int i = 0; i < nodes; i++)
-        few.m[i] = 1;
+        masses.m[i] = 1;
     for (int s = 0; s < springs; s++) {
-        few.e[2 * s + 1] = s + 1;
-        few.l2[s] = few.k[s] = 1;
+        masses.e[2 * s + 1] = s + 1;
+        masses.l2[s] = masses.k[s] = 1;
     }
-    return &few;
+    return &masses;
 }
 
 /* Creates a mass above a wall through the origin. */
@@ -50,9 +50,10 @@ static void put_mass_on_wall(const double n[2], double friction,
                            .friction = friction,
                            .node = -1};
     create_masses(1, 0)->gravity[1] = -gravity;
-    CHECK_OK(contact_configure(&few, &(Barrier){0.01, 1}, 1, &wall));
+    CHECK_OK(contact_configure(&masses, &(Barrier){0.01, 1}, 1, &wall));
     if (friction > 0)
-        CHECK_OK(friction_configure(&few, &friction_energy, true, slip_speed));
+        CHECK_OK(
+            friction_configure(&masses, &friction_energy, true, slip_speed));
 }
 
 /* Creates the run of the masses, by backward Euler from x and v. */
@@ -61,17 +62,17 @@ static void begin_free_masses(double h, const double *x, const double *v)
     const NewtonSettings settings = {
         .h = h, .tolerance = 1e-11, .max_iterations = 2000};
     time_integrator_free(&run);
-    CHECK_OK(time_integrator_create(&integrator_methods[0], &few, &settings, x,
-                                    v, &run));
+    CHECK_OK(time_integrator_create(&integrator_methods[0], &masses, &settings,
+                                    x, v, &run));
 }
 
-/* Returns the loss booked by the first term that books any, J. */
+/* Returns the energy that the first dissipating term has booked, J. */
 static double find_lost_energy(void)
 {
-    return few.losses[0].energy;
+    return masses.losses[0].energy;
 }
 
-static void step(void)
+static void make_step(void)
 {
     CHECK_OK(time_integrator_step(&run));
 }
@@ -87,13 +88,13 @@ TEST(a_belt_takes_its_load_along)
     double speed = 0;
     int slips = 0;
     put_mass_on_wall(n, mu, 1e-4, G);
-    contact_of(&few)->obstacle[0].motion =
+    contact_of(&masses)->obstacle[0].motion =
         (Motion){.phases = 1, .phase_end = {1e9}, .v = {{W * t[0], W * t[1]}}};
     begin_free_masses(h, (double[2]){0.005 * n[0], 0.005 * n[1]}, still);
     for (int i = 0; i < 200; i++) {
         double before = speed, done = run.work;
         double heat = find_lost_energy();
-        step();
+        make_step();
         speed = run.v[0] * t[0] + run.v[1] * t[1];
         if (i < 60 || speed > 0.9 * W)
             continue; /* the block falls to its height, or sticks */
@@ -109,7 +110,7 @@ TEST(a_belt_takes_its_load_along)
 /* Makes a hand push the wall at o = (-0.1, 0), whose normal is x, to (1, 0). */
 static Obstacle *add_hand_on_wall(void)
 {
-    Contact *contact = contact_of(&few);
+    Contact *contact = contact_of(&masses);
     contact->obstacle[0].o[0] = -0.1;
     contact->hand = (Push){.is_held = 1, .target = {1, 0}, .mesh = {.side = 1}};
     return &contact->obstacle[0];
@@ -126,15 +127,15 @@ TEST(a_hand_pushes_with_a_bounded_speed)
     begin_free_masses(h, still, still);
     for (int i = 0; i < 200; i++) {
         double before = wall->o[0];
-        step();
+        make_step();
         CHECK(wall->o[0] >= before && wall->o[0] - before <= 5 * h + 1e-12);
         CHECK(run.x[0] > wall->o[0]);
     }
     CHECK_NEAR(wall->o[0], 1, 1e-12);
     CHECK(run.v[0] > 1 && run.work >= 0.5 * run.v[0] * run.v[0]);
-    contact_of(&few)->hand.is_held = false;
+    contact_of(&masses)->hand.is_held = false;
     double work = run.work;
-    step();
+    make_step();
     CHECK(wall->o[0] == 1 && run.work == work);
 }
 
@@ -145,22 +146,22 @@ TEST(a_fixed_body_stops_the_hand)
 {
     const double still[2] = {0, 0}, right[2] = {1, 0}, left[2] = {-1, 0};
     put_mass_on_wall(right, 0, 0, 0);
-    few.pinned[0] = 1;
+    masses.pinned[0] = 1;
     Obstacle *wall = add_hand_on_wall();
     begin_free_masses(0.01, still, still);
     for (int i = 0; i < 100; i++)
-        step();
+        make_step();
     CHECK(-0.0035 < wall->o[0] && wall->o[0] <= -0.003 && run.x[0] == 0);
     create_masses(1, 0);
     Obstacle walls[2] = {{.n = {right[0], 0}, .o = {-0.1, 0}, .node = -1},
                          {.n = {left[0], 0}, .o = {0.05, 0}, .node = -1}};
-    CHECK_OK(contact_configure(&few, &(Barrier){0.01, 1}, 2, walls));
+    CHECK_OK(contact_configure(&masses, &(Barrier){0.01, 1}, 2, walls));
     wall = add_hand_on_wall();
-    contact_of(&few)->hand.target[0] =
+    contact_of(&masses)->hand.target[0] =
         0.05; /* near the end the hand moves slowly */
     begin_free_masses(0.01, still, still);
     for (int i = 0; i < 300; i++)
-        step();
+        make_step();
     double room = 0.05 - wall->o[0];
     CHECK(0.001 < room && room < 0.002);
     CHECK_NEAR(run.x[0], 0.05 - 0.5 * room, 1e-6);
@@ -173,45 +174,45 @@ TEST(a_ball_that_is_pushed_jumps_over_nothing)
     const Obstacle ball = {
         .kind = OBSTACLE_BALL, .o = {-0.05, 0}, .radius = 0.02, .node = -1};
     create_masses(1, 0);
-    CHECK_OK(contact_configure(&few, &(Barrier){0.002, 1}, 1, &ball));
-    Contact *contact = contact_of(&few);
+    CHECK_OK(contact_configure(&masses, &(Barrier){0.002, 1}, 1, &ball));
+    Contact *contact = contact_of(&masses);
     contact->hand = (Push){.is_held = 1, .target = {9, 0}, .mesh = {.side = 1}};
     begin_free_masses(0.01, still, still);
     for (int i = 0; i < 50; i++) {
-        step();
+        make_step();
         CHECK(run.x[0] - contact->obstacle[0].o[0] > 0.02);
     }
     CHECK(contact->obstacle[0].o[0] > 1);
 }
 
 /* A broken spring keeps its plastic strain and no longer damps. */
-TEST(broken_springs_do_nothing)
+TEST(broken_springs_neither_flow_nor_damp)
 {
     const double x[4] = {0, 0, 3, 0}, far[4] = {0, 0, 30, 0};
     const double apart[4] = {-0.5, 0, 0.5, 0}, v[4] = {-30, 0, 30, 0};
     create_masses(2, 1);
-    CHECK_OK(plastic_energy.configure(&few, NULL, (double[]){0.1, 0}));
-    const Plasticity *flow = system_term_data(&few, &plastic_energy);
-    plastic_energy.end_step(&(TermStep){&few, few.term, x, x, 1});
+    CHECK_OK(plastic_energy.configure(&masses, NULL, (double[]){0.1, 0}));
+    const Plasticity *flow = system_term_data(&masses, &plastic_energy);
+    plastic_energy.end_step(&(TermStep){&masses, masses.term, x, x, 1});
     CHECK_NEAR(flow->ep[0], 8 - 0.1, 1e-14); /* an unbroken spring flows */
-    few.k[0] = 0;
-    unsigned version = few.version;
-    plastic_energy.end_step(&(TermStep){&few, few.term, far, far, 1});
-    CHECK(few.version == version);
+    masses.k[0] = 0;
+    unsigned version = masses.version;
+    plastic_energy.end_step(&(TermStep){&masses, masses.term, far, far, 1});
+    CHECK(masses.version == version);
     CHECK_NEAR(flow->ep[0], 8 - 0.1, 1e-14);
     CHECK_NEAR(flow->kappa[0], 8 - 0.1, 1e-14);
 
     create_masses(2, 1)->k[0] = 1000;
-    CHECK_OK(damping.configure(&few, NULL, &(double){0.01}));
-    CHECK_OK(fracture.configure(&few, NULL, &(double){0.01}));
+    CHECK_OK(damping.configure(&masses, NULL, &(double){0.01}));
+    CHECK_OK(fracture.configure(&masses, NULL, &(double){0.01}));
     begin_free_masses(0.001, apart, v);
-    for (int i = 0; i < 200 && !spring_is_broken(&few, 0); i++)
-        step();
-    CHECK(spring_is_broken(&few, 0));
+    for (int i = 0; i < 200 && !spring_is_broken(&masses, 0); i++)
+        make_step();
+    CHECK(spring_is_broken(&masses, 0));
     double damped = find_lost_energy(), speed = run.v[2];
     CHECK(damped > 0 && speed > 0);
     for (int i = 0; i < 5; i++)
-        step();
+        make_step();
     CHECK_NEAR(run.v[2], speed, 1e-12 * speed);
     CHECK(find_lost_energy() == damped);
 }
@@ -222,7 +223,7 @@ TEST(broken_springs_do_nothing)
 enum { NODES = 1024, SPRINGS = 8 * NODES };
 
 /* Returns the work of moving walls in the last step, J. */
-static double wall_work(const System *system, const double *x, double h)
+static double find_wall_work(const System *system, const double *x, double h)
 {
     const Contact *contact = contact_of(system);
     double sum = 0;
@@ -254,7 +255,7 @@ static double find_dissipation(const TimeIntegrator *it, double *k,
     System whole = *it->system;
     static double dx[2 * NODES];
     whole.k = k;
-    Real sum = P + wall_work(&whole, it->x, it->h);
+    Real sum = P + find_wall_work(&whole, it->x, it->h);
     for (int c = 0; c < 2 * whole.nodes; c++) {
         double dv = it->v[c] - v_n[c];
         dx[c] = it->x[c] - x_n[c];
@@ -298,14 +299,14 @@ TEST(the_ledger_adds_up)
                        (size_t)it->system->springs * sizeof *k);
                 CHECK_OK(time_integrator_step(it));
                 Energies end = simulation_energies(scene, r);
-                double stored = OF(&end, elastic) + OF(&end, contact);
+                double stored = ENERGY(&end, elastic) + ENERGY(&end, contact);
                 CHECK_NEAR(stored, exact_potential(it->system, it->x),
                            1e-12 * (most + stored + 1));
                 CHECK_NEAR(end.total, end.kinetic + end.gravity + stored,
                            1e-12 * (most + stored + 1));
                 sum[r] += find_dissipation(it, k, x, v, P) -
-                          (OF(&end, plastic) - OF(&start, plastic)) -
-                          (OF(&end, damping) - OF(&start, damping));
+                          (ENERGY(&end, plastic) - ENERGY(&start, plastic)) -
+                          (ENERGY(&end, damping) - ENERGY(&start, damping));
                 most = fmax(most, fabs(end.dissipated) + fabs(end.total) +
                                       fabs(end.work) + end.kinetic);
             }
@@ -403,16 +404,16 @@ TEST(a_moving_wall_never_gives_back_what_is_dissipated)
     static const double h[] = {1e-4, 1e-3, 0.01};
     for (int k = 0; k < 3; k++) {
         put_mass_on_wall(up, 0, 0, G);
-        contact_of(&few)->obstacle[0].motion =
+        contact_of(&masses)->obstacle[0].motion =
             (Motion){.phases = 3,
                      .phase_end = {0.2, 0.3, 0.8},
                      .v = {{0, 0.5}, {0, -3}, {0, 1}}};
         begin_free_masses(h[k], x, v);
         double before = 0, start = 0, most = 0;
         for (int step = 0; step < 1 / h[k]; step++) {
-            double held = system_kinetic_energy(&few, run.v) +
-                          system_potential(&few, run.x) +
-                          system_gravity_potential(&few, run.x) - run.work;
+            double held = system_kinetic_energy(&masses, run.v) +
+                          system_potential(&masses, run.x) +
+                          system_gravity_potential(&masses, run.x) - run.work;
             start = step == 0 ? held : start;
             CHECK(start - held >= before - 1e-12);
             before = start - held;

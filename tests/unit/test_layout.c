@@ -264,7 +264,8 @@ TEST(markup_has_its_widths)
 TEST(formulas_have_their_sizes)
 {
     static const struct {
-        const char *markup, *other; /* the first is larger by, in ems */
+        const char *markup,
+            *other; /* `markup` is larger than `other` by, ems */
         double wider, most_wider, higher, most_higher;
     } rows[] = {
         {"frac{x over x}", "x", 0.4, 0.5, 0.9, 1.1},

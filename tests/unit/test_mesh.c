@@ -108,7 +108,7 @@ TEST(cells_triangles_and_outline_are_those_of_the_springs)
 
 /* Returns the number of entries in the factor of a square, by symbolic
  * elimination: later neighbours of a node become neighbours. */
-static double factor_entries(int segments)
+static double count_factor_entries(int segments)
 {
     enum { MOST = 625 };
     static bool meets[MOST][MOST];
@@ -133,11 +133,11 @@ static double factor_entries(int segments)
 /* Nested dissection gives a factor of n log n entries. From 12 to 24 segments
  * the nodes grow 3.7 times, the entries less than 6 times (a band matrix: 7.4);
  * CHOLMOD's own order (AMD) has 41519 with 24 segments. */
-TEST(order_keeps_the_factor_small)
+TEST(elimination_order_keeps_the_factor_small)
 {
-    double ours = factor_entries(24);
+    double ours = count_factor_entries(24);
     CHECK_AT_MOST(ours, 41519);
-    CHECK_AT_MOST(ours, 6 * factor_entries(12));
+    CHECK_AT_MOST(ours, 6 * count_factor_entries(12));
 }
 
 /* Words of --pin select their nodes; nodes 0 ... rows are the left column. */

@@ -39,7 +39,7 @@ static Simulation *begin_problem(int segments, double stretch)
 }
 
 /* Changes positions, masses, springs and pins at random. */
-static void disturb(Random *random, bool pins)
+static void randomise_problem(Random *random, bool pins)
 {
     int side = body->segments + 1;
     double cell = 1.0 / body->segments;
@@ -65,7 +65,7 @@ static void disturb(Random *random, bool pins)
 }
 
 /* Adds a hand at the middle node, `times` as stiff as its mass. */
-static void pull(double times)
+static void add_hand(double times)
 {
     int node = body->nodes / 2;
     Pull hand = {.node = node,
@@ -128,9 +128,9 @@ TEST(steps_fall_and_pass_the_test_of_algorithm_3)
         EnergyHistory history = {0};
         Simulation *square = begin_problem(rows[i].segments, rows[i].stretch);
         if (rows[i].disturbed)
-            disturb(&random, rows[i].pins);
+            randomise_problem(&random, rows[i].pins);
         if (rows[i].hand > 0)
-            pull(rows[i].hand);
+            add_hand(rows[i].hand);
         if (i == 14) /* a short step, which a bound ends */
             square->run[0].h = newton->settings.h = 1e-4;
         newton->settings.observer = store_residual;
@@ -152,7 +152,7 @@ static Status minimise(double tolerance)
 
 /* The first direction fails a tolerance just below its residual, which a factor
  * yields: multigrid's p may be shorter, but its error counts. */
-TEST(what_is_not_decided_is_not_converged)
+TEST(undecided_directions_have_not_converged)
 {
     static const double parts[] = {0.9, 0.99, 0.999, 0.999999};
     for (int i = 0; i < 5; i++) {
@@ -179,7 +179,7 @@ TEST(bits_depend_on_the_step_alone)
         Random random = {5};
         begin_problem(64, 1.4);
         if (pins)
-            disturb(&random, true);
+            randomise_problem(&random, true);
         CHECK_OK(multigrid_create(64, &multigrid[0]));
         for (int n = 0; n < (pins ? 2 : 9); n++) {
             bool stiffer = n > 0 && n % 2 == 0;
@@ -220,14 +220,14 @@ TEST(steps_take_no_more_work)
         bool rough = i % 2;
         Simulation *square = begin_problem(rows[i / 2].segments, 1.4);
         if (rough)
-            disturb(&random, true);
+            randomise_problem(&random, true);
         make_steps(square, 5);
         CHECK_AT_MOST(newton->counters.cycles,
                       rough ? rows[i / 2].rough : rows[i / 2].smooth);
         CHECK(rough || newton->counters.updates == newton->counters.cycles);
         CHECK(rough || newton->counters.tile_sweeps == 0);
     }
-    Simulation *tight = begin_problem(32, 1.4); /* it buckles */
+    Simulation *tight = begin_problem(32, 1.4); /* the square buckles */
     newton->settings.tolerance = 1e-9;
     make_steps(tight, 12);
     CHECK_AT_MOST(newton->counters.updates, 176);

@@ -182,7 +182,7 @@ static bool store_shift(void *user, const NewtonRecord *record)
     return true;
 }
 
-TEST(lost_masses_are_found_again)
+TEST(tiny_masses_keep_their_velocity)
 {
     double shift = 0;
     Simulation *simulation =

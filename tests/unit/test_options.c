@@ -215,7 +215,7 @@ TEST(help_fits_a_terminal)
         if (row->name[0] && value && next && value < next && value[2] != 'P') {
             snprintf(word, sizeof word, "--%s=%.*s", row->name,
                      (int)strcspn(value, "]") - 2, value + 2);
-            /* alone it may make no sense */
+            /* an option alone may be refused */
             options_parse(2, argv, false, &options, MESSAGE(message));
             CHECK(options.number[row->slot] == usual.number[row->slot]);
         }

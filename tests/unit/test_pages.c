@@ -92,7 +92,8 @@ static Real update_dense(const Simulation *simulation, int n, double *u)
     return least;
 }
 
-/* Page explodes: only the tenth Hessian has a tiny eigenvalue: 1.7 km. */
+/* Page explodes: the tenth Hessian alone has a tiny eigenvalue, and its update
+ * leads 1.7 km away. */
 TEST(the_tenth_update_has_a_tiny_eigenvalue)
 {
     Simulation *simulation = open_page("explodes", "");
@@ -150,7 +151,7 @@ static const Race *run_race(const char *options)
 TEST(the_race_measures_errors)
 {
     static const double factor[RACE_METHODS] = {2, 4, 2, 4};
-    enum { VERLET = 1 }; /* h = 8 ms comes first, then 4 ms */
+    enum { VERLET = 1 }; /* index at h = 8 ms; the next row has 4 ms */
     const Race *race = run_race("");
     for (int i = 0; i < RACE_METHODS; i++) {
         const RacePoint *point =
@@ -184,7 +185,7 @@ TEST(pages_show_their_code)
         name = strtok_r(rest, ",", &rest);
         for (const char *const *line = page->code; *line; line++) {
             lit += strstr(*line, page->highlight) != NULL;
-            CHECK(!strstr(*line, "FAIL(")); /* no reports */
+            CHECK(!strstr(*line, "FAIL(")); /* pages leave out error messages */
             ends += (*line)[0] == '}';
             if (name && ends == functions && strstr(*line, name)) {
                 name = strtok_r(rest, ",", &rest);
@@ -200,7 +201,7 @@ TEST(pages_show_their_code)
 }
 
 /* Each page with a question has an answer. */
-TEST(pages_ask_what_has_an_answer)
+TEST(questions_have_answers)
 {
     for (const LecturePage *page = lecture_pages; page->name; page++) {
         FrameContent content;
@@ -287,7 +288,8 @@ void __wrap_plot_curve(const Plot *plot, int count, const double *x,
 enum { CARDS, LARGE, LARGE_ASKED, CODE, LIST, KINDS };
 
 /* Returns the first line of a text that is not drawn whole, or NULL. */
-static const char *missing_line(const FrameContent *content, const char *text)
+static const char *find_missing_line(const FrameContent *content,
+                                     const char *text)
 {
     static TextLine line;
     line = text_begin(&active_pane(content)->values, text);
@@ -297,7 +299,7 @@ static const char *missing_line(const FrameContent *content, const char *text)
     return NULL;
 }
 
-static const char *missing_words(const FrameContent *content)
+static const char *find_missing_text(const FrameContent *content)
 {
     const LecturePage *page = content->lecture.page;
     const char *texts[] = {page->text, page->formula,
@@ -306,7 +308,7 @@ static const char *missing_words(const FrameContent *content)
                            content->lecture.hides_answer ? NULL : page->try};
     const char *missing = NULL;
     for (int i = 0; i < 4 && !missing; i++)
-        missing = missing_line(content, texts[i]);
+        missing = find_missing_line(content, texts[i]);
     return missing;
 }
 
@@ -351,7 +353,7 @@ static void check_frame(const LecturePage *page, Simulation *simulation,
                         50 * (seen.smallest_code + 0.5) > height);
     }
     if (kind < CODE)
-        missing = missing_words(&content);
+        missing = find_missing_text(&content);
     if (!good || missing || (large && seen.ellipses > 0) ||
         (kind != LIST && seen.cut > 0) || seen.over > 0 ||
         (!cuts && seen.outside > 0))
@@ -368,7 +370,7 @@ static void check_frame(const LecturePage *page, Simulation *simulation,
  * large type a 35th and no text is cut; code of lecture.c, whose lines have up
  * to 80 letters, a 50th. No word is outside its card or over another, no curve
  * outside its axes. */
-TEST(pages_are_read_from_the_back_row)
+TEST(pages_are_legible_from_the_back_row)
 {
     static const int sizes[][2] = {{1280, 800}, {1366, 768}, {1920, 1080}};
     for (int s = 0; s < 3; s++) {
@@ -392,7 +394,7 @@ TEST(pages_are_read_from_the_back_row)
     CHECK(layout_create(&content, 1280, 800).em > 800 / 40);
 }
 
-/* In no scene and window size a word leaves its place or covers another. */
+/* In all scenes and window sizes each word stays in place, over no other. */
 TEST(scenes_keep_their_words_in_place)
 {
     static const int sizes[][2] = {{900, 900}, {800, 600}, {1280, 800}};

@@ -37,7 +37,7 @@ static uint64_t go_to_step(long step)
     return hash_past();
 }
 
-static void edit(CommandKind kind, long number, double x, double y)
+static void edit_past(CommandKind kind, long number, double x, double y)
 {
     const Command command = {.kind = kind, .number = number, .x = x, .y = y};
     CHECK_OK(past_edit(&past, &command, PAST_ALL, false, 0));
@@ -155,7 +155,7 @@ TEST(states_of_many_edits_have_a_limit)
     begin_past("square --segments 3");
     past.max_bytes = 6 * past.used_bytes;
     for (int i = 1; i <= 30; i++) {
-        edit(COMMAND_PIN, 1, i % 2, 0);
+        edit_past(COMMAND_PIN, 1, i % 2, 0);
         go_to_step(i);
     }
     CHECK(past.branches == 31 && past.used_bytes <= past.max_bytes);
@@ -220,7 +220,8 @@ TEST(keys_are_given_once)
 /* ---- the hand ------------------------------------------------------------ */
 
 /* Returns sum m |v - v_n|^2/2, J. */
-static double change_of_motion(const Simulation *simulation, const double *v_n)
+static double find_motion_change(const Simulation *simulation,
+                                 const double *v_n)
 {
     const double *v = simulation->run[0].v;
     double sum = 0;
@@ -234,16 +235,16 @@ static void drag_randomly(Random *random, int step)
 {
     double h = random_logarithmic(random, 1e-4, 1);
     if (step % 10 == 0)
-        edit(COMMAND_SET, option_find("timestep") - option_rows, h, 0);
+        edit_past(COMMAND_SET, option_find("timestep") - option_rows, h, 0);
     if (step % 25 == 0)
-        edit(COMMAND_GRAB,
-             random_below(random, past.pane[0].simulation.system.nodes),
-             random_uniform(random, -1, 1), random_uniform(random, -1, 1));
+        edit_past(COMMAND_GRAB,
+                  random_below(random, past.pane[0].simulation.system.nodes),
+                  random_uniform(random, -1, 1), random_uniform(random, -1, 1));
     else if (step % 25 == 20)
-        edit(COMMAND_RELEASE, 0, 0, 0);
+        edit_past(COMMAND_RELEASE, 0, 0, 0);
     else if (past_control(&past, 0)->held_node >= 0)
-        edit(COMMAND_DRAG, 0, random_uniform(random, -5, 5),
-             random_uniform(random, -5, 5));
+        edit_past(COMMAND_DRAG, 0, random_uniform(random, -5, 5),
+                  random_uniform(random, -5, 5));
 }
 
 /* Makes one step after a jerk, in which E never rises. Backward Euler ends
@@ -278,7 +279,7 @@ static bool make_step_after_jerk(bool descends)
         return false;
     CHECK(isfinite(now.total) && isfinite(now.work));
     if (descends)
-        CHECK_AT_MOST(change_of_motion(simulation, v) + now.total -
+        CHECK_AT_MOST(find_motion_change(simulation, v) + now.total -
                           now.kinetic - now.work,
                       high + 1e-12 * (now.total + fabs(now.work)));
     return true;

@@ -14,7 +14,7 @@
 /* ---- helpers ------------------------------------------------------------ */
 
 /* Returns the ink of a box: the sum over pixels of 1 - green/255. */
-static double ink_of_box(const Canvas *canvas, Box box)
+static double count_ink_in_box(const Canvas *canvas, Box box)
 {
     double sum = 0;
     for (int j = box.y; j < box.y + box.height; j++)
@@ -24,9 +24,9 @@ static double ink_of_box(const Canvas *canvas, Box box)
     return sum;
 }
 
-static double ink(const Canvas *canvas)
+static double count_ink(const Canvas *canvas)
 {
-    return ink_of_box(canvas, (Box){0, 0, canvas->width, canvas->height});
+    return count_ink_in_box(canvas, (Box){0, 0, canvas->width, canvas->height});
 }
 
 /* Returns a white canvas, valid until the next call. */
@@ -61,7 +61,7 @@ TEST(shapes_have_their_area)
         area = i % 3 == 0   ? 80 * width
                : i % 3 == 1 ? M_PI * radius * radius
                             : 2 * M_PI * (radius + width) * width;
-        CHECK_NEAR(ink(canvas), area, 0.02 * area + (i % 3 ? 0.3 : 1));
+        CHECK_NEAR(count_ink(canvas), area, 0.02 * area + (i % 3 ? 0.3 : 1));
     }
 }
 
@@ -87,16 +87,16 @@ TEST(shapes_are_clipped)
     canvas_line(canvas, NAN, 1, 2, 3, 2, 0xff000000);
     canvas_line(canvas, -10, -10, -10, 50, 2, 0xff000000);
     canvas_disc(canvas, 1, NAN, 3, 0xff000000);
-    CHECK_NEAR(ink(canvas), 0, 0);
+    CHECK_NEAR(count_ink(canvas), 0, 0);
     canvas_line(canvas, -1e6, 8.5, 1e6, 8.5, 1, 0xff000000);
-    CHECK_NEAR(ink(canvas), 31, 0.1);
+    CHECK_NEAR(count_ink(canvas), 31, 0.1);
 }
 
 /* ---- colours, history, plot ---------------------------------------------- */
 
 /* Quantities that appear later count as 0 before; numbers that are not finite
  * or too many are left out. */
-TEST(history_goes_by_names)
+TEST(history_joins_energies_by_name)
 {
     static History history;
     const Energy rows[] = {{"one", 1}, {"two", 2}, {"late", 3}};
@@ -138,15 +138,15 @@ TEST(plots_keep_to_their_axes)
             CHECK(!plot_disc(&plot, out, 9, COLOUR_X));
         if (shape == 4)
             plot_ring(&plot, out, 9, 2, COLOUR_X);
-        double inside = ink_of_box(&paper.canvas, plot.box);
-        CHECK_NEAR(ink(&paper.canvas), inside, 1e-9);
+        double inside = count_ink_in_box(&paper.canvas, plot.box);
+        CHECK_NEAR(count_ink(&paper.canvas), inside, 1e-9);
         CHECK((inside > 100) == (shape < 3));
     }
     paper_free(&paper);
 }
 
 /* Numbers have three digits, and a power of ten only instead of many zeros. */
-TEST(numbers_are_read)
+TEST(numbers_have_three_digits)
 {
     const struct {
         double value;
@@ -196,7 +196,7 @@ TEST(words_keep_off_lines_and_words)
             plot_line(&plot, middle, up, 2, COLOUR_P);
             plot_line(&plot, middle, right, 2, COLOUR_P);
         }
-        int ink = count_pixels(&paper.canvas, COLOUR_P, &left);
+        int count_ink = count_pixels(&paper.canvas, COLOUR_P, &left);
         for (int i = 0; i < 5; i++) {
             plot_label(&plot, 1, i ? middle : far, COLOUR_TEXT, "words");
             int letters = count_pixels(&paper.canvas, COLOUR_TEXT, &left);
@@ -204,7 +204,7 @@ TEST(words_keep_off_lines_and_words)
             CHECK(letters == i * one && (i == 0) == (letters == 0));
             CHECK(i != 1 || (left > 200) == !lines);
         }
-        CHECK(count_pixels(&paper.canvas, COLOUR_P, &left) == ink);
+        CHECK(count_pixels(&paper.canvas, COLOUR_P, &left) == count_ink);
         paper_free(&paper);
     }
 }
@@ -229,7 +229,7 @@ static void paint_step(const char *line, int step, Canvas frame[2])
 
 /* The pictures of `make pictures` equal frames of now; those of late steps only
  * with all variations. */
-TEST(readme_shows_what_is_drawn)
+TEST(readme_pictures_are_current)
 {
     char name[32], line[128], file[64];
     int step, count = 0, different = 0;

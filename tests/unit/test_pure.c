@@ -16,8 +16,8 @@ static void make_step(Simulation *simulation, void *bytes)
     state_save(simulation, bytes);
 }
 
-/* Makes a step with other settings, restores them, and leaves no trace. */
-static void disturb(const Options *options, Simulation *old)
+/* Makes a step with other settings, and restores the old settings. */
+static void make_other_step(const Options *options, Simulation *old)
 {
     int last = old->system.nodes - 1;
     bool pinned = old->system.pinned[last];
@@ -57,7 +57,7 @@ static void check_step_is_pure(const Options *options, Simulation *old,
                                             "other settings"};
         Simulation *simulation = i == 0 ? &fresh : old;
         if (i == 2)
-            disturb(options, old);
+            make_other_step(options, old);
         state_restore(from, simulation);
         make_step(simulation, bytes);
         if (memcmp(bytes, from + size, size) != 0)

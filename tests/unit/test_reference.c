@@ -133,7 +133,7 @@ static bool case_is_for(const Case *one, const char *who)
     return strcmp(one->who, who) == 0;
 }
 
-/* Reads the first state of a file, at most this far from the run's, m. */
+/* Reads the first state of a file; nodes move by at most `most`, m. */
 static void read_start(FILE *file, TimeIntegrator *run, double most)
 {
     for (int i = 0; i < 2 * run->system->nodes; i += 2) {
@@ -243,8 +243,8 @@ TEST(lecture_follows_the_slides)
 
 /* Makes a step of lecture.c that updates x and then tests p. All of p is used
  * if it is so short that rounding of E hides its effect. */
-static void update_then_test(Solid *solid, double h, double tol, int step,
-                             Updates *updates)
+static void make_step_tested_last(Solid *solid, double h, double tol, int step,
+                                  Updates *updates)
 {
     int n = solid->nodes;
     size_t bytes = (size_t)n * sizeof(Vec2);
@@ -322,9 +322,9 @@ TEST(the_program_makes_the_updates_of_lecture)
                 solid.x[k].x *= options->stretch;
             for (int step = 1; step <= 15; step++) {
                 make_steps(scene, 1);
-                update_then_test(&solid, h,
-                                 tight && h > 0.05 ? 1e-7 : options->tolerance,
-                                 step, &expected);
+                make_step_tested_last(
+                    &solid, h, tight && h > 0.05 ? 1e-7 : options->tolerance,
+                    step, &expected);
                 for (int k = 0; k < 2 * solid.nodes; k++)
                     CHECK_NEAR(run->x[k], (&solid.x->x)[k],
                                tight ? 1e-8 : 1e-5);

@@ -10,7 +10,8 @@
 
 #include "model/self_contact.h"
 
-/* Makes at most `limit` steps until the scene is over; last status. */
+/* Makes steps until the scene is over, at most `limit`. Returns the last
+ * status. */
 static Status run_to_end(Simulation *simulation, int limit)
 {
     Status status = simulation->status;
@@ -101,7 +102,8 @@ TEST(landscape_is_downhill_from_everywhere)
 
 /* ---- the envelope ------------------------------------------------------- */
 
-static const EnvelopeCell *show_cell_run(Simulation *map, int column, int row)
+static const EnvelopeCell *run_envelope_cell(Simulation *map, int column,
+                                             int row)
 {
     CHECK_OK(envelope_run_cell(map, column, row));
     return &map->exhibit.envelope.cell[row][column];
@@ -116,7 +118,7 @@ TEST(envelope_cells_are_runs)
     int refused = 0;
     for (int i = 0; i < 6; i++) {
         int column = cells[i][0], row = cells[i][1];
-        const EnvelopeCell *cell = show_cell_run(map, column, row);
+        const EnvelopeCell *cell = run_envelope_cell(map, column, row);
         Status worst = STATUS_OK;
         Simulation *run =
             simulate("square --segments %d --stretch %.17g --timestep %.17g "
@@ -136,8 +138,9 @@ TEST(envelope_cells_are_runs)
     CHECK(refused >= 1); /* cells that did not converge are compared, too */
 }
 
-/* Clearance of a running simulation ignores balls' starts and torn cells. */
-TEST(obstacles_have_room_in_what_was_torn)
+/* The clearance test of a running simulation ignores the start of a ball and
+ * torn cells. */
+TEST(obstacles_may_stand_where_cells_were_torn)
 {
     char message[256];
     Simulation *beam = simulate("bend --segments 16");
@@ -238,7 +241,7 @@ static Status change_scene(Simulation *scene, int deed)
 /* A hand, a pin, another time step, stiffness, mu or eta is booked as work and
  * changes no loss. In the steps after it losses only grow, and no broken spring
  * heals. */
-TEST(what_hands_do_is_work)
+TEST(changes_by_hand_are_booked_as_work)
 {
     static const char *const lines[] = {"drop --segments 4 --at -0.3,0.4",
                                         "slope --segments 3",

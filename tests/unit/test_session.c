@@ -178,7 +178,7 @@ static void begin_session(const char *line)
     mouse[0] = mouse[1] = -1;
     player.screen.draws_frames = true;
     player.screen.paper_size[0] = player.screen.paper_size[1] = WINDOW_SIDE;
-    CHECK_OK(player_draw(&player)); /* as a window does before any input */
+    CHECK_OK(player_draw(&player)); /* windows draw before any input */
     heap_at_start = heap_in_use();
     scale_before = find_scale();
 }
@@ -265,7 +265,7 @@ static bool point_at_pane(const char *place, const Layout *layout)
     return true;
 }
 
-/* Return the chip with this key, and the cell with this scene; -1: none. */
+/* Returns the chip with this key, or -1. */
 static int find_chip(const char *key)
 {
     int i = content->chips.count - 1;
@@ -274,6 +274,7 @@ static int find_chip(const char *key)
     return i;
 }
 
+/* Returns the cell of the overview with this scene, or -1. */
 static int find_cell(const char *scene)
 {
     int i = content->sheet.cells - 1;
@@ -422,7 +423,7 @@ static void check_tables(const char *line)
                  "tail -n $nodes states2 | cmp - rows"));
 }
 
-static void compare_mark(const char *verb, const char *rest)
+static void check_mark(const char *verb, const char *rest)
 {
     uint64_t now = hash_aspect(rest[1] ? rest + 2 : ""),
              *mark = &marked_hashes[(rest[0] - 'a') % MARKS];
@@ -483,7 +484,7 @@ static bool pane_has_all(const Layout *layout, int p)
 }
 
 /* Adds the facts of panes, numbers, chips and cards. */
-static void collect_parts(void)
+static void add_facts_of_parts(void)
 {
     Layout layout = find_layout();
     char order[512] = "";
@@ -551,7 +552,7 @@ static void collect_facts(void)
     add_fact("time\t%s", text_or_nothing(content->time_line.label));
     add_fact("sentence\t%s", text_or_nothing(content->title_bar.sentence));
     add_fact("method\t%s", text_or_nothing(content->title_bar.method));
-    collect_parts();
+    add_facts_of_parts();
 }
 
 /* ---- records ------------------------------------------------------------- */
@@ -592,12 +593,12 @@ static void add_facts_to_record(const char *line)
     if (content->lecture.page)
         for (char *at = facts; (at = strchr(at, '\t'));)
             memset(at, '.', strcspn(at, "\n"));
-    add_fact("values %d", values->count); /* some may be gone */
+    add_fact("values %d", values->count); /* a value may have vanished */
     for (int i = 0; i < values->count; i++) {
         const LiveValue *entry = &values->value[i];
         if (entry->text)
             add_fact("value %s %d: %s", entry->name, entry->run, entry->text);
-        else if (!strstr(entry->name, " ms")) /* of a clock */
+        else if (!strstr(entry->name, " ms")) /* run times differ */
             add_fact("value %s %d: %.5g %.5g", entry->name, entry->run,
                      entry->value[0], entry->value[1]);
     }
@@ -822,7 +823,7 @@ static double find_highest_rise(const Simulation *simulation)
     return highest;
 }
 
-static double add_masses(const Simulation *simulation)
+static double sum_masses(const Simulation *simulation)
 {
     double sum = 0;
     for (int i = 0; i < simulation->system.nodes; i++)
@@ -830,7 +831,7 @@ static double add_masses(const Simulation *simulation)
     return sum;
 }
 
-/* Return the height of the lowest node, and of the first body's highest, m. */
+/* Returns the height of the lowest node, m. */
 static double find_lowest(const Simulation *simulation)
 {
     double low = INFINITY;
@@ -839,6 +840,7 @@ static double find_lowest(const Simulation *simulation)
     return low;
 }
 
+/* Returns the height of the highest node of the first body, m. */
 static double find_highest(const Simulation *simulation)
 {
     double high = -INFINITY;
@@ -863,7 +865,7 @@ static double find_mean_vy(const Simulation *simulation)
     double sum = 0;
     for (int i = 0; i < simulation->system.nodes; i++)
         sum += simulation->system.m[i] * simulation->run[0].v[2 * i + 1];
-    return sum / add_masses(simulation);
+    return sum / sum_masses(simulation);
 }
 
 /* Counts the triangles that are turned over; a cell of springs has four. */
@@ -891,7 +893,7 @@ static double find_smallest_cell(const Simulation *simulation)
     return smallest_cell(&simulation->system, simulation->run[0].x);
 }
 
-/* Return the energy gained without work, J, and the steps with a gain. */
+/* Returns the energy that the run gained without work, J. */
 static double find_gained_energy(const Simulation *simulation)
 {
     return simulation->ledger[0].gained_energy;
@@ -915,7 +917,7 @@ static double find_wall_height(const Simulation *simulation)
     return contact_of(&simulation->system)->obstacle[0].o[1];
 }
 
-/* Return the distance of the held node from the hand, and its step, m. */
+/* Returns the distance of the held node from the hand, m. */
 static double find_hand_distance(const Simulation *simulation)
 {
     const Control *control = past_control(&player.past, 0);
@@ -923,6 +925,7 @@ static double find_hand_distance(const Simulation *simulation)
     return hypot(x[0] - control->target[0], x[1] - control->target[1]);
 }
 
+/* Returns how far the held node moves in a step, m. */
 static double find_hand_step(const Simulation *simulation)
 {
     const TimeIntegrator *run = &simulation->run[0];
@@ -989,7 +992,7 @@ static const struct {
 } numbers[] = {{"records", count_records},
                {"rises", count_rises},
                {"highest rise", find_highest_rise},
-               {"all masses", add_masses},
+               {"all masses", sum_masses},
                {"lowest", find_lowest},
                {"top", find_highest},
                {"way from rest", find_distance_from_rest},
@@ -1132,7 +1135,7 @@ static void run_line(const char *line)
     else if (strstr("reads lacks list", verb))
         check_words(verb, rest);
     else if (strstr("mark same other", verb))
-        compare_mark(verb, rest);
+        check_mark(verb, rest);
     else if (!use_mouse(verb, rest))
         check_fact(line);
 }
@@ -1479,7 +1482,7 @@ static void pages_are_the_same_when_they_are_entered_again(void **unused)
 }
 
 /* Checks that each page has a session for its Try, and one for its claim. */
-static void each_page_is_tried_and_held(void **unused)
+static void each_page_has_its_sessions(void **unused)
 {
     (void)unused;
     for (const LecturePage *page = lecture_pages; page->name; page++)
@@ -1500,7 +1503,7 @@ int main(int argc, char **argv)
         cmocka_unit_test_teardown(record_of_random_hands, end_session),
         cmocka_unit_test_teardown(
             pages_are_the_same_when_they_are_entered_again, end_session),
-        cmocka_unit_test(each_page_is_tried_and_held)};
+        cmocka_unit_test(each_page_has_its_sessions)};
     int count = 5;
     read_sessions("tests/data/sessions.txt");
     read_sessions("tests/data/claims.txt");

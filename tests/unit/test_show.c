@@ -191,8 +191,9 @@ TEST(fine_squares_are_faces)
     CHECK((stretched >> 16 & 255) > (stretched & 255));
 }
 
-/* The view follows nodes as far as numbers reach; then words say why not. */
-TEST(what_flies_far_is_drawn_or_reported)
+/* The view follows nodes while positions are finite; otherwise words say why
+ * the picture is empty. */
+TEST(distant_nodes_are_drawn_or_reported)
 {
     begin_show("square", 0);
     double *x = simulation.run[0].x;
@@ -338,7 +339,7 @@ static bool is_drawn(const char *text)
 /* Numbers in a text have the requested digits; in a formula those with a sign
  * or a power of ten are in parentheses. Lines with unknown values are left out;
  * lines behind "@" are repeated for each run. */
-TEST(texts_say_what_is_known)
+TEST(texts_contain_known_values)
 {
     static const struct {
         const char *text, *line;

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 
 /* Returns the hash that the program prints after some steps. */
-static uint64_t program_hash(const char *line, int steps)
+static uint64_t read_program_hash(const char *line, int steps)
 {
     const char *program = getenv("ELASTO");
     char command[300], row[200];
@@ -40,7 +40,7 @@ TEST(bits_do_not_depend_on_registers)
         CHECK((narrow->run[0].newton->counters.cycles > 0) == (i < 3));
         CHECK(i > 0 || narrow->run[0].newton->counters.tile_sweeps > 0);
         CHECK(state_hash(narrow, STATE_HASH_SEED) ==
-              program_hash(rows[i].line, rows[i].steps));
+              read_program_hash(rows[i].line, rows[i].steps));
     }
 }
 

