@@ -121,6 +121,11 @@ verdict runs_go_on_from_their_tables "$(
     tail -n 25 both | cut -d, -f3- | cmp - end
     run hang --segments 4 --steps 1 --states more --state both
     sed -n 2,26p more | cut -d, -f3- | cmp - end
+    # from the first of two panes
+    run --steps 3 --timestep 0.004,0.01 --states both
+    run --steps 1 --states more --state both
+    awk -F, '$1 == 3 && $8 == 1' both | cut -d, -f4-7 >end
+    sed -n 2,26p more | cut -d, -f4-7 | cmp - end
 )"
 
 refused() { # LINE WORDS
@@ -138,7 +143,6 @@ verdict solids_begin_where_their_triangles_are_well "$(
 )"
 
 verdict other_tables_are_refused "$(
-    refused '' "--state 'table': No such file"
     run --body 0,0 --body 2,0 --steps 1 --states table
     refused '' 'last step has 50 nodes, the body 25'
     run --steps 2 --states table

@@ -18,6 +18,7 @@ static uint64_t marked_hashes[MARKS]; /* by letter, a to p */
 static double mouse[2];               /* pixels, position */
 static bool player_is_open;
 static double heap_at_start;        /* bytes, at the start of the session */
+static double heap_before_player;   /* bytes, before the session's player */
 static char start_folder[PATH_MAX]; /* working folder of the suite */
 static char folder[] = "/tmp/elasto-session-XXXXXX";
 
@@ -165,14 +166,19 @@ static double find_scale(void)
 
 static void finish_session(void)
 {
-    if (player_is_open)
+    static double lost; /* bytes of all sessions; 1e6: caches keep some */
+    if (player_is_open) {
         end_player();
+        lost += heap_in_use() - heap_before_player;
+        CHECK_AT_MOST(lost, 1e6);
+    }
     player_is_open = false;
 }
 
 static void begin_session(const char *line)
 {
     finish_session();
+    heap_before_player = heap_in_use();
     begin_script("0 pause\n", line);
     player_is_open = true;
     mouse[0] = mouse[1] = -1;
