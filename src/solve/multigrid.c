@@ -15,10 +15,10 @@
 static const double NEARBY = 0.05;
 
 /* A direction is poor if the bound of p after it is more than STALLS times the
- * bound before.  Tiles relax after each poor direction, and after the first one
- * of a step the Hessian is clamped.  A sweep of a tile is worth its time if it
- * lowers E by more than PACE times the last direction's decrease, divided by
- * the number of tiles. */
+ * bound before.  After the first poor one of a step the Hessian is clamped.
+ * Tiles relax after each poor one whose p is not small.  A sweep of a tile is
+ * worth its time if it lowers E by more than PACE times the last direction's
+ * decrease, divided by the number of tiles. */
 static const double STALLS = 0.3, PACE = 0.01;
 
 /* If the first sweep of all tiles in a step lowers E by less than USELESS times
@@ -272,8 +272,6 @@ static Status multigrid_find_step_length(Newton *newton)
     }
     if (!isfinite(record->slope))
         return STATUS_NOT_FINITE;
-    if (!(record->slope <= 0))
-        return STATUS_NOT_DESCENT;
     if (!(record->alpha > 0))
         return STATUS_LINE_SEARCH_LIMIT;
     record->change = quartic_value(&mg->line_E, record->alpha);
