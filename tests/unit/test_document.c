@@ -122,6 +122,10 @@ TEST(a_table_is_text_after_the_guess)
     write_document();
     assert_true(count_lines("cells") > 4); /* heads, updates and the last row */
     assert_non_null(strstr(text, ": the loop ends\t"));
+    CHECK_OK(obey("set stretch 1"));
+    CHECK_OK(player_make_step(&player));
+    write_document();
+    assert_int_equal(count_lines("cells"), 3); /* of one update */
     end_player();
 }
 

@@ -122,10 +122,6 @@ TEST(small_windows_leave_parts_out)
     CHECK(small.cards == 0 && small.settings == 0);
     CHECK(small.chips_left_out > 0 && small.chip[small.chips - 1].width > 0);
     CHECK(small.stage.width == 400 && small.stage.height > 200);
-    content.is_bare = true;
-    Layout bare = layout_create(&content, 900, 900);
-    CHECK(bare.stage.width == 900 && bare.stage.height == 900);
-    CHECK(layout_hit(&bare, 450, 899).zone == ZONE_STAGE);
 }
 
 static bool click_hits(const Layout *layout, double x, double y, Zone zone,
