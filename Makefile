@@ -33,7 +33,8 @@ STRESS  := $(filter-out %/stress.o,$(call objects,tests/stress/*.c \
 LIBRARY := $(B)/libelasto.a
 
 COMPILE = $(CC) -std=c11 -D_GNU_SOURCE -Iinclude -Isrc $(DEP_CFLAGS) \
-          $(CPPFLAGS) -pipe -ffp-contract=off -Wall -Wextra $(CFLAGS) $(WATCH)
+          $(CPPFLAGS) -pipe -ffp-contract=off -Wall -Wextra \
+          -Wno-missing-field-initializers $(CFLAGS) $(WATCH)
 LINK    = $(CC) $(CFLAGS) $(WATCH) $(LDFLAGS) $(filter %.o,$^) \
           $(filter %.a,$^) -o $@ $(DEP_LIBS) $(LIBS) $(LDLIBS)
 WATCH   = $(if $(SANITIZE),-fsanitize=$(SANITIZE) -fno-sanitize-recover=all \

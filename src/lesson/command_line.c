@@ -85,10 +85,11 @@ static Status apply_numbers(const ArgLine *line, const ArgWord *word)
     double number[BODY_NUMBERS] = {0};
     double *times = &options->number[row->count_slot];
     int most = row->count ? row->count : 1, used = 0;
-    bool x_alone = row->needed_parts == HAS_START && !strchr(word->text, ',') &&
+    bool x_alone = row->needed_parts == HAS_START &&
                    (options->scene->parts & HAS_ONE_COORDINATE);
     int count = x_alone ? 1 : most;
-    if (!option_read(row, count, word->text, number))
+    if ((x_alone && strchr(word->text, ',')) ||
+        !option_read(row, count, word->text, number))
         return refuse_value(line, word, count);
     if (row->max_times && *times >= row->max_times)
         return refuse(line->message,

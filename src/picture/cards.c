@@ -78,30 +78,34 @@ int frame_find_row(const FrameContent *content, const Layout *layout, double x,
     return row < grid.rows && at < content->list.rows ? at : -1;
 }
 
-/* Draws the key and the text of each row.  A text that is too wide even in the
- * smallest letters loses its last words. */
+/* Draws the key and the text of each row, all in letters of one size.  A text
+ * that is too wide even in the smallest letters loses its last words. */
 static void draw_list(Paper *paper, Box inside, const List *list)
 {
     const double smallest = 0.85; /* smallest size over the usual size */
-    ListGrid grid = arrange_list_grid(list, inside, paper->em);
+    const ListGrid grid = arrange_list_grid(list, inside, paper->em);
     double em = paper->em, size = fmin(0.95, grid.row_height / (1.3 * em));
-    double key = 0, wide = inside.width / (double)grid.columns;
-    for (int i = 0; i < list->rows; i++)
-        key = fmax(key, paper_width(paper, FACE_BOLD, size, list->row[i].key));
+    double key = 0, longest = 1, column = inside.width / (double)grid.columns;
+    for (int i = 0; i < list->rows; i++) {
+        const ListRow *row = &list->row[i];
+        key = fmax(key, paper_width(paper, FACE_BOLD, size, row->key));
+        longest =
+            fmax(longest, paper_width(paper, FACE_REGULAR, size, row->text));
+    }
     key += 0.6 * size * em;
+    const int wide = (int)(column - key - 0.6 * em);
+    size *= fmin(fmax(wide / longest, smallest), 1);
     for (int i = 0; i < list->rows; i++) {
         const ListRow *row = &list->row[i];
         char text[SENTENCE_SIZE];
-        int before = row->is_heading ? 0 : (int)key;
-        double x = inside.x + i / grid.rows * wide;
-        double y = inside.y + i % grid.rows * grid.row_height;
-        Box room = {(int)x + before, (int)y, (int)(wide - before - 0.5 * em),
-                    (int)fmax(grid.row_height, 1.3 * size * em)};
+        Box room = {(int)(inside.x + i / grid.rows * column),
+                    (int)(inside.y + i % grid.rows * grid.row_height),
+                    (int)column, (int)fmax(grid.row_height, 1.3 * size * em)};
         snprintf(text, sizeof text, "%s", row->text);
-        paper_shorten(paper, smallest * size, (int)(wide - key - 0.6 * em),
-                      text, sizeof text);
-        paper_write(paper, FACE_BOLD, size, COLOUR_TEXT, x, y, ALIGN_LEFT, "%s",
-                    row->key);
+        paper_shorten(paper, size, wide, text, sizeof text);
+        paper_write_in_box(paper, FACE_BOLD, size, COLOUR_TEXT, room,
+                           ALIGN_LEFT, row->key);
+        room.x += row->is_heading ? 0 : (int)key;
         paper_write_in_box(paper, row->is_heading ? FACE_BOLD : FACE_REGULAR,
                            size, row->is_grey ? COLOUR_GREY : COLOUR_TEXT, room,
                            ALIGN_LEFT, text);

@@ -31,6 +31,7 @@ static const double MIN_BESIDE = 17, PICTURE_BELOW = 0.53;
 /* A card below the picture has at most this part of the stage's height; a main
  * card is at least this many times as high as its min_height. */
 static const double CARD_BELOW = 0.65, MAIN_CARD_GROWTH = 1.3;
+static const double MIN_SHRINK = 0.7; /* open card over the height it needs */
 /* In a low window the settings have this part of the width. */
 static const double SETTINGS_PART = 0.75;
 
@@ -192,8 +193,7 @@ static Box place_zones(const FrameContent *content, Layout *layout)
         bars->y += layout->time_line.height - bars->height -
                    ems_to_pixels(layout, 0.5);
     }
-    if (bars->width < 1)
-        bars->width = 1;
+    bars->width = (int)fmax(bars->width, 1);
     return rest;
 }
 
@@ -214,8 +214,8 @@ static double needed_height(const FrameContent *content, const Layout *layout,
 /* A row of the column, with one card or two. */
 typedef struct CardRow {
     int first_card, card_count; /* cards of the row */
-    double min_height; /* ems; 0: only the title is seen */
-    double weight;     /* weight with which the row shares free height */
+    double min_height;          /* ems; 0: only the title is seen */
+    double weight; /* weight with which the row shares free height */
 } CardRow;
 
 /* Returns the index of the main card; -1: the page has no open main card. */
@@ -263,10 +263,11 @@ static int find_card_rows(const FrameContent *content, const Layout *layout,
 
 /* Gives each row its minimum height, lets the texts of a page grow to their
  * usual size, and shares the rest of the free height by the weights.
- * If the column is too low, closes rows from the last one on, unless cards
- * stand in pairs.  If the column is still too low, shrinks all heights but
- * those of the page's texts.  Returns whether the column was high enough for
- * all cards; in large type, for the page's texts. */
+ * If the column is too low, closes rows from the last one on: of cards in pairs
+ * and of a single open row only those that would shrink too much.  If the
+ * column is still too low, shrinks all heights but those of the page's texts.
+ * Returns whether it was high enough for all cards; in large type, for the
+ * texts. */
 static bool place_cards(const FrameContent *content, Layout *layout)
 {
     CardRow rows[LAYOUT_MAX_CARDS] = {{0}};
@@ -291,11 +292,13 @@ static bool place_cards(const FrameContent *content, Layout *layout)
         lacking = rows->min_height - texts;
         least -= lacking;
     }
-    for (int i = count - 1; i > 0 && open > 1 && least > room && !pairs; i--)
-        if (rows[i].min_height > 0) {
+    for (int i = count - 1; i >= 0; i--)
+        if (rows[i].min_height > 0 &&
+            ((!pairs && open > 1 && least > room) ||
+             (!content->lecture.page && MIN_SHRINK * least > room))) {
             least -= rows[i].min_height;
             room -= TITLE_BAR;
-            rows[i] = (CardRow){rows[i].first_card, 1, 0, 0};
+            rows[i].min_height = rows[i].weight = 0;
             open--;
         }
     double growth = fmin(fmax(room - least, 0), lacking);
@@ -525,9 +528,8 @@ Box layout_close_box(const Layout *layout, int card)
                  box.height < side ? box.height : side};
 }
 
-WindowHit layout_hit(const Layout *layout, double x, double y)
+WindowHit layout_hit(const Layout *l, double x, double y)
 {
-    const Layout *l = layout;
     const struct {
         Zone zone;
         const Box *box;
@@ -543,10 +545,9 @@ WindowHit layout_hit(const Layout *layout, double x, double y)
             if (box_contains(lists[k].box[i], x, y))
                 hit = (WindowHit){lists[k].zone, i, {x, y}};
     if (hit.zone == ZONE_CARD &&
-        box_contains(layout_close_box(layout, hit.index), x, y))
+        box_contains(layout_close_box(l, hit.index), x, y))
         hit.zone = ZONE_CARD_CLOSE;
-    if (hit.zone == ZONE_LIST &&
-        box_contains(layout_close_box(layout, -1), x, y))
+    if (hit.zone == ZONE_LIST && box_contains(layout_close_box(l, -1), x, y))
         hit.zone = ZONE_LIST_CLOSE;
     return hit;
 }

@@ -19,7 +19,7 @@ static const double LINE_HEIGHT = 1.3; /* ems, height of a label */
  * from its point, and for each place before in the list. */
 static const double COST_INK = 60, COST_OUTSIDE = 30, COST_FAR = 2.5,
                     COST_LATER = 0.04;
-static const double LABEL_MARGIN = 0.2;   /* ems, free margin of a label */
+static const double LABEL_MARGIN = 0.2; /* ems, free margin of a label */
 /* Ems, from point to label: near and far. */
 static const double LABEL_DISTANCE[] = {0.8, 2};
 static const Colour INK = 190; /* a pixel with a channel below this is ink */
@@ -83,6 +83,8 @@ void plot_scale(const Plot *plot)
                 (int)length, (int)(1.5 * paper->unit) + 1};
     if (!(length > 4) || !isfinite(length) || length > 0.6 * plot->box.width)
         return;
+    canvas_fill(&paper->canvas, box_inset(line, -paper_pixels(paper, 0.3)),
+                COLOUR_PANEL);
     paper_write_on_panel(paper, FACE_REGULAR, 0.85, COLOUR_FAINT,
                          line.x + 0.5 * length, line.y - 1.4 * paper->em,
                          ALIGN_CENTRE, "%s m", format_number(metres).text);

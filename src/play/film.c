@@ -5,14 +5,15 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 /* Options of ffmpeg for pixels that all players can show.  Width and height
  * become even, as this format of pixels needs. */
 #define COMMON "-vf 'pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white,format=yuv420p'"
 
 static const struct FilmKind {
-    const char *suffix; /* end of the film's name: ".mp4" */
-    int frame_rate;     /* frames a second */
+    const char *suffix;    /* end of the film's name: ".mp4" */
+    int frame_rate;        /* frames a second */
     const char *arguments; /* options of ffmpeg for its output */
 } film_kinds[] = {
     {".mp4", 60, COMMON},
@@ -73,6 +74,20 @@ static void start_ffmpeg(Film *film, const Canvas *canvas)
         setvbuf(film->pipe, NULL, _IOFBF, 1 << 16); /* size of a pipe */
 }
 
+/* Reports that ffmpeg failed: the file's own failure if it cannot grow, such as
+ * a full disk; else `why`. */
+static Status report_ffmpeg(const Film *film, const char *why)
+{
+    static const char block[1 << 16];
+    FILE *file = film->output.file;
+    fseek(file, 0, SEEK_END);
+    long end = ftell(file); /* -1: a pipe, which has no end */
+    bool grows =
+        end < 0 || (fwrite(block, sizeof block, 1, file) == 1 &&
+                    fflush(file) == 0 && ftruncate(fileno(file), end) == 0);
+    return output_report_failure(&film->output, grows ? why : NULL);
+}
+
 Status film_add_frame(Film *film, const Canvas *canvas, int times)
 {
     const Colour white = 0xffffffffu;
@@ -91,8 +106,7 @@ Status film_add_frame(Film *film, const Canvas *canvas, int times)
     film->frames += times;
     if (!ferror(film->pipe))
         return STATUS_OK;
-    return output_report_failure(&film->output,
-                                 "ffmpeg ended before the film did");
+    return report_ffmpeg(film, "ffmpeg ended before the film did");
 }
 
 Status film_close(Film *film, CloseAction keep)
@@ -105,9 +119,10 @@ Status film_close(Film *film, CloseAction keep)
     bool well = film->pipe && pclose(film->pipe) == 0;
     bool full = stat(output->part_name, &info) == 0 && info.st_size > 0;
     if (!well || !full)
-        status = output_report_failure(
-            output, film->frames == 0 ? "no frame was drawn for it"
-                                      : "ffmpeg could not write it");
+        status =
+            film->frames == 0
+                ? output_report_failure(output, "no frame was drawn for it")
+                : report_ffmpeg(film, "ffmpeg could not write it");
     film->pipe = NULL;
     Status closed = output_close(output, !full    ? KEEP_NOTHING
                                          : status ? KEEP_PART

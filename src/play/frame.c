@@ -322,7 +322,7 @@ static void build_time_line(const Player *player, FrameContent *content)
 static void write_page_heading(const Player *player, LectureContent *lecture)
 {
     const OptionRow *row[OPTIONS_MAX_ROWS];
-    char text[SENTENCE_SIZE] = "The page's own answer", value[VALUE_SIZE];
+    char text[SENTENCE_SIZE - 1] = "The page's own answer", value[VALUE_SIZE];
     const char *before = ", with ";
     if (!player_has_changed_page(player))
         return;

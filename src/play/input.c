@@ -73,9 +73,8 @@ static Status change_number(Player *player, const OptionRow *row, int notches)
 /* Returns the part of the window that gets the keys now. */
 static KeyScope find_key_scope(const Player *player)
 {
-    bool number = player->hands.selected;
-    bool list = player_shows_list(player);
-    bool asks = player_hides_answer(player);
+    bool number = player->hands.selected, list = player_shows_list(player),
+         asks = player_hides_answer(player);
     return player->hands.is_typing && (number || list || asks) ? SCOPE_FIELD
            : player->screen.sheet                              ? SCOPE_SHEET
            : number                                            ? SCOPE_NUMBER
@@ -143,8 +142,7 @@ static Status drag_number(Player *player, const MouseTarget *target)
         fmax(rint(200 * fabs(target->point[0]) / now.side), 2) / 100;
     if (!row)
         return STATUS_OK;
-    if (row->count > 1)
-        /* change_number refuses several numbers. */
+    if (row->count > 1) /* change_number refuses several numbers. */
         return change_number(player, row, 1);
     if (row->display.increment > 0 || row->kind == OPTION_NAME)
         notches = rint(notches);
@@ -255,9 +253,9 @@ static Status drag_obstacle(Player *player, const double at[2])
     int number = player->hands.mouse.dragged_id;
     double part = 1, from[2];
     if (player->hands.is_holding || !drag_places_nodes(player)) {
-        Status status = player->hands.is_holding
-                            ? STATUS_OK
-                            : obey(player, COMMAND_PUSH, number);
+        Status status = STATUS_OK;
+        if (!player->hands.is_holding)
+            status = obey(player, COMMAND_PUSH, number);
         return status ? status : obey_at(player, COMMAND_DRAG, 0, at);
     }
     for (int p = 0; p < past_panes(past); p++) {
@@ -282,14 +280,17 @@ static Status continue_drag(Player *player)
            dy = mouse->y - mouse->drag_start[1];
     Status status = STATUS_OK;
     mouse->has_moved = mouse->has_moved || math_hypot(dx, dy) > CLICK_TOLERANCE;
+    if (mouse->dragged_id >=
+        player_count_targets(player, player->active, mouse->drag_command))
+        mouse->drag_command = COMMAND_NONE; /* an undo removed what was held */
     switch (mouse->has_moved ? mouse->drag_command : COMMAND_NONE) {
     case COMMAND_GRAB: /* a drag frees a pinned node */
         if (!player->hands.is_holding) {
             mouse->repins_node = simulation->system.pinned[mouse->dragged_id];
             if (mouse->repins_node)
                 status = obey(player, COMMAND_PIN, mouse->dragged_id);
-            if (!status)
-                status = obey(player, COMMAND_GRAB, mouse->dragged_id);
+            status =
+                status ? status : obey(player, COMMAND_GRAB, mouse->dragged_id);
         }
         return status ? status : obey_at(player, COMMAND_DRAG, 0, target.point);
     case COMMAND_OBSTACLE:
@@ -327,11 +328,11 @@ static Status describe_hovered_object(Player *player)
     View *view = &player->screen.view;
     MouseTarget target = find_mouse_target(player);
     Pick pick = target.pick;
+    const Pick *old = &view->hovered;
     bool same = target.hit.zone == view->mouse_hit.zone &&
                 target.hit.index == view->mouse_hit.index &&
-                pick.kind == view->hovered.kind &&
-                pick.index == view->hovered.index &&
-                pick.pane == view->hovered.pane;
+                pick.kind == old->kind && pick.index == old->index &&
+                pick.pane == old->pane;
     bool idle =
         pick.kind == PICK_NONE && !player->screen.frame.content.lecture.page;
     if (target.hit.zone == ZONE_CELL)
@@ -382,9 +383,8 @@ static Status press_left_button(Player *player, const MouseTarget *target,
         return obey(player, COMMAND_CARD, index);
     case ZONE_CARD:
         return obey(player, COMMAND_ENLARGE, index);
-    case ZONE_TIME:
+    case ZONE_TIME: /* a click without a movement goes to its step, too */
         player->hands.mouse.drag_command = COMMAND_GOTO;
-        /* A click without a movement goes to its step, too. */
         player->hands.mouse.has_moved = true;
         return continue_drag(player);
     case ZONE_SETTING:
@@ -516,8 +516,7 @@ Status player_obey_input(Player *player, const Input *input)
 {
     Mouse *mouse = &player->hands.mouse;
     Command command;
-    bool wheel = input->kind == INPUT_WHEEL;
-    bool press = input->kind == INPUT_PRESS;
+    bool wheel = input->kind == INPUT_WHEEL, press = input->kind == INPUT_PRESS;
     Status status = STATUS_OK;
     player->commands.gesture = mouse->gesture;
     if (press && mouse->drag_command != COMMAND_NONE)

@@ -11,8 +11,7 @@ static CommandFunction *const functions[COMMAND_KINDS] = {
 #undef ROW
 };
 
-/* Counts the nodes, obstacles, cards or others that a command can name. */
-static long count_targets(const Player *player, int pane, CommandKind kind)
+long player_count_targets(const Player *player, int pane, CommandKind kind)
 {
     const Simulation *simulation = &player->past.pane[pane].simulation;
     const Scene *scene = simulation->scene;
@@ -47,7 +46,7 @@ static long count_targets(const Player *player, int pane, CommandKind kind)
 static Status check_target(Player *player, const Command *command)
 {
     for (int p = 0; p < past_panes(&player->past); p++) {
-        long count = count_targets(player, p, command->kind);
+        long count = player_count_targets(player, p, command->kind);
         if (command->number >= count)
             return player_refuse(
                 player,

@@ -186,6 +186,9 @@ typedef Status CommandFunction(Player *player, const Command *command);
 
 /* ---- obey.c -------------------------------------------------------------- */
 
+/* Counts the nodes, obstacles, cards or others that a command can name. */
+long player_count_targets(const Player *player, int pane, CommandKind kind);
+
 /* Obeys the commands in the queue until one must wait: each for the end of a
  * step, a release also for a step since the hand's last move.
  *   now  obeys all commands at once */

@@ -161,7 +161,8 @@ static void print_summary(FILE *file, const Player *player)
         char label[LABEL_SIZE];
         player_write_label(player, p, label);
         if (panes > 1)
-            fprintf(file, "pane %-14d %s\n", p + 1, label);
+            print_line(file, "pane %-14d %s", p + 1,
+                       label[0] ? label : "same options as the others");
         print_quantity(file, "steps", "%ld", simulation->steps);
         if (in_time)
             print_quantity(file, "simulated time", "%g s",
@@ -278,7 +279,9 @@ static void warn_of_reset_terms(const Options *options)
         fprintf(stderr, "--state: the springs begin whole and unbent; "
                         "--state-springs FILE has what became of them\n");
     if (options->state && moves)
-        fprintf(stderr, "--state: the ceiling begins where it did\n");
+        fprintf(stderr,
+                "--state: the ceiling starts at its height Y again, not "
+                "where it was at that step\n");
 }
 
 int program_begin(int argc, char **argv, const Window *window,

@@ -193,12 +193,13 @@ void player_deselect(Player *player)
 void player_format_value(const OptionRow *row, const Options *options,
                          const Simulation *simulation, char *text, size_t size)
 {
-    char value[COMMAND_TEXT_SIZE], unit[16];
-    option_write_unit(row, unit, sizeof unit);
+    char value[COMMAND_TEXT_SIZE], unit[16] = "";
+    option_write_short(row, options, value, sizeof value);
+    if (strcmp(value, "none") != 0)
+        option_write_unit(row, unit, sizeof unit);
     if (strcmp(row->name, "tolerance") == 0 && simulation->descent.tests_g)
         snprintf(unit, sizeof unit, "%s", /* unit of the gradient's norm */
                  simulation->scene->picture == PICTURE_CURVE ? "" : "kg m");
-    option_write_short(row, options, value, sizeof value);
     if (row->slot == OPTION_SLOT(integrator) && simulation->runs > 1 &&
         simulation->run[0].method != simulation->run[1].method)
         snprintf(text, size, "three Eulers");

@@ -119,12 +119,13 @@ void option_write_short(const OptionRow *row, const Options *options,
 {
     /* Most digits of a number; most letters of a list of numbers. */
     enum { MAX_DIGITS = 6, MAX_TOTAL_LENGTH = 20 };
-    int count = row->count > 1 ? row->count : 1, times = 1;
+    int count = row->count > 1 ? row->count : 1, last = 0;
     if (row->max_times)
-        times = (int)options->number[row->count_slot];
-    const double *value = options->number + row->slot + (times - 1) * count;
-    if (times < 1 ||
-        *value < row->low) /* no value, or a default out of range */
+        last = (int)fmax(options->number[row->count_slot] - 1, 0);
+    const double *value = options->number + row->slot + last * count;
+    /* no value, or a default out of range */
+    if (*value < row->low || (row->count && (row->term || row->max_times) &&
+                              !option_is_on(row, options)))
         snprintf(text, size, "none");
     else if (row->kind == OPTION_NAME)
         option_write(row, *value, text, size);

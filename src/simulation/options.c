@@ -208,7 +208,7 @@ const OptionRow option_rows[] = {
            1e-12, 1e6),
      NEEDS(BODY), IDLE(why_nothing_meets), LIST("slip speed"), LIVE},
     {NAME("self-contact", self_contact, "on|off",
-          "contact of bodies with each other and themselves", 0, cells),
+          "contact of bodies, also with themselves (two --body: on)", 0, cells),
      NEEDS(BODY), TERM(self_contact_energy)},
     {RANGE(NUMBER, "self-friction", self_friction, "MU",
            "coefficient of friction between bodies; else --friction", "", -1, 0,

@@ -77,7 +77,7 @@ ROWS(eight_rows_avx, Double4, 2)
 
 INLINE void multiply_columns(const Product *at, int n, bool avx)
 {
-    double inverse[GROUP_COLUMNS];
+    double inverse[GROUP_COLUMNS] = {0};
     int i = 0;
     for (int q = 0; at->L && q < n; q++)
         inverse[q] = 1 / at->L[(size_t)q * at->ldl + q];

@@ -42,9 +42,8 @@ static uint64_t hash_box(const Canvas *canvas, Box box)
 {
     uint64_t hash = STATE_HASH_SEED;
     for (int y = box.y; y < box.y + box.height; y++)
-        for (int x = box.x; x < box.x + box.width; x++)
-            hash = (hash ^ canvas->pixels[(long)y * canvas->width + x]) *
-                   1099511628211u;
+        hash = hash_bytes(hash, &canvas->pixels[y * canvas->width + box.x],
+                          (size_t)box.width * sizeof(Colour));
     return hash;
 }
 
@@ -254,6 +253,7 @@ static bool point_at_pane(const char *place, const Layout *layout)
     const char *of = strstr(place, " of ");
     int i = 0, p = of ? atoi(of + 4) : 0;
     const Pane *pane = &content->pane[p];
+    assert_true(p < content->panes);
     double at[2], grip[SCENE_MAX_HANDLES][2];
     if (sscanf(place, "grip %d", &i) == 1) {
         assert_true(i < exhibit_list_handles(pane->simulation, grip));
