@@ -490,8 +490,7 @@ Layout layout_create(const FrameContent *content, int width, int height)
     bool bare = content->is_bare || content->is_stage_only;
     if (!bare && wide >= 53 && high >= 34 && !low &&
         (page || content->cards.hidden_cards != (1u << picture->count) - 1)) {
-        double most = WIDE_PART * wide;
-        double end = big ? BIG_PART : PAGE_PART;
+        double most = WIDE_PART * wide, end = big ? BIG_PART : PAGE_PART;
         const Box whole = layout.stage;
         for (double part = COLUMN_PART;; part += COLUMN_GROWTH) {
             double ems = fmax(part * wide, MIN_COLUMN);

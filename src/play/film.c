@@ -48,10 +48,8 @@ Status film_open(const char *name, char *message, Film *film)
         why = WHY_NO_FILM;
     else if (output_open(name, message, &film->output))
         return STATUS_FILE_FAILED;
-    if (!why)
-        return STATUS_OK;
-    output_close(&film->output, KEEP_NOTHING);
-    return output_report(message, name, STATUS_INVALID_INPUT, why);
+    return why ? output_report(message, name, STATUS_INVALID_INPUT, why)
+               : STATUS_OK;
 }
 
 /* Starts ffmpeg for frames of the size of the first one.  The messages of
