@@ -266,8 +266,7 @@ static int find_card_rows(const FrameContent *content, const Layout *layout,
  * If the column is too low, closes rows from the last one on: of cards in pairs
  * and of a single open row only those that would shrink too much.  If the
  * column is still too low, shrinks all heights but those of the page's texts.
- * Returns whether it was high enough for all cards; in large type, for the
- * texts. */
+ * Returns whether the column was high enough; in large type, for the texts. */
 static bool place_cards(const FrameContent *content, Layout *layout)
 {
     CardRow rows[LAYOUT_MAX_CARDS] = {{0}};

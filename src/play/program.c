@@ -197,20 +197,17 @@ static void print_summary(FILE *file, const Player *player)
 /* Reports frames of an earlier, longer run that are still in the folder. */
 static void print_old_frames(const Recording *recording)
 {
-    char range[48] = "";
     long count = 0, first = 0, last = 0;
-    for (long step = 0; recording->old_frame && step < MAX_FRAMES; step++)
+    for (long step = 0; recording->old_frame && step < FRAMES_MOST; step++)
         if (recording->old_frame[step]) {
             first = count++ == 0 ? step : first;
             last = step;
         }
-    if (count == 0) /* no old frame, or no --frames */
-        return;
-    if (last > first)
-        snprintf(range, sizeof range, " ... frame_%06ld.png", last);
-    print_line(stderr, "%s/: %ld %s of an earlier run %s: frame_%06ld.png%s",
-               recording->folder, count, last > first ? "frames" : "frame",
-               last > first ? "stay" : "stays", first, range);
+    if (count > 0) /* 0: no old frame, or no --frames */
+        print_line(stderr,
+                   "%s/: frames of an earlier run stay: %ld, from "
+                   "frame_%06ld.png to frame_%06ld.png",
+                   recording->folder, count, first, last);
 }
 
 /* ---- the end ------------------------------------------------------------- */

@@ -131,8 +131,8 @@ verdict frames_of_an_earlier_run_are_named "$(
     : >fr/frame_7.png && : >fr/frame_0000070.png && : >fr/frame_000001.png.part
     frames 4 ''
     frames 4 ''
-    frames 3 'fr/: 1 frame of an earlier run stays: frame_000004.png'
-    frames 1 'fr/: 3 frames of an earlier run stay: frame_000002.png ... frame_000004.png'
+    frames 3 'fr/: frames of an earlier run stay: 1, from frame_000004.png to frame_000004.png'
+    frames 1 'fr/: frames of an earlier run stay: 3, from frame_000002.png to frame_000004.png'
     frames 4 ''
     rm -r fr
 )"
