@@ -263,8 +263,8 @@ static int find_card_rows(const FrameContent *content, const Layout *layout,
 
 /* Gives each row its minimum height, lets the texts of a page grow to their
  * usual size, and shares the rest of the free height by the weights.
- * If the column is too low, closes rows from the last one on: of cards in pairs
- * and of a single open row only those that would shrink too much.  If the
+ * If the column is too low, closes rows from the last one on; cards in pairs
+ * and a single open row close only if the cards would shrink too much.  If the
  * column is still too low, shrinks all heights but those of the page's texts.
  * Returns whether the column was high enough; in large type, for the texts. */
 static bool place_cards(const FrameContent *content, Layout *layout)

@@ -198,7 +198,7 @@ static void print_summary(FILE *file, const Player *player)
 static void print_old_frames(const Recording *recording)
 {
     long count = 0, first = 0, last = 0;
-    for (long step = 0; recording->old_frame && step < FRAMES_MOST; step++)
+    for (long step = 0; recording->old_frame && step < MAX_FRAMES; step++)
         if (recording->old_frame[step]) {
             first = count++ == 0 ? step : first;
             last = step;
