@@ -238,8 +238,7 @@ static bool run_row(void *user, char *row)
             snprintf(context->reason, 512, "it does not converge, or unjudged");
         }
         if (!good) {
-            strncat(strncat(context->reason, ": ", 3), line,
-                    511 - strlen(context->reason));
+            append(context->reason, 512, ": %s", line);
             return false;
         }
     }
