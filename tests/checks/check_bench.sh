@@ -1,12 +1,12 @@
 #!/bin/sh
-# elasto-bench: a quick run of all tables writes whole files of finite numbers;
-# what is wrong on its command line is told in one line.
+# Checks elasto-bench: a quick run writes whole tables of finite numbers; a
+# wrong command line gives one line of explanation.
 program=$(realpath "${BENCH:-build/elasto-bench}")
 . "$(dirname "$0")/verdict.sh"
 work_apart
 
-# table NAME COLUMN: a comment, the names of the columns, and rows that have all
-# of them, each number finite.
+# table NAME COLUMN: checks that a table has a comment, the names of its
+# columns, and complete rows of finite numbers.
 table() {
     awk -F , -v column="$2" '
         NR == 1 && !/^# elasto .*SuiteSparse .*SDL .*flags / {
@@ -33,7 +33,7 @@ verdict tables_are_whole "$(
 verdict the_table_says_where_implicit_loses \
     "$(grep -q 'implicit loses' work.csv || echo 'it does not')"
 
-# What the numbers must be even in a quick run.
+# Checks numbers that hold even in a quick run.
 methods='backward-euler forward-euler symplectic-euler verlet bdf2 midpoint
     sdirk2'
 verdict all_methods_were_measured "$(for name in $methods; do
@@ -53,7 +53,7 @@ verdict readme_figure_has_all_methods "$(for name in $methods; do
     grep -q "$name, " "$root/tests/data/work_precision.svg" || echo "$name is missing"
 done)"
 
-# By make, and where it fails the table that is there stays.
+# Checks that a failing `make` keeps the old table.
 unmeasured() { # make's arguments...
     mkdir -p "$root/build/bench"
     [ -e "$root/build/bench/steps.csv" ] || cp steps.csv "$root/build/bench"

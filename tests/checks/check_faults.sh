@@ -1,8 +1,7 @@
 #!/bin/sh
-# What can go wrong around a run goes wrong: memory, files, kills, streams,
-# locales, screens.  Each must end as documented: the right exit
-# code, one line that says why, no half file under a final name.  A selection of
-# the slow ones, with LONG a larger one.
+# Runs the program with faults in memory, files, kills, streams, locales and
+# screens. Each run must end with the documented exit code, one line that says
+# why, and no half file under a final name. LONG=1 tries more faults.
 . "$(dirname "$0")/verdict.sh"
 work_apart
 
@@ -17,7 +16,8 @@ begin_files() {
     echo old >l.csv
 }
 
-# run_faulty KIND NUMBER: code in $code, lines in "error".
+# run_faulty KIND NUMBER: runs with a fault; sets $code, and `error` has the
+# lines.
 run_faulty() {
     begin_files
     # shellcheck disable=SC2086
@@ -28,8 +28,7 @@ run_faulty() {
     code=$?
 }
 
-# The tables under their final names: what was there before, or whole ones of
-# so many nodes.
+# Checks that tables are either the old ones, or whole ones of so many nodes.
 check_table() { # name first-line nodes-or-0
     [ -f "$1" ] || return 0
     [ "$(cat "$1")" != old ] || return 0
@@ -59,22 +58,22 @@ check_files() {
     check_pictures
 }
 
-# Failure NUMBER of KIND: exit 1 and one line with these words; and if what failed
-# was not needed, exit 0 and silence.
+# Checks failure NUMBER of KIND: exit 1 and one line with these words, or exit 0
+# and silence if the failed call was not needed.
 check_fault() { # kind number words
     run_faulty "$1" "$2"
     case $code-$(wc -l <error) in
     0-0) ;;
     1-1) grep -qE "^elasto: .*($3)|^libgomp: Out of memory" error ||
         echo "$1 $2: $(cat error)" ;;
-    *) grep -q '^libgomp: Out of memory' error || # its own lines
+    *) grep -q '^libgomp: Out of memory' error || # libgomp has its own lines
         echo "$1 $2: exit $code: $(head -n 2 error)" ;;
     esac
     check_files | sed "s|^|$1 $2: |"
 }
 
-# Each call of a kind in turn; of many, some 12 (LONG: 150) spread over all of
-# them, for fonts alone make thousands of allocations.
+# Lets calls of a kind fail one by one: about 12 (LONG: 150) of all calls, since
+# fonts alone make thousands of allocations.
 faults_of() { # name kind words
     run_faulty "$2" 0
     total=$(cat count)
@@ -93,7 +92,7 @@ faults_of() { # name kind words
 }
 
 # SDL reports every failure in the same way; OpenMP ends the program itself.
-if [ -z "${SANITIZE:-}" ]; then # a sanitizer has a malloc of its own
+if [ -z "${SANITIZE:-}" ]; then # a sanitizer replaces malloc
     faults_of memory_fails_once memory \
         'not enough memory|Cannot allocate memory|drawing failed'
     faults_of renames_fail rename \
@@ -101,7 +100,7 @@ if [ -z "${SANITIZE:-}" ]; then # a sanitizer has a malloc of its own
 fi
 
 # ---- kills ------------------------------------------------------------------
-# Whatever is killed: what stands under a final name is whole.
+# Checks that killed runs leave only whole files under final names.
 kills() {
     for delay in 0.02 0.05 0.1 0.2; do
         begin_files
@@ -119,8 +118,8 @@ kills() {
 verdict kills_leave_no_half_file "$(kills 2>/dev/null)"
 
 # ---- streams and locales ----------------------------------------------------
-# A table must not become the output.
-closed_streams() { # code, then what closes, arguments
+# Checks that a file does not take the number of a closed stream.
+closed_streams() { # rows of: exit code, redirection, arguments
     while IFS='|' read -r expected closed arguments; do
         rm -f s.csv
         : >error
@@ -141,7 +140,7 @@ END
 }
 verdict streams_may_be_closed "$(closed_streams)"
 
-# A parent may have left SIGPIPE ignored.
+# The shell may have inherited an ignored SIGPIPE.
 reset_pipe=
 ! env --default-signal=PIPE true 2>/dev/null ||
     reset_pipe='env --default-signal=PIPE'
@@ -154,11 +153,12 @@ verdict broken_pipes_end_the_run "$(
     [ "$(cat error)" = 'elasto: standard output: Broken pipe' ] || cat error
 )"
 
-# Numbers have a point in any locale: nobody asks for the user's.
+# The program never calls setlocale, so numbers have a point in any locale.
 verdict locales_change_nothing "$(grep -rn setlocale "$root/src")"
 
 # ---- screens ----------------------------------------------------------------
-# Libraries below SDL leak when it looks for a screen.
+# Runs without a usable screen; libraries below SDL leak while they look for
+# one.
 screens() {
     for setting in A=1 DISPLAY=:9977 SDL_VIDEODRIVER=dummy \
         SDL_VIDEODRIVER=nonsense; do

@@ -1,11 +1,11 @@
 #!/bin/sh
-# What is promised about files: what existed stays until what replaces it is whole,
-# also where a run fails or is stopped.  What is refused is check_lines.sh's.
+# Checks promises about files: an old file stays until the new one is whole,
+# also if a run fails or is stopped. (Refused lines: check_lines.sh.)
 . "$(dirname "$0")/verdict.sh"
 work_apart
 
-# run CODE ARGUMENTS...: two quiet steps of nine nodes; complains unless they end
-# with 0 and no line, or with 1 and one.
+# run CODE ARGUMENTS...: makes two quiet steps of nine nodes; complains unless
+# they end with exit code and number of lines CODE, 0 or 1.
 run() {
     expected=$1
     shift
@@ -16,7 +16,7 @@ run() {
         echo "$*: exit $code: $(cat error)"
 }
 
-# A table of three times nine nodes.
+# Checks that a file is a table of three times nine nodes.
 whole() {
     [ "$(wc -l <"$1")" -eq 28 ] || echo "$1: $(wc -l <"$1") lines"
     [ "$(head -n 1 "$1")" = step,time,node,x,y,vx,vy ] || echo "$1: no header"
@@ -82,8 +82,8 @@ films() {
     no_parts films
     rm -rf ./*.gif ./*.mp4 cut
 }
-# Whichever of its files a run fails in, all stay beside what stands there: a
-# picture after step 2, a step after many, a table at the end.
+# Checks that a run which fails in one file keeps all old ones: it fails in a
+# picture after step 2, after many steps, or at the end of a table.
 failed_runs() {
     mkdir -p fr/frame_000003.png
     ln -s /dev/full full.csv
@@ -109,7 +109,7 @@ failed_runs() {
 END
     rm -rf fr full.csv s.csv e.csv f.gif
 }
-# Ctrl+C goes to the whole group, ffmpeg too.
+# Checks Ctrl+C, which reaches the whole process group with ffmpeg.
 stopped_films() {
     for row in 'INT mp4' 'TERM gif'; do
         name=f.${row#* }
@@ -143,8 +143,8 @@ verdict without_ffmpeg_one_line_says_so "$(
 )"
 
 # ---- limits ----------------------------------------------------------------------
-# The size of a file: with the signal as it comes, and ignored by a parent.  What
-# was written stays, and the next run writes over it.
+# Limits the size of files, with SIGXFSZ or with it ignored by a parent. Written
+# rows stay, and the next run overwrites them.
 sizes() {
     for row in '2 ' '8 XFSZ'; do
         echo precious >k.csv
@@ -197,8 +197,8 @@ END
 }
 verdict signals_lose_no_row "$(signals)"
 
-# A run that hangs where it cannot look: the first signal changes nothing, the
-# second ends it at once.
+# A run that hangs in rename ignores the first signal; the second ends it at
+# once.
 second_signal() {
     for name in INT TERM; do
         echo precious >k.csv
@@ -208,7 +208,7 @@ second_signal() {
         child=$!
         until_there k.csv.part
         kill -s $name $child
-        sleep 0.2 # what comes sooner is still the first
+        sleep 0.2 # earlier signals count as the first
         has_ended $child 2>/dev/null && echo "$name: the first ends it"
         until_true ends_by $name || echo "$name: the second does not"
         kill -s KILL $child 2>/dev/null
@@ -217,7 +217,7 @@ second_signal() {
         rm -f k.csv*
     done
 }
-ends_by() { # SIGNAL: another one; two in a row may become one
+ends_by() { # SIGNAL: sends it again, as two may merge into one
     kill -s "$1" $child
     sleep 0.2
     has_ended $child

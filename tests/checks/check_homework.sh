@@ -1,8 +1,8 @@
 #!/bin/sh
-# make homework and make check-homework: homework.c compiles and says what is to
-# be done; right solutions in two styles pass; each mistake of mistakes.txt and
-# of tests/data/homework.txt (function | how lecture.c is changed | what must be
-# said) gets its sentence.  One style and one mistake; with LONG all.
+# Checks make homework and make check-homework: homework.c compiles and says
+# what is missing; correct solutions in two styles pass; each mistake of
+# mistakes.txt and of tests/data/homework.txt (function | change of lecture.c |
+# expected words) gets its sentence. One style and one mistake; LONG=1: all.
 . "$(dirname "$0")/verdict.sh"
 work_apart
 export CC DEP_CFLAGS LIBS
@@ -27,7 +27,7 @@ verdict nothing_is_right_yet "$(
     grep -q '^0 of 12 are right$' said || tail -n 1 said
 )"
 
-# The functions of a file of solutions in the places of lecture.c's.
+# Puts the functions of a file of solutions in the places of those in lecture.c.
 in_style() {
     awk 'NR == FNR && /^static/ { name = $0; sub(/\(.*/, "", name)
             sub(/.*[ *]/, "", name); written[name] = "" }
@@ -43,7 +43,7 @@ cp "$root/src/lecture.c" slides.c
 in_style "$root/tests/data/homework/blocks.c" >blocks.c
 right="${LONG:+slides.c }blocks.c"
 
-# One; with LONG all.
+# Selects one item; LONG=1: all.
 mistakes() {
     cat "$root/src/homework/mistakes.txt" "$root/tests/data/homework.txt" |
         awk -v all="${LONG:-}" 'all || NR == 20'
@@ -61,7 +61,7 @@ while IFS= read -r row; do
     echo "$file|$name: |${row##* | }" >>expected
 done <rows >unchanged
 # shellcheck disable=SC2046,SC2086
-check $right $(ls wrong_*.c) no.c >table # of several a table is written
+check $right $(ls wrong_*.c) no.c >table # several files give a table
 verdict right_solutions_pass "$(
     [ "$(grep -c ',12,""$' table)" = "$(echo "$right" | wc -w)" ] || cat table
     cmp -s slides.c blocks.c && echo 'blocks.c is lecture.c'

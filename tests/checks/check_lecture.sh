@@ -1,7 +1,7 @@
 #!/bin/sh
-# build/lecture as a program: one line compiles it, it is short, arguments and
-# failures end it as they should, its tables are elasto's, it draws without a
-# screen, and its window closes.
+# Checks build/lecture: one line compiles it, it is short, arguments and
+# failures give the right exit codes, its tables agree with elasto's, it draws
+# without a screen, and its window closes.
 . "$(dirname "$0")/verdict.sh"
 lecture=$(realpath "${LECTURE:-build/lecture}")
 source=$root/src/lecture.c
@@ -15,7 +15,7 @@ verdict lecture_is_under_600_lines "$(
 
 verdict lecture_needs_no_header_of_ours "$(grep -n '#include "' "$source")"
 
-# The line of its own head, over two lines there; CC as it is set.
+# Compiles lecture.c by the line in its head, which wraps, with the set CC.
 verdict one_line_compiles_it "$(
     line=$(sed -n '/^ \*   cc /{N;s/^ \*  *//;s/\\\n \*//p;}' "$source")
     [ "$line" ] || echo 'no such line'
@@ -44,7 +44,7 @@ verdict the_line_names_value_and_range "$(
     ends 2 side=2
     grep -q "side=2.*side_len=1 rho=1000 k=1e5" error || cat error
 )"
-# The message for a wrong name has the value of each one that is not given.
+# The message for a wrong name lists the default values.
 verdict the_line_names_what_stands_without "$(
     "$lecture" steps=3 states=plain >updates
     "$lecture" x 2>error
@@ -77,7 +77,7 @@ else
 fi
 verdict states_need_their_folder "$(ends 1 steps=1 states=nowhere/states)"
 
-# The file has its name when it is whole, and not before.
+# The file appears under its name only when it is whole.
 verdict states_are_whole_or_not_there "$(
     "$lecture" steps=2 states=whole >/dev/null || echo 'it failed'
     [ "$(wc -l <whole)" = 76 ] || echo "whole has $(wc -l <whole) lines"
@@ -86,9 +86,9 @@ verdict states_are_whole_or_not_there "$(
     [ ! -e whole.part ] || echo 'whole.part is left'
 )"
 
-# same LECTURE-ARGUMENTS ELASTO-OPTIONS: states that agree to 1e-8 m and 1e-6 m/s.
-# Lecture.c tests p before it uses it, elasto after: so both run to a tolerance at
-# which they end in the same minimum.
+# same LECTURE-ARGUMENTS ELASTO-OPTIONS: states agree to 1e-8 m and 1e-6 m/s.
+# lecture.c tests p before its use, elasto after it, so both run to a tolerance
+# at which they end in the same minimum.
 same() {
     "$lecture" $1 states=ours >updates || echo "lecture $1 failed"
     "$elasto" --headless --quiet $2 --states theirs ||
@@ -145,12 +145,12 @@ find_window() {
     window=$(xdotool search --name '^lecture: ' 2>/dev/null | tail -n 1)
     [ -n "$window" ]
 }
-# closes COMMAND...: the window that comes up closes by this; states are whole.
+# closes COMMAND...: the command closes the window; the states are whole.
 closes() {
     rm -f seen
     "$lecture" states=seen >out 2>error &
     pid=$!
-    until_true test -s out || echo 'no step' # SDL may make a window twice
+    until_true test -s out || echo 'no step' # SDL may create a window twice
     until_true find_window || echo 'no window'
     "$@" "$window" || echo "$1 failed"
     ends_with 0
@@ -159,8 +159,8 @@ closes() {
 escape() {
     timeout $timeout xdotool windowfocus --sync "$1" key Escape
 }
-# The upper right node, 150 and 107 pixels from the middle of the window, is led
-# upwards from (0.7, 0.5) to (0.7, 0.7933); Space stops that, and R puts it back.
+# Drags the upper right node, 150 and 107 pixels from the middle of the window,
+# upwards from (0.7, 0.5) to (0.7, 0.7933); Space stops it, R puts it back.
 lives() {
     timeout $timeout xdotool windowfocus --sync "$1" \
         mousemove --window "$1" 452 191 mousedown 1 \
@@ -188,7 +188,7 @@ is_back() { # in one step, as nothing else moves it
 }
 
 start_screen 1000x1000
-# Else SDL ignores a click that it reads at the time of the focus.
+# SDL ignores a click that arrives together with the focus.
 export SDL_MOUSE_FOCUS_CLICKTHROUGH=1
 verdict it_lives "$(closes lives)"
 verdict escape_closes_the_window "$(closes escape)"

@@ -1,12 +1,12 @@
 #!/bin/sh
-# Command lines, a row each: exit code, what is said, and what is in the tables
-# afterwards.
+# Rows of command lines: exit code, words of the message, and checks of the
+# tables that they write.
 . "$(dirname "$0")/verdict.sh"
 work_apart
 
 # ---- what is refused ---------------------------------------------------------
-# k.csv is a file, d a folder, jump a script: nothing else is there, and nothing
-# is made or changed.  Code, words of the one line on standard error, arguments.
+# Refused lines: exit code, words of the one line on standard error, arguments.
+# k.csv is a file, d a folder, jump a script; no file is made or changed.
 refusals() {
     echo precious >k.csv
     mkdir d
@@ -55,7 +55,7 @@ END
 )"
 cd "$work" || exit 1
 
-# No control character of ASCII reaches the terminal.
+# Checks that no ASCII control character reaches the terminal.
 odd=$(printf 'no\nwhere\033[31m\177x')
 one_clean_line() { # what
     [ "$(wc -l <error)" -eq 1 ] || echo "$1: $(wc -l <error) lines"
@@ -106,8 +106,8 @@ if [ -c /dev/full ]; then
     )"
 fi
 
-# As many runs as a list has values, each as it is alone; and a reader that has
-# seen enough ends them without a word.
+# Each value of a list has a run, equal to that of the value alone; a reader
+# that closes the pipe ends them silently.
 verdict a_sweep_has_a_run_for_each_value "$(
     values=$(seq -s , 1000 1000 20000)
     "$elasto" --headless --quiet --steps 3 --stiffness "$values" --states all ||
@@ -120,7 +120,7 @@ verdict a_sweep_has_a_run_for_each_value "$(
     done
     rm -f all one its
 )"
-# Frames that an earlier run left and this one does not replace: which they are.
+# Frames of an earlier run that are not replaced are named.
 verdict frames_of_an_earlier_run_are_named "$(
     frames() { # STEPS MESSAGE
         "$elasto" --headless --quiet --size 64x64 --steps "$1" --frames fr \
@@ -149,8 +149,8 @@ verdict a_reader_that_leaves_gets_no_message "$(
 )"
 
 # ---- what scenes leave -------------------------------------------------------
-# Code, rows of the states, arguments; below it a test in awk: what it prints is
-# wrong.  Of the log or the summary where it says so, else of the states.
+# Rows: exit code, rows of the states, arguments; the line below is a test in
+# awk, which prints errors, of the log, the summary, or else the states.
 scenes() {
     while IFS='|' read -r expected rows arguments && read -r test; do
         # shellcheck disable=SC2086

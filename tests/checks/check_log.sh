@@ -1,12 +1,12 @@
 #!/bin/sh
-# The log tells how each minimisation ended, also one that began at its minimum;
-# the summary counts the same.
+# Checks that the log tells how each minimisation ended, even one that began at
+# its minimum, and that the summary has the same counts.
 . "$(dirname "$0")/verdict.sh"
 work_apart
 
-# ends STAGES LINE: complains unless the log of this line has one end for each
-# of so many minimisations a step, and names as many steps that did not converge
-# as the summary, with the same reasons.
+# ends STAGES LINE: complains unless the log of this line has STAGES ends of
+# minimisations in each step, and the same steps that did not converge, with the
+# same reasons, as the summary.
 ends() {
     stages=$1
     shift
@@ -58,8 +58,8 @@ verdict steps_that_did_not_converge_are_reported "$(
     ends 1 --steps 5 --stiffness 1e15 --timestep 100
     ends 1 --steps 30 unprojected
 )"
-# A step that is ended by what moves has a row for that, besides those of its
-# minimisations.
+# A step that a moving wall or pin ends has a row of its own in the log, besides
+# those of its minimisations.
 told() { # REASON LINE
     reason=$1
     shift
@@ -92,8 +92,8 @@ verdict a_start_that_is_the_minimum_is_reported "$(
         echo 'a step at rest is not told, or not one update'
 )"
 
-# kinds KIND AWK LINE: complains unless rows of this log that AWK picks are all
-# of this kind, and there are some.
+# kinds KIND AWK LINE: complains unless AWK picks rows of the log of this line,
+# and all of them have this kind.
 kinds() {
     kind=$1 pick=$2
     shift 2
@@ -105,7 +105,7 @@ kinds() {
                   print line ": " bad + 0 " of " rows + 0 " rows" }' log
 }
 verdict the_log_says_the_kind_of_each_residual "$(
-    # one that a factor of its own Hessian gives, and one that an older does
+    # residuals by a factor of the same Hessian, and by an older factor
     kinds value '$9 == 1' --segments 4
     kinds estimate '$9 == 0' --segments 4
     kinds estimate 1 --segments 33
@@ -113,7 +113,7 @@ verdict the_log_says_the_kind_of_each_residual "$(
     kinds value '$NF == 2' --projection clamp,none
 )"
 
-# Summaries, without run times, after each line of tests/data/summaries.txt.
+# Compares summaries, without run times, with tests/data/summaries.txt.
 verdict summaries_say_what_runs_have_done "$(
     sed -n 's/^> //p' "$root/tests/data/summaries.txt" | while read -r line; do
         echo "> $line"

@@ -1,5 +1,5 @@
 #!/bin/sh
-# The lecture without a screen: its list, its pages one by one.
+# Checks the lecture without a screen: its list and its pages one by one.
 . "$(dirname "$0")/verdict.sh"
 work_apart
 apart=$PWD
@@ -7,7 +7,7 @@ apart=$PWD
 "$elasto" --lecture --list >list
 pages=$(awk 'END { print NR }' list)
 
-# The last page first: a page needs none of those before it.
+# Runs pages from the last to the first: no page needs an earlier one.
 verdict every_page_opens_by_number_and_by_name "$(
     awk '{ print $2 }' list >names
     while read -r name; do
@@ -23,9 +23,9 @@ verdict every_page_opens_by_number_and_by_name "$(
     cmp last/frame_000000.png "frames_$last/frame_000000.png" 2>&1
 )"
 
-# Pages are referred to by name: with a page more at place 3 each number in a
-# text is that of the same page as before.
-numbers() { # PAGES.TXT: which pages its texts name, by number
+# Texts refer to pages by name: with one page more at place 3, each number in a
+# text still belongs to the same page.
+numbers() { # PAGES.TXT: numbers of pages in its texts
     awk -f src/lesson/text.awk -f src/lesson/code.awk \
         -f src/lesson/pages.awk "$1" | grep -o 'page [0-9][0-9]*'
 }

@@ -1,13 +1,12 @@
 #!/bin/sh
-# Scripts: one that gives every command ends on every scene, and on some of each
-# kind (LONG=1: on all) with the same state once more.
+# Checks scripts: a script with every command ends on each scene, and twice with
+# the same state on some scenes (LONG=1: all).
 . "$(dirname "$0")/verdict.sh"
 
 work_apart
 table=$root/include/play/command_rows.def
 
-# Each command of the table, on the way through a scene and back: the step, and
-# what is given there.
+# Each command of the table, on the way through a scene and back, by step
 awk '{ step = $1; sub("[0-9]* ", ""); n = split($0, all, "; ")
     for (i = 1; i <= n; i++) print step, all[i] }' >commands <<'END'
 0 page-on; page-back; page solid; pages; code; escape; scene SCENE; colours
@@ -49,7 +48,7 @@ missing_words() {
 }
 verdict the_script_has_every_command "$(missing_words)"
 
-# run SCENE: prints the hash of the end.
+# run SCENE: prints the hash of the last state.
 run() {
     sed "s/SCENE/$1/" commands >"$1.script"
     timeout 600 "$elasto" --headless --script "$1.script" "$1" >out 2>error
@@ -74,8 +73,8 @@ on_every_scene() {
 }
 verdict every_command_on_every_scene "$(on_every_scene)"
 
-# Commands that make no sense are told and passed over, and the end is that of a
-# bad command line.
+# Invalid commands are reported and skipped, and the exit code is that of a bad
+# command line.
 refusals() {
     printf '0 pin 999\n0 set timestep -1\n1 set foo 1\n1 step\n2 quit\n' \
         >bad.script
@@ -87,7 +86,7 @@ refusals() {
 }
 verdict invalid_script_lines_are_reported "$(refusals)"
 
-# Beyond the newest step there is none; and nobody waits for ever.
+# A script that asks for a step after the last one ends without waiting.
 ends_of_runs() {
     for beyond in '2 hash' '2 goto 50'; do
         printf '0 pause\n0 step\n1 step\n%s\n2 quit\n' "$beyond" >end.script
@@ -108,7 +107,7 @@ ends_of_runs() {
 }
 verdict runs_have_ends "$(ends_of_runs)"
 
-# The line that Y tells leads to its state, whatever the command line was.
+# Checks that the line printed by Y leads to its state from any command line.
 leads() { # ARGUMENT...
     "$elasto" --headless --quiet "$@" --script y.script 2>told
     told=$(sed -n 's/^state \([0-9a-f]*\) at step [0-9]*: elasto /\1 /p' told)
@@ -137,8 +136,8 @@ lines_of_y() {
 }
 verdict the_line_of_y_leads_there "$(lines_of_y)"
 
-# Twenty seconds of pushing, pressing and throwing end in the state that the
-# script tells, with pictures and without.
+# Recorded sessions of twenty seconds of pushing, pressing and throwing end in
+# the recorded state, with pictures and without.
 pushes_end() {
     script=$root/tests/data/push.script
     line=$(sed -n 's/^# line: //p' "$script")
@@ -152,7 +151,7 @@ pushes_end() {
 }
 verdict twenty_seconds_of_pushing_have_one_hash "$(pushes_end)"
 
-# The exit code is that of the worst pane.
+# Checks that the exit code is that of the worst pane.
 each_pane() {
     for pair in none,clamp clamp,none; do
         "$elasto" unprojected --headless --quiet --steps 5 --projection $pair
@@ -162,7 +161,7 @@ each_pane() {
 }
 verdict every_pane_counts "$(each_pane)"
 
-# Panes have one time; files know all of them.
+# Panes share one time; files have the rows of all panes.
 panes() {
     "$elasto" --headless --quiet --steps 4 --states states.csv \
         --timestep 0.001,0.002 --projection clamp,none || echo "ends with $?"
@@ -181,9 +180,9 @@ panes() {
 }
 verdict panes_have_one_time "$(panes)"
 
-# The last row of a step in the ledger has the numbers that the step goes on
-# with, also where a script went back to it, undid and redid.  Each line is a
-# script; the last rows of its steps are those of the first script.
+# Checks that the last ledger row of a step has the numbers from which the run
+# continues, even after going back, undo and redo. Each line is a script; its
+# last rows equal those of the first script.
 ledgers() {
     first='2 set stiffness 2e4\n4 set stiffness 5e4\n'
     while read -r rest; do

@@ -1,9 +1,8 @@
 #!/bin/sh
-# The sources keep the rules of the house that no linter knows: headers compile
-# alone, rooms look down only, the core has no globals, and the table in the
-# README names what there is.  (Layout is clang-format's, the length of functions
-# clang-tidy's: make analyse.)
-# From the ground up; a room uses itself and those before it.
+# Checks rules of the sources that no linter knows: headers compile alone, rooms
+# include only lower rooms, the core has no globals, and the table in the README
+# names existing functions. (make analyse: layout and length of functions.)
+# Rooms from the ground up; a room uses itself and those before it.
 rooms='base model solve step simulation scenes lesson picture play bench web homework'
 headers=$(echo include/*/*.h src/*/*.h)
 
@@ -12,7 +11,7 @@ headers=$(echo include/*/*.h src/*/*.h)
 temporary=$(mktemp -d) || exit 1
 trap 'rm -rf "$temporary"' EXIT
 
-# Each header, compiled twice with nothing before it.
+# Compiles each header twice with nothing before it.
 headers_alone() {
     for header in $headers; do
         printf '#include "%s"\n#include "%s"\n' "${header#*/}" "${header#*/}" \
@@ -25,7 +24,7 @@ headers_alone() {
 }
 verdict headers_compile_alone "$(headers_alone)"
 
-# A flag that forgets NaN or the order of sums ends the build, in words.
+# Flags that change NaN or the order of sums must stop the build with a message.
 fast_math() {
     for flag in -ffast-math -Ofast -ffinite-math-only; do
         for source in src/base/mathematics.c src/lecture.c; do
@@ -48,8 +47,8 @@ sources_without_heading() {
 }
 verdict sources_begin_with_what_they_are_for "$(sources_without_heading)"
 
-# The floor of a file goes to $number: the number of its room, or of the programs
-# above them.
+# Sets $number to the floor of a file: the index of its room, or 13 for
+# programs.
 floor() { # room/file, or file
     number=0
     for room in $rooms; do
@@ -90,8 +89,8 @@ includes_looking_up() {
 }
 verdict no_room_looks_up "$(includes_looking_up)"
 
-# No two files of play call each other, not even in a circle: tsort finds an
-# order of all arrows "caller called" between its objects.
+# Checks that files of a room do not call each other in a circle: tsort orders
+# the arrows "caller called" between objects.
 arrows_of() { # room
     for source in src/"$1"/*.c; do
         name=$(basename "$source" .c)
@@ -111,8 +110,7 @@ arrows_of() { # room
 verdict files_of_play_call_in_no_circle \
     "$(arrows_of play | tsort 2>&1 >/dev/null | sort -u)"
 
-# include/ has what other rooms use, or their headers; the rest stays beside
-# its source.
+# Checks that include/ has only headers that other rooms use.
 verdict headers_of_one_room_stay_in_it "$(
     for header in include/*/*.h; do
         name=${header#include/}
@@ -120,7 +118,7 @@ verdict headers_of_one_room_stay_in_it "$(
             grep -qvE "^src/${name%%/*}/" || echo "$header"
     done)"
 
-# The numeric core: no printing, no exit, no SDL, no variables of its own.
+# Checks the numeric core: no printing, no exit, no SDL, no global variables.
 core_files() {
     for room in base model solve step; do
         echo src/"$room"/*.c
@@ -130,7 +128,7 @@ core_files() {
 verdict the_core_neither_prints_nor_exits \
     "$(grep -nE '\b(printf|puts|fprintf|putchar|perror|exit|abort)\(|SDL' \
         $(core_files))"
-# Libraries round these differently: base/mathematics.h has them.
+# Libraries round these functions differently; base/mathematics.h replaces them.
 # shellcheck disable=SC2046
 verdict the_core_calls_its_own_mathematics \
     "$(grep -nE '(^|[^_a-z])(hypot|log|log1p|exp|pow|sin|cos)\(' \
@@ -141,8 +139,8 @@ verdict the_core_has_no_globals \
     "$(grep -nE '^(static )?[A-Za-z_]+ \**[a-z_]+(\[.*\])?( = .*)?;' \
         $(core_files) | grep -v const)"
 
-# The README's slide table: | slide | functions of lecture.c | `file`:
-# `function`, `function`; `file`: ... |, as lines "file function".
+# Prints the slide table of the README, | slide | functions of lecture.c |
+# `file`: `function`, ... |, as lines "file function".
 table_rows() {
     awk -F '|' '/^\|/ && $4 ~ /`[a-z_]+\.[ch]`/ {
         row = "`lecture.c` " $3 " " $4
@@ -169,7 +167,7 @@ names_missing() {
 }
 verdict the_readme_names_what_there_is "$(names_missing README.md)"
 
-# The limits are the lowest counts so far.  The name of two files is main.
+# The limits are the lowest counts so far; `main` is the one twin.
 if command -v perl >/dev/null; then
     verdict comments_stand_alone_and_names_are_of_one_file \
         "$(perl tests/checks/comments.pl 'leans=0 subject=18 twins=1' 2>&1)"
@@ -177,7 +175,7 @@ else
     echo 'skipped comments_stand_alone_and_names_are_of_one_file: no perl'
 fi
 
-# Each fault of the list stands in its source exactly once.
+# Checks that each fault of the list fits its source exactly once.
 if command -v perl >/dev/null; then
     verdict mutants_stand_where_the_list_says \
         "$(perl tests/checks/mutants.pl --check 2>&1)"

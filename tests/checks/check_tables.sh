@@ -1,6 +1,6 @@
 #!/bin/sh
-# Tables that are read again: the ledger adds up and is that of the states, and
-# a run that begins in a table goes on as the one that wrote it.
+# Checks tables: the ledger adds up and agrees with the states, and a run that
+# starts from a table continues like the run that wrote it.
 . "$(dirname "$0")/verdict.sh"
 work_apart
 
@@ -10,10 +10,10 @@ run() {
     [ $code = 0 ] || [ $code = 3 ] || echo "$*: exit $code: $(cat error)"
 }
 
-# ledger MASS GRAVITY LINE: total is the sum of what is stored; with what was
-# lost it is the start's total and the work done; kinetic energy and gravity's
-# are those of the states.  All to rounding, 1e-12 of the largest number or of
-# what all heights add up to.
+# ledger MASS GRAVITY LINE: total is the sum of stored energies; total and
+# losses are the total of the start and the work; kinetic energy and gravity
+# agree with the states. Tolerance: rounding, 1e-12 of the largest number or of
+# the sum over heights.
 ledger() {
     m=$1 g=$2
     shift 2
@@ -48,13 +48,13 @@ verdict energies_add_up "$(
         --friction 0.3 --stretch 1 --damping 0.002 --yield 0.05
 )"
 
-# A time is no sum of its steps: that of step 60 is 60 h to the last bit.
+# Times are exact products: that of step 60 is 60 h to the last bit.
 verdict times_are_steps_times_h "$(
     run --segments 2 --steps 60 --timestep 0.002 --energies energies
     awk -F, 'NR > 1 && $2 != $1 * 0.002 { print "step " $1 ": " $2 }' energies
 )"
 
-# goes_on STEPS LINE: as many steps from the table of as many steps before.
+# goes_on STEPS LINE: makes STEPS steps, then as many from the written table.
 goes_on() {
     steps=$1
     shift
@@ -64,7 +64,7 @@ goes_on() {
     tail -n 20 both | cut -d, -f3- >end
     tail -n 20 second | cut -d, -f3- | cmp - end
 }
-# Springs that are broken, that have flowed, a ball that falls.
+# Continues runs with broken springs, plastic springs and a falling ball.
 springs_go_on() { # STEPS LINE
     steps=$1
     shift
@@ -86,7 +86,7 @@ verdict springs_go_on_from_their_tables "$(
     springs_go_on 60 dent
     springs_go_on 60 bend
     springs_go_on 20 slope --yield 0.01
-    # what broke in steps that were taken back is whole
+    # springs that broke in undone steps are unbroken
     printf '%s\n' '60 goto 20' '20 set timestep 0.001' '20 play' >back
     echo '20 set timestep 0.001' >straight
     for name in back straight; do
@@ -132,8 +132,8 @@ refused() { # LINE WORDS
     # shellcheck disable=SC2086
     refuses 2 "$2" "$elasto" --headless --state table $1
 }
-# A cell that is pressed in at a corner: both triangles of a solid are well, one
-# of the four that springs have is not.
+# A cell with one corner pressed in: both triangles of a solid are valid, one of
+# the four of springs is not.
 verdict solids_begin_where_their_triangles_are_well "$(
     printf '%s\n' step,time,node,x,y,vx,vy 0,0,0,-0.5,-0.5,0,0 \
         0,0,1,-0.5,0.5,0,0 0,0,2,0.5,-0.5,0,0 0,0,3,-0.1,-0.1,0,0 >pressed
@@ -157,8 +157,8 @@ verdict other_tables_are_refused "$(
     refused '--cells on' 'would be turned over'
 )"
 
-# The same numbers as other programs write them: the table is read.  Its way
-# through a program that changes what is written: a line says why not.
+# Numbers as other programs write them are read; a table that another program
+# has changed is refused with a reason.
 other_programs() {
     run --steps 2 --states plain --springs springs
     awk -F, '$1 == 0 { n[int(100 * $8 + 0.5)]++ }
@@ -201,8 +201,8 @@ END
 }
 verdict tables_are_read_or_the_line_is_named "$(other_programs)"
 
-# The rows of steps that are made again follow the old ones; a run that begins in
-# such a step takes the last of them.
+# Rows of repeated steps follow the old rows; a run that starts from such a step
+# takes the last rows.
 verdict rows_of_new_steps_follow "$(
     printf '%s\n' '4 goto 2' '2 set gravity 9' '2 play' >back
     echo '2 set gravity 9' >straight
@@ -218,8 +218,8 @@ verdict rows_of_new_steps_follow "$(
 )"
 
 # ---- what others read ----------------------------------------------------------
-# numpy reads each table, as the README of play has it: a spring's strain is that
-# of its nodes, to rounding; all tables have the same steps.
+# Checks that numpy reads each table, as the README of play says: strains of
+# springs agree with their nodes, and all tables have the same steps.
 read_tables() {
     run tear --steps 6 --states s.csv --log l.csv --energies e.csv \
         --springs p.csv

@@ -1,9 +1,8 @@
 #!/bin/sh
-# What only a screen shows of the window: that real keys, hands and letters
-# arrive (what they then do is tests/unit/test_session.c's), that it has any
-# size, and all ways to end it.  What a key did is seen in screenshots (their
-# name tells the step), recorded frames, tables and exit codes.  Nothing waits
-# for a fixed time: only for what shall happen, or until a time-out.
+# Checks the window on a virtual screen: real keys, mouse and letters arrive
+# (tests/unit/test_session.c has their effects), any size is drawn, and each way
+# to end works. Screenshots, whose names have the step, frames, tables and exit
+# codes show the effects. Checks wait for events, not for fixed times.
 . "$(dirname "$0")/verdict.sh"
 work_apart
 . "$here/screen.sh"
@@ -23,12 +22,12 @@ find_window() {
     [ -n "$window" ]
 }
 
-# A run of few steps may have closed its window before it was seen.
+# A short run may have closed its window before the check saw it.
 has_begun() {
     find_window "$1" || has_ended "$pid"
 }
 
-# begin SCENE LINE...: a window with this scene, keys go to it.
+# begin SCENE LINE...: opens a window with this scene and focuses it.
 side=500
 begin() {
     rm -rf frames ./*.png ./*.script states log
@@ -42,7 +41,7 @@ begin() {
         mousemove --window "$window" $((side / 2)) $((side - 20)) 2>/dev/null
 }
 
-# end CODE: waits for the end of the program and complains about its code.
+# end CODE: waits for the end of the program and checks its exit code.
 end() {
     ends_with "$1"
     ls ./*.part 2>/dev/null
@@ -51,14 +50,14 @@ end() {
 key() {
     xdotool key --delay 5 "$@"
 }
-at_once() { # XDOTOOL...: the program finds it all waiting when it goes on
+at_once() { # XDOTOOL...: input arrives in one batch
     kill -STOP $pid
     xdotool "$@"
     kill -CONT $pid
 }
 
-# shot NAME: a screenshot as NAME.png; prints its step.  Commands are obeyed in
-# their order, so it shows what the keys before it did.
+# shot NAME: makes the screenshot NAME.png and prints its step. Commands are
+# executed in order, so the screenshot shows the effects of earlier keys.
 shot() {
     rm -f elasto_*.png
     key s
@@ -81,12 +80,12 @@ frame() {
         echo "step $1 is not reached"
 }
 
-# Clock ticks of processor time that the program has used.
+# Prints the processor time that the program has used, in clock ticks.
 ticks() {
     sed 's/.*) //' "/proc/$pid/stat" | awk '{ print $12 + $13 }'
 }
 
-# Running at first, and falling: else it would soon rest.
+# The square falls and starts running; otherwise it would soon rest.
 keys_arrive() {
     begin square --segments 2 --gravity 1
     frame 5
@@ -106,14 +105,13 @@ keys_arrive() {
     until_true has_title circle || echo '2 is not circle'
     key 1
     until_true has_title square || echo '1 is not square'
-    key Escape Escape Escape q q # there is something to lose
+    key Escape Escape Escape q q # q asks twice, as work would be lost
     end 0
     awk -F, 'NR > 1 && $3 > 8 { print "not two segments: " $0; exit }' states
 }
 verdict keys_arrive "$(keys_arrive)"
 
-# Y writes down what was done; that script leads to the same state, without a
-# window.
+# Checks that the script of Y leads to the same state without a window.
 same_again() {
     key y
     until_true is_written || echo 'Y leaves no script'
@@ -130,10 +128,10 @@ same_again() {
 is_written() {
     test -s "$(echo elasto_*.script)"
 }
-point() { # X Y: at 900 x 900 the square is where it is, whatever it shows
+point() { # X Y: at 900 x 900 the square has a fixed place
     xdotool mousemove --window "$window" "$1" "$2"
 }
-drag() { # BUTTON FROM BY: over two places, of which the last counts
+drag() { # BUTTON FROM BY: moves in two parts
     # shellcheck disable=SC2086
     point $2
     xdotool mousedown "$1"
@@ -144,15 +142,15 @@ drag() { # BUTTON FROM BY: over two places, of which the last counts
     point $(($2 + $4)) $(($3 + $5))
     xdotool mouseup "$1"
 }
-typed() { # TEXT KEY...: into the first number of the row
+typed() { # TEXT KEY...: types into the first number of the row
     key Tab
     xdotool type --delay 5 "$1"
     shift
     key "$@"
 }
 
-# The keys go to another window during a drag: the hand lets go, and takes
-# nothing along when the mouse comes back.
+# Another window takes the focus during a drag: the hand lets go, and a
+# returning mouse drags nothing.
 focus_ends_a_drag() {
     side=500
     begin square --segments 2 --gravity 1
@@ -174,7 +172,7 @@ focus_ends_a_drag() {
 }
 verdict focus_ends_a_drag "$(focus_ends_a_drag)"
 
-# On a small screen the window has room for its frame.
+# Checks that a small screen has room for the window with its frame.
 the_window_fits() {
     for screen_size in 1280x800 1366x768 800x600; do
         new_screen small "$screen_size" || echo "no screen of $screen_size"
@@ -194,9 +192,8 @@ the_window_fits() {
 }
 verdict the_window_fits_its_screen "$(the_window_fits)"
 
-# A real hand: a number that is dragged, others that are typed; it pulls the
-# middle while the square runs, lets go, pins a corner, zooms and moves the view,
-# and adds a pane.
+# Plays a session by mouse and keys: drags and types numbers, pulls the middle
+# of the running square, pins a corner, zooms and moves the view, adds a pane.
 hand_arrives() {
     side=900
     begin square --segments 2 --stretch 1 --paused
@@ -204,14 +201,14 @@ hand_arrives() {
     typed 1/60 Return
     typed '4qsm?' Return Escape
     point 279 389
-    # a node of a square that stands would be placed; one that is held never rests
+    # a running square: at rest the node would be placed, not pulled
     at_once key space mousedown 1 mousemove_relative -- 12 -20
     frame 5
     point 339 289
     frame 20
     at_once mouseup 1 key space Home
     point 524 634
-    xdotool click 3 # at an old step a hand is asked first
+    xdotool click 3 # at an old step the first click asks
     xdotool click 3
     point 150 680
     shot plain >/dev/null
@@ -226,7 +223,7 @@ hand_arrives() {
     point 150 680
     shot fitted >/dev/null
     cmp -s plain.png fitted.png || echo 'a double click does not fit'
-    # what is held counts as it was, not as it is when it is read
+    # keys count as held when they were pressed, not when they are read
     at_once mousemove --window "$window" 160 757 click 4 keydown Tab key m keyup Tab
     key n
     same_again square --segments 2 --stretch 1
@@ -237,7 +234,7 @@ hand_arrives() {
 }
 verdict a_hand_arrives "$(hand_arrives)"
 
-# Full screen and back: Escape leaves it first, then the program.
+# Escape leaves full screen first, and then the program.
 full_screen() {
     begin square --paused
     key F11 Escape
@@ -251,7 +248,7 @@ full_screen() {
 }
 verdict escape_leaves_full_screen_first "$(full_screen)"
 
-# A paused window, once it has drawn itself, uses less than 5 % of a processor.
+# Checks that a paused window uses less than 5 % of a processor.
 paused_window() {
     begin square
     key space
@@ -268,7 +265,7 @@ is_idle() {
 }
 verdict a_paused_window_is_idle "$(paused_window)"
 
-# The last step, and a step that did not converge.
+# Runs to the last step, and to a step that did not converge.
 ends() {
     while read -r expected step line; do
         # shellcheck disable=SC2086
@@ -293,7 +290,7 @@ else
     echo "skipped closing_the_window_ends_it: no libX11.so.6 to link with"
 fi
 
-# From one pixel to more than the screen, and back; it goes on in all of them.
+# Resizes a running window from one pixel to more than the screen, and back.
 any_size() {
     begin square --segments 32
     last=0
@@ -319,8 +316,7 @@ newest() {
 }
 verdict a_window_may_have_any_size "$(any_size)"
 
-# A step of this square takes seconds; keys and signals end it between Newton
-# iterations.
+# Keys and signals end a step of several seconds between Newton iterations.
 in_a_step() {
     for way in q TERM; do
         begin square --segments 180 --solver newton --paused

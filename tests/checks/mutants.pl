@@ -41,7 +41,7 @@ sub read_file {
     return scalar <$file>;
 }
 
-# The time stays, so that make does not write the program's listings anew.
+# The file keeps its time, so that make does not write listings anew.
 sub write_file {
     my ($name, $text) = @_;
     my @times = (stat $name)[8, 9];
@@ -52,7 +52,7 @@ sub write_file {
 }
 
 # ---- faults of the list --------------------------------------------------------
-# Begin and end of what a name defines in a text; an empty list: nothing.
+# Returns begin and end of a function or table in a text; or an empty list.
 sub definition {
     my ($text, $name) = @_;
     return () if index($text, $name) < 0;
@@ -63,7 +63,7 @@ sub definition {
     return ();
 }
 
-# An expression for a piece of text, however it is spaced.
+# Returns a regular expression for a piece of text with any spacing.
 sub piece {
     my ($old) = @_;
     my ($expression, $last) = ('', '');
@@ -77,7 +77,7 @@ sub piece {
     return qr/$expression/;
 }
 
-# Where a fault stands: file, begin, length; or one text, why it does not.
+# Returns file, begin and length of a fault; or one text, the reason why not.
 sub find_fault {
     my ($function, $old, $sources) = @_;
     my ($file, $name) = $function =~ /^(?:(\S+):)?(\w+)$/;
@@ -97,7 +97,7 @@ sub find_fault {
     return @{ $found[0] };
 }
 
-# The faults of the lines with this word: file, begin, length, new, text, killer.
+# Returns the faults of matching lines: file, begin, length, new, text, killer.
 sub listed {
     my ($list, $word) = @_;
     my %sources = map { $_ => read_file($_) }
@@ -120,7 +120,7 @@ sub listed {
 }
 
 # ---- random faults ---------------------------------------------------------------
-# Comments and strings as blanks of the same length.
+# Replaces comments and strings by blanks of the same length.
 sub mask {
     my ($text) = @_;
     $text =~ s{(/\*.*?\*/|"(?:\\.|[^"\\\n])*"|'(?:\\.|[^'\\\n])+')}
@@ -134,7 +134,7 @@ my %other = ('<' => '<=', '<=' => '<', '>' => '>=', '>=' => '>', '==' => '!=',
              '+=' => '-=', '-=' => '+=');
 my $simple = qr/[\w.\[\]&*]+(?:->[\w.\[\]]+)*/;
 
-# The faults that a masked line can have: kind, column, length, new text.
+# Returns possible faults of a masked line: kind, column, length, new text.
 sub faults_of {
     my ($line, $whole) = @_;
     my @found;
@@ -165,7 +165,7 @@ sub faults_of {
     return @found;
 }
 
-# Lines that can have a fault: file, number, begin in the text, faults.
+# Returns the lines that can have a fault: file, number, begin, faults.
 sub lines_of {
     my ($text, @rooms) = @_;
     my @lines;
@@ -188,8 +188,8 @@ sub lines_of {
 }
 
 # ---- what each test runs -------------------------------------------------------------
-# Runs a check, a suite, or one test of a suite ("SUITE NAME"); returns whether it
-# passed.
+# Runs a check, a suite, or one test of a suite ("SUITE NAME"); returns true if
+# it passed.
 sub passes {
     my ($test, $settings) = @_;
     my ($suite, $name) = split(/ /, $test, 2);
@@ -199,7 +199,7 @@ sub passes {
         "exec timeout -k 5 3600 $run >log 2>&1 </dev/null") == 0;
 }
 
-# Builds what tests run: suites, or the programs that checks start.
+# Builds the suites, or the programs that checks start.
 sub build {
     my ($settings, @tests) = @_;
     my %suites = map { s/ .*//r => 1 } grep !/^check/, @tests;
@@ -213,8 +213,8 @@ sub build {
 # the compiler has made no code of this line alone.
 my (@tests, @seconds, %runs);
 
-# Runs a test in the tree that counts, and keeps what it ran.  Returns the names of
-# its parts.
+# Runs a test in the coverage tree, and stores the lines that it ran. Returns
+# the names of its parts.
 sub count_lines {
     my ($test) = @_;
     my $begin = time;
@@ -233,8 +233,8 @@ sub count_lines {
     return @parts;
 }
 
-# Builds a copy of the tree that counts, and runs every test there; or reads what
-# was counted before in the same sources.
+# Builds a coverage tree and runs all tests there; or reads the stored coverage
+# of the same sources.
 sub load_counts {
     my $sources = md5_hex(map { read_file($_) } grep /\.(?:[ch]|inc|def|awk|sh|txt)$/,
                           sort(glob('src/* src/*/* include/*/* tests/*/*')));
@@ -260,8 +260,8 @@ sub load_counts {
     %runs = %{ $kept->[3] };
 }
 
-# The tests that run a line of a file; all of them outside functions, for tables.
-# The counts do not see the checks that compile lecture.c themselves.
+# Returns the tests that run a line of a file, or all tests for tables outside
+# of functions. Checks that compile lecture.c themselves are not counted.
 sub tests_of {
     my ($file, $number, $text) = @_;
     my @lines = ('', split(/\n/, $text));
@@ -273,7 +273,8 @@ sub tests_of {
 }
 
 # ---- one fault after the other -----------------------------------------------------
-# The first test that fails, or nothing.  A check may fail by chance once.
+# Returns the first test that fails, or nothing. A check may fail by chance
+# once.
 my $quick = 'ulimit -S -t 60; CMOCKA_TEST_ABORT=1';
 sub killer {
     my %built;
@@ -284,13 +285,13 @@ sub killer {
     return '';
 }
 
-my %right; # tests that pass without a fault: those that found one are tried
+my %right; # tests that found a fault, and pass without it
 
-# Its killer, '' for none; undef: it is no fault.
+# Returns the killer of a fault, '' for none; undef: the code is unchanged.
 sub try_fault {
     my ($file, $begin, $length, $new, @tests) = @_;
     my ($object) = $file =~ m{^src/(.*)\.c$} ? "build/release/$1.o" : 'none';
-    my @again = $object =~ s{/\w+/(?=\w+\.o)}{/narrow/}r; # suites have it, too
+    my @again = $object =~ s{/\w+/(?=\w+\.o)}{/narrow/}r; # suites link this object, too
     @again = glob('build/release/tests/unit/test_reference{,.o}') if $file eq 'src/lecture.c';
     my $text = read_file($file);
     my $wrong = $text;

@@ -1,11 +1,8 @@
 #!/bin/sh
-# Runs every suite named on the command line and every tests/checks/check_*.sh, and
-# ends with one line of counts.  Suites written with cmocka report themselves;
-# shell checks print "ok NAME" or "not ok NAME: reason", a line per test, or
-# "skipped NAME: reason" where something is missing that the test needs.
-#
-# What each printed is shown in one piece afterwards.  The last line counts what
-# passed, failed and was skipped.
+# Runs the suites named on the command line and all tests/checks/check_*.sh.
+# cmocka suites report themselves; shell checks print "ok NAME", "not ok NAME:
+# reason" or, if a program is missing, "skipped NAME: reason". Outputs are shown
+# one after the other; the last line counts passed, failed and skipped tests.
 set -u
 passed=0
 failed=0
@@ -14,7 +11,7 @@ checks=${CHECKS:-tests/checks}
 outputs=$(mktemp -d) || exit 1
 trap 'rm -rf "$outputs"' EXIT
 
-# Runs it; output and exit code go to files named after it.
+# Runs a suite or check; files with its name take output and exit code.
 run() { # name command...
     name=$1
     shift
@@ -22,7 +19,7 @@ run() { # name command...
     echo $? >"$outputs/$name.code"
 }
 
-# sum PATTERN FILE: the numbers in the lines that match, added up
+# sum PATTERN FILE: prints the sum of the numbers in matching lines.
 sum() {
     sed -n "s/$1/\\1/p" "$2" | awk '{ sum += $1 } END { print sum + 0 }'
 }
@@ -30,7 +27,7 @@ sum() {
 report() { # name passed failed skipped
     output=$outputs/$1
     if [ "$(cat "$output.code")" != 0 ] && [ "$3" -eq 0 ]; then
-        set -- "$1" "$2" 1 "$4" # it crashed, or counted nothing
+        set -- "$1" "$2" 1 "$4" # a crash, or no counts
     fi
     grep '^skipped ' "$output"
     if [ "$2" -eq 0 ] && [ "$3" -eq 0 ] && [ "$4" -eq 0 ]; then
@@ -48,8 +45,8 @@ report() { # name passed failed skipped
     skipped=$((skipped + $4))
 }
 
-# All checks; that of the benchmark with LONG alone.  The homework's runs no
-# program that sanitizers watch.
+# Lists the checks: that of the benchmark only with LONG, that of the homework
+# not with sanitizers, which cannot watch it.
 all_checks() {
     for check in "$checks"/check_*.sh; do
         case ${LONG:+long}/${SANITIZE:+watched}/${check##*/} in
@@ -59,15 +56,14 @@ all_checks() {
     done
 }
 
-# The longest begin first; some of them wait most of the time, for windows and
-# signals, so that two jobs more than there are processors run; one with LONG,
-# where windows have more to do.
+# The longest checks start first. Some wait for windows and signals most of the
+# time, so there are two jobs more than processors (LONG: one).
 slow="test_session check_scripts check_window check_pages check_faults"
 more=2
 [ -z "${LONG:-}" ] || more=1
 jobs=${JOBS:-$(($(nproc 2>/dev/null || echo 2) + more))}
 
-# A worker goes through all of them and runs those that no other has taken.
+# A worker runs all suites and checks that no other worker has taken.
 work() { # suites...
     all=$(all_checks && printf '%s\n' "$@")
     { for name in $slow; do echo "$all" | grep "/$name"; done; echo "$all"; } |

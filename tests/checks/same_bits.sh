@@ -1,8 +1,8 @@
 #!/bin/sh
-# One run has one hash: every scene after 50 steps, by gcc and clang with -O0 to
-# -O3, in a window, and after going back and on; and
-# squares so large that sums are taken in pieces.  `make same-bits` runs it; what
-# is not installed is counted as skipped.
+# Checks that a run has one hash: each scene after 50 steps, compiled by gcc and
+# clang with -O0 to -O3, in a window, after going back, and squares so large
+# that sums are split. `make same-bits` runs it; missing programs are counted as
+# skipped.
 set -u
 elasto=$(realpath "${ELASTO:-build/elasto}")
 library=$(realpath build/release/libelasto.a)
@@ -23,7 +23,7 @@ square --segments 48 --steps 6 --solver multigrid --stretch 0.7 --timestep 0.02
 square --segments 40 --steps 2 --integrator midpoint
 END
 
-# hashes LINES PROGRAM [OPTION...]: a hash for each line.
+# hashes LINES PROGRAM [OPTION...]: prints a hash for each line.
 hashes() {
     list=$1
     program=$2
@@ -35,7 +35,7 @@ hashes() {
     done <"$list"
 }
 
-# compare NAME FILE: with those of the first.
+# compare NAME FILE: compares hashes with those of the first program.
 compare() {
     [ -s first ] || {
         paste -d ' ' "$2" lines
@@ -52,7 +52,7 @@ compare() {
 hashes lines "$elasto" --headless >table
 compare headless table
 
-# Back to steps that are known, and on from there.
+# Goes back to known steps, and on from there.
 awk 'BEGIN { srand(1); print "0 play"
     for (newest = 9; newest < 50; newest += 9) {
         print newest, "pause"; at = newest
@@ -74,8 +74,8 @@ else
     skipped=$((skipped + 1))
 fi
 
-# build COMPILER LEVEL: the rooms that calculate, by this compiler, in a program
-# of the others as they are.
+# build COMPILER LEVEL: compiles the numeric rooms with this compiler, and links
+# them with the other objects.
 build() {
     rm -rf program objects
     mkdir objects
@@ -99,8 +99,8 @@ for compiler in gcc clang; do
         compare "$compiler $level" table
     done
 done
-# Multigrid's loops take the widest registers; clang's have the narrowest: FAST,
-# see grid_loops.h.
+# Loops of multigrid take the widest registers; those of clang the narrowest
+# (FAST in grid_loops.h).
 if grep -qw avx2 /proc/cpuinfo; then
     build "${CC:-cc}" '-O2 -DFAST=__attribute__((target("avx2")))'
     hashes lines ./program --headless >table

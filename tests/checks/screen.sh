@@ -1,12 +1,12 @@
-# What the checks with windows share: a virtual screen, and waiting for what
-# shall happen.  Sourced after work_apart; `pid` is
-# the program whose window is open.
+# Functions of the checks with windows: a virtual screen, and waiting for
+# events. Sourced after work_apart; `pid` is the program whose window is open.
 screen=
 pid=
-# Drivers and libraries below SDL leak; the suites look for leaks of ours.
+# Drivers and libraries below SDL leak; the suites look for leaks of the
+# program.
 export ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0"
 
-# Ends what was started and removes $work.
+# Ends the started programs and removes $work.
 finish() {
     [ -z "$pid" ] || kill -KILL "$pid" 2>/dev/null
     [ -z "$screen" ] || kill "$screen" 2>/dev/null
@@ -15,7 +15,7 @@ finish() {
 }
 trap finish EXIT
 
-# missing_program: the first of these that is not there, or nothing
+# missing_program PROGRAM...: prints the first program that is not installed
 missing_program() {
     for program in "$@"; do
         command -v "$program" >/dev/null 2>&1 || {
@@ -25,8 +25,8 @@ missing_program() {
     done
 }
 
-# new_screen FILE SIZE: a server in the background, its number comes into FILE.
-# No key repeats, however late it comes up.
+# new_screen FILE SIZE: starts a server in the background, whose number goes to
+# FILE. Keys do not repeat, however late they are released.
 new_screen() {
     rm -f "$1"
     Xvfb -displayfd 3 -screen 0 "$2x24" -nolisten tcp -noreset -r \
@@ -35,7 +35,7 @@ new_screen() {
     until_true test -s "$1"
 }
 
-# start_screen SIZE: the one that all windows of a check are on.
+# start_screen SIZE: starts the screen for all windows of a check.
 start_screen() {
     new_screen display "$1" || {
         verdict the_screen_starts "no: $(tail -n 1 display.log)"
@@ -47,7 +47,7 @@ start_screen() {
     export DISPLAY
 }
 
-# ends_with CODE: the program does so by itself.
+# ends_with CODE: waits for the end of the program and checks its exit code.
 ends_with() {
     until_true has_ended "$pid" || {
         echo 'does not end'
@@ -59,8 +59,8 @@ ends_with() {
     [ $code = "$1" ] || echo "ends with $code, not $1: $(tail -n 1 error)"
 }
 
-# compile_close_window: the program that asks a window to close, as its
-# cross does; fails where there is no Xlib to link with.
+# compile_close_window: compiles the program that closes a window like its
+# cross; fails without Xlib.
 compile_close_window() {
     x11=$(ls /usr/lib/*/libX11.so.6 /usr/lib*/libX11.so.6 2>/dev/null |
         head -n 1)

@@ -1,10 +1,10 @@
-# What the shell checks share: they source it, and end with `exit $failed`.
+# Functions of all shell checks, which source it and end with `exit $failed`
 set -u
 failed=0
 here=$(realpath "$(dirname "$0")")
 root=$(realpath "$here/../..")
 
-# verdict NAME REASONS: one line for a test; reasons empty: it passed.
+# verdict NAME REASONS: prints the line of a test, which passes without reasons.
 verdict() {
     if [ -z "$2" ]; then
         echo "ok $1"
@@ -14,10 +14,10 @@ verdict() {
     fi
 }
 
-timeout=60 # s, that anything may take
+timeout=60 # s, limit of each wait
 
-# until_true COMMAND...: waits until it succeeds; fails after the time-out, and
-# later ones in the same test sooner.
+# until_true COMMAND...: waits until the command succeeds; fails after the
+# time-out, which is shorter from then on.
 until_true() {
     end=$(($(date +%s) + timeout))
     until "$@" >/dev/null 2>&1; do
@@ -33,13 +33,13 @@ until_there() { # FILE
     until_true test -s "$1"
 }
 
-# Whether this process is over.
+# has_ended PID: succeeds if the process is over.
 has_ended() {
     ! kill -0 "$1" || grep -q '^State:.Z' "/proc/$1/status"
 }
 
-# refuses CODE WORDS COMMAND...: it ends with this code and says one line with
-# these words.
+# refuses CODE WORDS COMMAND...: checks that the command ends with this code and
+# one line with these words.
 refuses() {
     expected=$1 words=$2
     shift 2
@@ -49,7 +49,7 @@ refuses() {
         grep -q -e "$words" error || echo "$*: exit $code: $(cat error)"
 }
 
-# A folder of its own, without a screen; it goes at the end.
+# Changes to a temporary folder, without a screen; the exit removes it.
 work_apart() {
     elasto=$(realpath "${ELASTO:-build/elasto}")
     work=$(mktemp -d) && cd "$work" || exit 1

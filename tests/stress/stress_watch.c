@@ -176,7 +176,7 @@ static void judge_step_end(Watch *watch)
                           fmin(limit, 1e-6 * sqrt(l2) / newton->settings.h));
 }
 
-/* Returns true if E energy_rises between two iterates by more than rounding
+/* Returns true if E rises between two iterates by more than rounding
  * explains, with 34 digits if 19 are too few. */
 static bool energy_rises(Watch *watch, const double *from, const double *to,
                          Real rise, Real scale)
