@@ -12,15 +12,15 @@
 #include "base/status.h"
 
 typedef struct Triplets {
-    int size;    /* rows = columns of the matrix */
+    int size;        /* rows = columns of the matrix */
     long long count; /* number of triplets */
     int *row; /* [count] row of each triplet, >= column; NULL: only counted */
     int *column; /* [count] column of each triplet */
 } Triplets;
 
 typedef struct Sparse {
-    int size;      /* rows = columns */
-    int entries;   /* stored entries */
+    int size;          /* rows = columns */
+    int entries;       /* stored entries */
     int *column_start; /* [size+1] column c is start[c] ... start[c+1]-1 */
     int *row;      /* [entries] row of each entry, ascending in each column */
     double *value; /* [entries+1] value[entries] sums the dropped entries */

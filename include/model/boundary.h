@@ -28,11 +28,11 @@ typedef struct Box2 {
 
 typedef struct Boundary {
     SquareMesh mesh;
-    unsigned version;     /* System.version for which the boundary was found */
-    int points, edges;    /* numbers of points and edges */
-    int *point_node;      /* [nodes] node of each point */
-    Box2 *edge_box;       /* [springs] boxes of the edges, sorted */
-    Box2 *point_box;      /* [nodes] box of each point, by node */
+    unsigned version;  /* System.version for which the boundary was found */
+    int points, edges; /* numbers of points and edges */
+    int *point_node;   /* [nodes] node of each point */
+    Box2 *edge_box;    /* [springs] boxes of the edges, sorted */
+    Box2 *point_box;   /* [nodes] box of each point, by node */
     unsigned char *triangles; /* [springs] number of solid triangles at each */
     unsigned char *node_role; /* [nodes] bits: in a triangle, on an edge */
 
@@ -44,8 +44,8 @@ typedef struct Boundary {
     double mean_p[2]; /* m, mean of p over the points; a motion that all points
                          share brings none closer to an edge */
     double margin;    /* m, each box is wider by it at all sides */
-    double widest_edge; /* m, largest extent of an edge's box, coordinate 0 */
-    bool sorts_by_y;  /* coordinate 0 of the boxes is y, not x */
+    double widest_edge;  /* m, largest extent of an edge's box, coordinate 0 */
+    bool sorts_by_y;     /* coordinate 0 of the boxes is y, not x */
     bool has_near_edges; /* near_edge had room for all near edges */
     int *near_edge;      /* [8 nodes] near edges, point by point */
     int *near_list_end;  /* [nodes] end of each point's edges in near_edge */

@@ -16,9 +16,9 @@
 #define CELL_J_HAT 0.4 /* area over rest area at which the barrier begins */
 
 typedef struct Cells {
-    Triangles triangles; /* four in each cell */
+    Triangles triangles;    /* four in each cell */
     int (*side_springs)[3]; /* [triangles.count] W is 0 if one is broken */
-    double c;            /* J, A0 k_c */
+    double c;               /* J, A0 k_c */
 } Cells;
 
 /* The sum of W over the triangles with three whole springs; data: Cells. */

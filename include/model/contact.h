@@ -30,13 +30,13 @@ typedef struct Motion {
 
 typedef struct Obstacle {
     ObstacleKind kind; /* wall or ball */
-    double o[2];   /* m, point of a wall's surface, centre of a fixed ball */
-    double n[2];   /* outward unit normal of a wall; not used for balls */
-    double radius; /* m, R > 0; not used for walls */
-    Motion motion; /* prescribed motion */
-    double v[2];         /* m/s, velocity in the present step */
-    double friction;     /* coefficient of friction mu >= 0 */
-    int node;            /* node at the centre of the free ball; -1: fixed */
+    double o[2];     /* m, point of a wall's surface, centre of a fixed ball */
+    double n[2];     /* outward unit normal of a wall; not used for balls */
+    double radius;   /* m, R > 0; not used for walls */
+    Motion motion;   /* prescribed motion */
+    double v[2];     /* m/s, velocity in the present step */
+    double friction; /* coefficient of friction mu >= 0 */
+    int node;        /* node at the centre of the free ball; -1: fixed */
     double options_o[2]; /* m, o in the options; a hand may change o alone */
 } Obstacle;
 

@@ -27,11 +27,11 @@ typedef struct Element {
     int block_index; /* index of its block of the Hessian; -1: none yet */
     int partner; /* obstacle (contact) or spring of the edge (self-contact) */
     int search_cursor; /* > 0: where get_element(i) continues its search */
-    double factor;  /* factor on gradient and Hessian: 1, or EvalPoint.weight
-                       if the kind's functions do not multiply by it */
-    double v[4];    /* m, the vectors a and b, if the kind uses them */
-    double s;       /* argument of W: a gap, a ratio of areas or a slip */
-    double n[2], r; /* further numbers, explained at each TermKind */
+    double factor;     /* factor on gradient and Hessian: 1, or EvalPoint.weight
+                          if the kind's functions do not multiply by it */
+    double v[4];       /* m, the vectors a and b, if the kind uses them */
+    double s;          /* argument of W: a gap, a ratio of areas or a slip */
+    double n[2], r;    /* further numbers, explained at each TermKind */
 } Element;
 
 /* Computes the element's vectors a and b, which are weighted sums of its nodes'
@@ -54,8 +54,8 @@ static inline void element_get_vectors(const Element *element, const double *x,
 /* Triangles of equal rest area, for a term with a triangle as element; the
  * data of the term begin with this struct. */
 typedef struct Triangles {
-    int count;      /* number of triangles */
-    double area;    /* m^2, A0 of each triangle at rest */
+    int count;         /* number of triangles */
+    double area;       /* m^2, A0 of each triangle at rest */
     double inverse_J0; /* 1/m^2, 1/(2 A0), where J is 2 A0 at rest */
     int (*node)[3]; /* [count] nodes a, b, c of each triangle, anticlockwise */
 } Triangles;
@@ -122,8 +122,8 @@ typedef struct ElementIterator {
     const EvalPoint *point;
     const ElementKind *kind;
     double motion_bound; /* m, bound on the change of a and b by alpha p */
-    int i, count;    /* present element, number of elements */
-    Element element; /* present element, out */
+    int i, count;        /* present element, number of elements */
+    Element element;     /* present element, out */
 } ElementIterator;
 
 ElementIterator elements_begin(const EvalPoint *at, const double *p,

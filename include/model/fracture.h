@@ -19,8 +19,8 @@ typedef struct Overload {
 } Overload;
 
 typedef struct Fracture {
-    double strength;      /* s_c > 0, mean strain at which springs break */
-    Overload *overload;   /* [springs] workspace, largest load first */
+    double strength;    /* s_c > 0, mean strain at which springs break */
+    Overload *overload; /* [springs] workspace, largest load first */
     unsigned char *has_new_break; /* [nodes] 1: a spring broke there */
 } Fracture;
 

@@ -19,8 +19,8 @@
 /* Numbers of the function V(e) of one spring in this step (see above).  With
  * damping (damping.h) V has the further summand theta (e - e_n)^2/2. */
 typedef struct FlowLaw {
-    double ep;    /* plastic strain at the step's start */
-    double yield_strain; /* yield strain Y_n > 0 */
+    double ep;            /* plastic strain at the step's start */
+    double yield_strain;  /* yield strain Y_n > 0 */
     double flow_fraction; /* 1/(1 + H), part of strain beyond Y_n that flows */
     double plastic_slope; /* 1 - flow_fraction, slope of V' beyond Y_n */
     double theta;         /* damping eta/h; 0: none */
@@ -39,9 +39,9 @@ double flow_law_eigenvalue_along(FlowLaw law, double e, double d2,
 
 typedef struct Plasticity {
     double yield_strain; /* yield strain Y > 0 */
-    double hardening; /* hardening modulus H >= 0, relative to k */
-    double *ep;       /* [springs] plastic strain */
-    double *kappa;    /* [springs] accumulated |change of ep| */
+    double hardening;    /* hardening modulus H >= 0, relative to k */
+    double *ep;          /* [springs] plastic strain */
+    double *kappa;       /* [springs] accumulated |change of ep| */
 } Plasticity;
 
 /* The sum of W over the springs; data: Plasticity.  The option's numbers are Y

@@ -21,7 +21,7 @@ typedef struct Pull {
     double mouse_xy[2]; /* m, position of the mouse */
     double mouse_k;     /* J/m^2, stiffness with which the mouse pulls */
     double cell_size;   /* m, side of a cell of the pulled body */
-    double side;     /* m, side of the pulled body */
+    double side;        /* m, side of the pulled body */
 } Pull;
 
 /* Adds the term or changes its data.  Returns OK or OUT_OF_MEMORY. */

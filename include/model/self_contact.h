@@ -33,8 +33,8 @@ typedef struct SelfContact {
     double c;        /* J, factor on the barrier of a point and an edge */
     double friction; /* coefficient of friction mu */
     Boundary boundary;
-    int pairs;      /* number of blocks in this step */
-    int capacity;   /* number of pairs for which `pair` has room */
+    int pairs;       /* number of blocks in this step */
+    int capacity;    /* number of pairs for which `pair` has room */
     int start_pairs; /* number of pairs at the start of this step */
     SelfPair *pair; /* [capacity] the first start_pairs by node, then by edge */
 } SelfContact;

@@ -17,14 +17,14 @@ enum {
 };
 
 typedef struct SquareMesh {
-    int segments;   /* segments per side of the square; columns of a beam */
-    int rows;       /* rows of cells */
-    int bodies;     /* number of bodies */
-    double side;    /* m, width of a body */
-    double spacing; /* m, distance of neighbouring nodes, side/segments */
-    int nodes;      /* n, nodes of all bodies */
-    int springs;    /* springs of all bodies */
-    int cells;      /* cells of all bodies; each has four triangles */
+    int segments;      /* segments per side of the square; columns of a beam */
+    int rows;          /* rows of cells */
+    int bodies;        /* number of bodies */
+    double side;       /* m, width of a body */
+    double spacing;    /* m, distance of neighbouring nodes, side/segments */
+    int nodes;         /* n, nodes of all bodies */
+    int springs;       /* springs of all bodies */
+    int cells;         /* cells of all bodies; each has four triangles */
     int outline_edges; /* outer edges of all bodies */
 } SquareMesh;
 

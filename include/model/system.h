@@ -30,14 +30,14 @@ struct System {
     double *m;   /* [n] kg, > 0 */
     double *l2;  /* [springs] m^2, rest length squared, > 0 */
     double *k;   /* [springs] J/m^2, stiffness; 0: broken or without energy */
-    double gravity[2];     /* m/s^2, acceleration of every node */
+    double gravity[2];      /* m/s^2, acceleration of every node */
     int *elimination_order; /* [n] place of each node in the elimination */
     unsigned char *pinned;  /* [n] 1: pinned, 0: free */
-    double *pin_v;         /* [2n] m/s, velocity of pinned nodes; NULL: 0 */
+    double *pin_v;          /* [2n] m/s, velocity of pinned nodes; NULL: 0 */
     int segments;     /* segments a side if the system is one square; else 0 */
     unsigned version; /* rises with every change of numbers or terms */
-    unsigned pattern_version; /* rises when the Hessian's pattern changes */
-    int terms;                /* number of terms */
+    unsigned pattern_version;    /* rises when the Hessian's pattern changes */
+    int terms;                   /* number of terms */
     Term term[SYSTEM_MAX_TERMS]; /* terms in the order of TermKind.rank */
     /* Energy lost by column, to a NULL name.  A loss outlives its term. */
     EnergyLoss losses[SYSTEM_MAX_TERMS];

@@ -21,7 +21,7 @@ struct SquareMesh;
 /* Where and with what a term is evaluated. */
 typedef struct EvalPoint {
     const System *system;
-    const Term *term;  /* term that is evaluated; NULL: none is selected yet */
+    const Term *term; /* term that is evaluated; NULL: none is selected yet */
     double weight; /* s^2, factor on derivatives of P: h^2 for implicit Euler */
     const double *x_n; /* [2n] m, positions at the start of the step */
     const double *u; /* [2n] m, displacement x - x_n; NULL: outside of a step */

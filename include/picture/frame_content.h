@@ -63,13 +63,13 @@ typedef struct LiveValue {
     int run;          /* run 1, 2 or 3 that has the value; 0: all runs */
     const char *text; /* NULL: the value is a number or a point */
     double value[2];  /* number, or coordinates of a point */
-    bool is_point; /* value is a point, written as "(1, 0.5)" */
+    bool is_point;    /* value is a point, written as "(1, 0.5)" */
 } LiveValue;
 
 /* The values of a pane. */
 typedef struct LiveValues {
     int count; /* number of values */
-    int run; /* run of the values that are added next; 0: all runs */
+    int run;   /* run of the values that are added next; 0: all runs */
     Colour colour[VALUES_RUNS + 1]; /* colours of runs; [0]: of other lines */
     LiveValue value[MAX_VALUES];
 } LiveValues;
@@ -191,8 +191,8 @@ typedef struct StepBar {
 } StepBar;
 
 typedef struct TimeLine {
-    long steps;  /* number of known steps */
-    long step;   /* the step on the stage, 0 ... steps */
+    long steps;     /* number of known steps */
+    long step;      /* the step on the stage, 0 ... steps */
     bool is_paused; /* the run is paused */
     /* Returns the bar of a step 1 ... steps.  NULL: no bars are drawn. */
     StepBar (*get_bar)(const void *bar_data, long step);
@@ -256,12 +256,12 @@ typedef struct SheetContent {
 
 /* The page of the lecture and the guesses at its question. */
 typedef struct LectureContent {
-    const LecturePage *page;    /* NULL outside of the lecture */
-    bool hides_answer;          /* the page waits for the user's guess */
-    const char *question; /* text: the question, after the answer as it was
-                             asked; NULL: this run asks none */
-    const char *verdict;        /* verdict on the guess at this page, or NULL */
-    int guesses, right_guesses; /* numbers of guesses and of right guesses */
+    const LecturePage *page; /* NULL outside of the lecture */
+    bool hides_answer;       /* the page waits for the user's guess */
+    const char *question;    /* text: the question, after the answer as it was
+                                asked; NULL: this run asks none */
+    const char *verdict;     /* verdict on the guess at this page, or NULL */
+    int guesses, right_guesses;    /* numbers of guesses and of right guesses */
     char condition[SENTENCE_SIZE]; /* heading of answers that hold for the
                                       page's options; "": none is changed */
     char answer_text[ANSWER_SIZE]; /* text: the answer of the page */
@@ -282,13 +282,13 @@ typedef struct FrameContent {
     int active_pane; /* index of the pane whose numbers the cards show */
     Pane pane[LAYOUT_MAX_PANES];
     const View *view;
-    HandGrip hand;     /* hand of the mouse or of a script */
-    bool shows_strain; /* springs are coloured by strain */
-    bool is_bare;      /* shows pictures without words */
+    HandGrip hand;      /* hand of the mouse or of a script */
+    bool shows_strain;  /* springs are coloured by strain */
+    bool is_bare;       /* shows pictures without words */
     bool is_stage_only; /* shows the stage alone, as on the web page */
     bool has_document;  /* the web page has switches, texts and cards */
-    struct Text *text; /* fonts; NULL: widths of texts are estimated */
-    double min_em;     /* pixels, least size of an em; 0: the usual minimum */
+    struct Text *text;  /* fonts; NULL: widths of texts are estimated */
+    double min_em;      /* pixels, least size of an em; 0: the usual minimum */
     TitleBar title_bar;
     SettingsRow settings;
     TimeLine time_line;

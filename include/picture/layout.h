@@ -37,14 +37,14 @@ typedef struct Layout {
     double em;         /* pixels of an em, the size of plain text */
     Box title_bar, stage, column, settings_row, time_line, chip_row;
     int panes, cards, settings, chips; /* numbers of boxes */
-    bool has_list;          /* the column shows code or a list, not cards */
+    bool has_list;              /* the column shows code or a list, not cards */
     Box pane[LAYOUT_MAX_PANES]; /* the panes of the stage */
     Box card[LAYOUT_MAX_CARDS]; /* the cards; a main card is on the stage */
     Box setting[LAYOUT_MAX_SETTINGS];
     Box chip[LAYOUT_MAX_CHIPS]; /* a chip that does not fit has no width */
-    int chips_left_out;     /* number of chips that do not fit */
-    Box bars;               /* bars of the steps, inside the time line */
-    int cells;              /* number of cells of the overview */
+    int chips_left_out;         /* number of chips that do not fit */
+    Box bars;                   /* bars of the steps, inside the time line */
+    int cells;                  /* number of cells of the overview */
     Box cell[LAYOUT_MAX_CELLS]; /* scene's square and name, without its heading
                                  */
 } Layout;

@@ -27,10 +27,10 @@ typedef struct Card {
      * wide; an em has `em` pixels.  NULL: min_height. */
     double (*needed_height)(const FrameContent *content, double wide,
                             double em);
-    double weight;           /* weight with which the card shares free height */
-    bool half_width;         /* may stand in one half of a wide column */
-    bool halves_on_page;     /* may stand in one half on a page */
-    bool starts_closed;      /* shows only its title at first */
+    double weight;          /* weight with which the card shares free height */
+    bool half_width;        /* may stand in one half of a wide column */
+    bool halves_on_page;    /* may stand in one half on a page */
+    bool starts_closed;     /* shows only its title at first */
     bool needs_line_energy; /* draws E along p (cards_need_line_energy) */
     bool below_picture;     /* as main card, stands below the picture */
     bool beside_picture;    /* as main card, stands beside the picture */
@@ -57,7 +57,7 @@ typedef struct Picture {
     const Card *const *cards;
     bool is_stretched;  /* scales x and y differently, to fill the stage */
     bool draws_handles; /* draws and picks the scene's handles itself */
-    bool takes_clicks; /* a click sets a start point or the guess */
+    bool takes_clicks;  /* a click sets a start point or the guess */
     /* Finds the part of the world to show: left, bottom, right, top, m.  The
      * stage has no camera yet.  NULL: default_bounds. */
     void (*bounds)(const Plot *stage, double bounds[4]);

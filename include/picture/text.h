@@ -71,11 +71,11 @@ bool text_is_markup_brace(const char *text, const char *brace);
 
 /* A letter in one face and size. */
 typedef struct Glyph {
-    uint64_t key;  /* face, size and letter as one number; 0: a free slot */
-    int left, top; /* pixels from the pen on the baseline to the mask */
-    int advance;   /* pixels to the next letter */
+    uint64_t key;      /* face, size and letter as one number; 0: a free slot */
+    int left, top;     /* pixels from the pen on the baseline to the mask */
+    int advance;       /* pixels to the next letter */
     int width, height; /* pixels of the mask */
-    uint8_t *mask; /* [height width] coverage; NULL: no pixel is covered */
+    uint8_t *mask;     /* [height width] coverage; NULL: no pixel is covered */
 } Glyph;
 
 /* Finds or draws a letter, valid until the next call; size in pixels. */

@@ -18,9 +18,9 @@ enum {
 
 /* A file that is written; zeroed: not open. */
 typedef struct Output {
-    FILE *file;                  /* stream; NULL: the output is not open */
-    char name[PATH_BYTES];       /* name as given, for messages */
-    char part_name[PATH_BYTES];  /* NAME.part; "": the file has none */
+    FILE *file;                 /* stream; NULL: the output is not open */
+    char name[PATH_BYTES];      /* name as given, for messages */
+    char part_name[PATH_BYTES]; /* NAME.part; "": the file has none */
     char *message; /* [MESSAGE_BYTES] or NULL: "NAME: why" of a failure */
 } Output;
 

@@ -55,8 +55,8 @@ typedef struct EnergySample {
 
 /* The summary of a step, which outlives its iterations. */
 typedef struct StepOutcome {
-    int updates;   /* number of Newton's updates in all substeps */
-    Status status; /* OK, or the last other status of the substeps */
+    int updates;          /* number of Newton's updates in all substeps */
+    Status status;        /* OK, or the last other status of the substeps */
     double energy_change; /* change of E in the step, J s^2 */
     double max_x;         /* m, largest coordinate of run 0 */
 } StepOutcome;
@@ -65,8 +65,8 @@ typedef struct StepOutcome {
 typedef struct Entry {
     const Control *control; /* control with which the next step is made; NULL:
                                this entry's step is still being made */
-    State *state;   /* state after the step; NULL: not stored */
-    EnergySample *sample; /* energies of the state under `control`, or NULL */
+    State *state;           /* state after the step; NULL: not stored */
+    EnergySample *sample;   /* energies of the state under `control`, or NULL */
     int substeps; /* steps of the simulation in this step; 0: the scene is over,
                      or the pane has ended with the status of the outcome */
     StepOutcome outcome;
@@ -79,29 +79,29 @@ typedef struct Branch {
     long entries;      /* number of entries, at least 1 */
     long capacity;     /* entries that memory is reserved for */
     int copied;        /* entries copied from below; 2: repeats a step */
-    long left_step; /* step that was shown when the user left the branch */
-    long stride; /* every stride-th entry stores its state */
-    int panes;   /* number of panes */
-    Entry *entry; /* [capacity][panes]; entry[entries] is being made */
-    int gesture;  /* id; edits of one gesture share a branch; 0: none */
-    Command edit; /* edit that began the branch */
+    long left_step;    /* step that was shown when the user left the branch */
+    long stride;       /* every stride-th entry stores its state */
+    int panes;         /* number of panes */
+    Entry *entry;      /* [capacity][panes]; entry[entries] is being made */
+    int gesture;       /* id; edits of one gesture share a branch; 0: none */
+    Command edit;      /* edit that began the branch */
 } Branch;
 
 /* The simulation of a pane, and its position in the present branch. */
 typedef struct PastPane {
     Simulation simulation;
     const Control *start_control; /* control at step 0, or NULL */
-    const Control *control; /* control of the simulation */
-    bool has_state;         /* the simulation has the state of `step` */
-    long step;              /* last step that the pane has finished */
-    bool is_iterating; /* a step of the simulation has begun */
-    int substeps;    /* steps of the simulation since `step` */
+    const Control *control;       /* control of the simulation */
+    bool has_state;               /* the simulation has the state of `step` */
+    long step;                    /* last step that the pane has finished */
+    bool is_iterating;            /* a step of the simulation has begun */
+    int substeps;                 /* steps of the simulation since `step` */
     long start_steps;    /* steps of the simulation before this substep */
     StepOutcome outcome; /* outcome of this step, else of the last step */
-    bool has_failed; /* the step after `step` could not be made */
-    StepTrace trace; /* iterates of the last step that was made */
-    bool has_trace;  /* trace, records: of `step` or the failed step */
-    Records records; /* Newton's records of the last step, for the log */
+    bool has_failed;     /* the step after `step` could not be made */
+    StepTrace trace;     /* iterates of the last step that was made */
+    bool has_trace;      /* trace, records: of `step` or the failed step */
+    Records records;     /* Newton's records of the last step, for the log */
 } PastPane;
 
 /* Stages of the work that leads to the step that is to be shown. */
@@ -114,10 +114,10 @@ typedef enum WorkStage {
 } WorkStage;
 
 typedef struct Past {
-    Branch *branch;     /* [branches] branches from the bottom of the stack */
+    Branch *branch; /* [branches] branches from the bottom of the stack */
     int branches, capacity; /* branches; branches that memory is reserved for */
     int current; /* index of the present branch; those above are undone */
-    long step;          /* step that is shown in all panes */
+    long step;   /* step that is shown in all panes */
     PastPane pane[OPTIONS_MAX_PANES];
     bool stores_states;    /* states are stored: the user may go back */
     bool panes_fail_alone; /* a pane that fails ends alone; the others go on */
@@ -129,8 +129,8 @@ typedef struct Past {
     long goal_step;       /* step that is to be shown */
     long load_step;       /* step to which WORK_LOADING brings the panes */
     bool samples_energy;  /* samples E along p in each iteration of that step */
-    double end_time;     /* s, end of the new step */
-    Status bad_status;   /* OK, or the last other status of the new step */
+    double end_time;      /* s, end of the new step */
+    Status bad_status;    /* OK, or the last other status of the new step */
 } Past;
 
 /* Whether work is left before goal_step is shown. */

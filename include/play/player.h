@@ -55,7 +55,7 @@ typedef enum AfterWork {
 /* How a pane shows the present step. */
 typedef struct PaneView {
     int trace_index; /* index in StepTrace.position; -1: end of the step */
-    double *ghost;         /* [2n] m, positions before an edit, or NULL */
+    double *ghost;   /* [2n] m, positions before an edit, or NULL */
     char ghost_label[256]; /* the edited setting, and the outcome before it */
 } PaneView;
 
@@ -65,10 +65,10 @@ typedef struct Playback {
     TimeUnit walk_unit; /* unit of "next" and "back" */
     AfterWork after_work;
     TracePosition wanted_position; /* shown after an edit; iterate -1: none */
-    int log_speed;           /* 2^log_speed steps a frame */
-    double due_time;         /* s on the wall clock, time of the next step */
-    double work_start; /* s on the wall clock; 0: there is no work */
-    bool has_warned;   /* the run was stopped where a step did not converge */
+    int log_speed;                 /* 2^log_speed steps a frame */
+    double due_time;    /* s on the wall clock, time of the next step */
+    double work_start;  /* s on the wall clock; 0: there is no work */
+    bool has_warned;    /* the run was stopped where a step did not converge */
     bool reported_gain; /* a rise of the total energy was reported */
 } Playback;
 
@@ -87,22 +87,22 @@ typedef struct CommandQueue {
 /* Commands that wait, and gestures: groups that are undone as one. */
 typedef struct Commands {
     CommandQueue queue;
-    int gesture;         /* id of the present gesture, which is undone as one */
-    int gestures;        /* number of gestures so far, the id of the newest */
-    int held_gesture;    /* gesture that drags join: last grab, push */
-    Script journal;      /* commands of the session, with undo and redo */
+    int gesture;      /* id of the present gesture, which is undone as one */
+    int gestures;     /* number of gestures so far, the id of the newest */
+    int held_gesture; /* gesture that drags join: last grab, push */
+    Script journal;   /* commands of the session, with undo and redo */
     CommandKind leave_command; /* command that ends the program if repeated */
     bool has_refused_line;     /* a line of the script was refused */
 } Commands;
 
 /* The guided tour, page by page. */
 typedef struct Tour {
-    const LecturePage *last_page; /* page that was last open, or NULL */
-    const LecturePage *revealed; /* page whose answer is shown, or NULL */
+    const LecturePage *last_page;     /* page that was last open, or NULL */
+    const LecturePage *revealed;      /* page whose answer is shown, or NULL */
     char asked_question[ANSWER_SIZE]; /* question of that page, as asked */
-    char verdict[VALUE_SIZE];    /* verdict on the guess at the page, or "" */
-    int guesses, right_guesses;  /* numbers of guesses so far */
-    bool is_page_running;        /* a page's commands are running */
+    char verdict[VALUE_SIZE];   /* verdict on the guess at the page, or "" */
+    int guesses, right_guesses; /* numbers of guesses so far */
+    bool is_page_running;       /* a page's commands are running */
     Options page_options[OPTIONS_MAX_DRAWN]; /* page's options of each pane */
     int page_panes;                          /* page's number of panes */
 } Tour;
@@ -116,13 +116,13 @@ typedef struct Frame {
     Trace trace[LAYOUT_MAX_PANES];
     char label[LAYOUT_MAX_PANES][LABEL_SIZE];   /* values that differ by pane */
     CommandKind chip_command[LAYOUT_MAX_CHIPS]; /* command of a click on it */
-    int options;                            /* number of options in the row */
+    int options; /* number of options in the row */
     const OptionRow *option[OPTIONS_MAX_ROWS];
 } Frame;
 
 /* How the window or the frames show the past. */
 typedef struct Screen {
-    bool draws_frames; /* frames are drawn, for a window or for files */
+    bool draws_frames;    /* frames are drawn, for a window or for files */
     const Window *window; /* the open window, or NULL */
     Paper paper;
     int paper_size[2]; /* pixels of the paper; 0: the size of the window */
@@ -131,10 +131,10 @@ typedef struct Screen {
     const struct Scene *scene; /* scene that camera and cards are set for */
     const LecturePage *page;   /* page that camera and cards are set for */
     ColumnContent column;
-    struct Sheet *sheet; /* open sheet of scenes, or NULL */
+    struct Sheet *sheet;     /* open sheet of scenes, or NULL */
     bool has_toggled_strain; /* strain colours differ from the scene's choice */
-    bool is_bare;        /* the picture is shown without texts and cards */
-    bool is_black;       /* a black screen is shown */
+    bool is_bare;            /* the picture is shown without texts and cards */
+    bool is_black;           /* a black screen is shown */
     unsigned toggled_cards; /* bit c: card c was opened or closed by the user */
     int enlarged_card;      /* index of the enlarged card; -1: none */
     View view;
@@ -143,8 +143,8 @@ typedef struct Screen {
 
 /* The mouse and what it drags. */
 typedef struct Mouse {
-    double x, y;      /* pixels */
-    bool has_position; /* x and y are known */
+    double x, y;              /* pixels */
+    bool has_position;        /* x and y are known */
     CommandKind drag_command; /* COMMAND_NONE: no button is down */
     int dragged_id; /* index of the dragged part; -1: edge of the square */
     double drag_start[2];  /* pixels, start of the drag, or of its last pan */
@@ -152,7 +152,7 @@ typedef struct Mouse {
     double grip_offset[2]; /* m, from the mouse to the dragged obstacle */
     bool repins_node;      /* the dragged node is pinned again after the drag */
     bool was_wheel_turn;   /* the last input was a turn of the wheel */
-    int gesture;     /* id of the last key, click or turn of the wheel */
+    int gesture;           /* id of the last key, click or turn of the wheel */
     Options start_options; /* values at the start of a drag of a number */
 } Mouse;
 

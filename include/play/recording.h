@@ -54,15 +54,15 @@ typedef enum RecordingTable {
 enum { MAX_FRAMES = 1000000 }; /* frames have numbers of six digits */
 
 typedef struct Recording {
-    const char *folder; /* folder of the frames, or NULL */
-    long frames;        /* number of frames written */
+    const char *folder;       /* folder of the frames, or NULL */
+    long frames;              /* number of frames written */
     unsigned char *old_frame; /* [step] 1: is of an earlier run; or NULL */
     Film film;
     int panes; /* number of panes at the start */
     Table table[TABLE_COUNT];
-    bool has_tables;              /* a table is open */
-    bool uses_stdout;             /* a table goes to standard output */
-    char message[MESSAGE_BYTES];  /* the first failure, or "" */
+    bool has_tables;             /* a table is open */
+    bool uses_stdout;            /* a table goes to standard output */
+    char message[MESSAGE_BYTES]; /* the first failure, or "" */
 } Recording;
 
 /* Opens the frames, film and tables that the options ask for; makes the folder.

@@ -18,7 +18,7 @@ enum { SAMPLE_INTERVALS = 32, SAMPLE_COUNT = SAMPLE_INTERVALS * 3 / 2 + 1 };
 typedef struct Records {
     NewtonRecord *record; /* [count] */
     int count, capacity;  /* number of records; room for records */
-    bool is_incomplete; /* memory was missing for a record */
+    bool is_incomplete;   /* memory was missing for a record */
 } Records;
 
 /* Reserves memory for `count` records.  Returns false if memory is missing. */
@@ -27,12 +27,12 @@ bool records_reserve(Records *records, int count);
 /* An iterate of Newton's method, with its direction and its line search. */
 typedef struct TraceIterate {
     double *x, *p, *u; /* [x_length] m, x^i, p^i, x^i - x_n; NULL: not stored */
-    double first_trial; /* alpha, first trial of the line search */
-    Quartic polynomial; /* polynomial part of E(x + alpha p) - E(x), J s^2 */
-    bool has_remainder; /* E along p is not only its polynomial part */
-    bool has_samples;   /* `energy_samples` is filled */
-    double alpha;      /* step length that was taken */
-    double energy_change;   /* change of E at alpha, J s^2 */
+    double first_trial;   /* alpha, first trial of the line search */
+    Quartic polynomial;   /* polynomial part of E(x + alpha p) - E(x), J s^2 */
+    bool has_remainder;   /* E along p is not only its polynomial part */
+    bool has_samples;     /* `energy_samples` is filled */
+    double alpha;         /* step length that was taken */
+    double energy_change; /* change of E at alpha, J s^2 */
     double *energy_samples; /* [SAMPLE_COUNT] J s^2, samples of E along p */
 } TraceIterate;
 
@@ -42,18 +42,18 @@ typedef enum TimeUnit { UNIT_STEP, UNIT_UPDATE, UNIT_LINE, UNITS } TimeUnit;
 typedef struct TracePosition {
     int iterate;      /* index of the iterate in StepTrace */
     StepLine at_line; /* line of Algorithm 3 */
-    int trials; /* trials of the line search so far */
+    int trials;       /* trials of the line search so far */
 } TracePosition;
 
 typedef struct StepTrace {
-    Trace start_trace; /* h and tolerance, which all positions show */
-    int x_length;      /* 2n; 0: no iterates are stored */
-    Records records;   /* Newton's record at each iterate */
+    Trace start_trace;         /* h and tolerance, which all positions show */
+    int x_length;              /* 2n; 0: no iterates are stored */
+    Records records;           /* Newton's record at each iterate */
     TraceIterate *iterate;     /* [records.count] */
     int capacity;              /* iterates that memory was reserved for */
     bool samples_each_iterate; /* E along p is sampled at each iterate */
     bool samples_last_iterate; /* E along p is sampled at the last iterate */
-    double *x_tilde;         /* [x_length] m, or NULL */
+    double *x_tilde;           /* [x_length] m, or NULL */
     double *end_x;     /* [x_length] m, x after the last iteration, or NULL */
     size_t used_bytes; /* memory of the iterates */
     TracePosition *position; /* [position_count] in the order of the walk */

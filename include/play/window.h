@@ -23,8 +23,8 @@ enum { BUTTON_LEFT = 1, BUTTON_MIDDLE = 2, BUTTON_RIGHT = 3 };
 /* An event that keyboard, mouse or window sends. */
 typedef struct Input {
     InputKind kind;
-    char key[32];   /* "N", "Shift+N", "Ctrl+R", "Tab+M", "Left", "+" */
-    bool is_repeat; /* the key is held down */
+    char key[32];       /* "N", "Shift+N", "Ctrl+R", "Tab+M", "Left", "+" */
+    bool is_repeat;     /* the key is held down */
     int button, clicks; /* BUTTON_...; 2: a double click */
     double x, y; /* place of the mouse, pixels of the picture in the window */
     double wheel_notches; /* notches of the wheel; > 0: away from the user */

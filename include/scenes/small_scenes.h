@@ -60,10 +60,10 @@ void mass_find_exact(const Simulation *simulation, double t, double x[2]);
 
 /* Length, energies and forces of a spring from its pinned end to d. */
 typedef struct SpringValues {
-    double length;      /* |d|, m */
-    double strain;      /* |d|^2/l2 - 1 */
-    double energy;      /* P, J */
-    double force[2];    /* -grad P, on the free end, N */
+    double length;            /* |d|, m */
+    double strain;            /* |d|^2/l2 - 1 */
+    double energy;            /* P, J */
+    double force[2];          /* -grad P, on the free end, N */
     double eigenvalue_along;  /* eigenvalue of P's Hessian along d, J/m^2 */
     double eigenvalue_across; /* eigenvalue of P's Hessian across d, J/m^2 */
     double root_energy;       /* J, P_root, the energy in |d| - l instead */

@@ -10,10 +10,10 @@
 typedef struct Control {
     int ref_count; /* reference count; the last user frees the control */
     Options options;
-    int held_node;     /* node that the mouse holds; -1: none */
-    int held_obstacle; /* obstacle that the mouse holds; -1: none */
-    double target[2];  /* m, place to which the hand pulls or pushes */
-    int nodes;         /* number of nodes */
+    int held_node;          /* node that the mouse holds; -1: none */
+    int held_obstacle;      /* obstacle that the mouse holds; -1: none */
+    double target[2];       /* m, place to which the hand pulls or pushes */
+    int nodes;              /* number of nodes */
     unsigned char pinned[]; /* [nodes] 1: pinned, 0: free */
 } Control;
 

@@ -9,9 +9,9 @@ typedef struct Simulation Simulation;
 
 /* A user's guess where the next step leads, and where the step does lead. */
 typedef struct Prediction {
-    bool has_guess;  /* the user has made a guess */
-    long guess_step; /* steps of the simulation when the user guessed */
-    double guess[2]; /* m, the guess */
+    bool has_guess;    /* the user has made a guess */
+    long guess_step;   /* steps of the simulation when the user guessed */
+    double guess[2];   /* m, the guess */
     double outcome[2]; /* m, where the step does lead */
     double error;      /* m, `guess` to `reached`; in one variable along x */
 } Prediction;
@@ -32,14 +32,14 @@ enum { DESCENT_MAX_RECORDS = 256 };
 
 /* A minimisation that is shown iteration by iteration. */
 typedef struct Descent {
-    int count;                        /* number of records */
+    int count;                                /* number of records */
     NewtonRecord record[DESCENT_MAX_RECORDS]; /* first iterations */
     double iterate[2];                        /* present iterate, m */
-    double value;                     /* f or E at the iterate */
-    double start_value;               /* E at the start of the search */
-    double direction[2];              /* p at the iterate, m; 0: none */
-    double slope;         /* gradient times p; negative is downhill */
-    bool tests_g;         /* Algorithm 1, whose loop tests |g|, not |p| */
+    double value;                             /* f or E at the iterate */
+    double start_value;                       /* E at the start of the search */
+    double direction[2];                      /* p at the iterate, m; 0: none */
+    double slope;    /* gradient times p; negative is downhill */
+    bool tests_g;    /* Algorithm 1, whose loop tests |g|, not |p| */
     double residual; /* compared with the tolerance: |g|, or |p|/h in m/s */
     ScalarEnergy *scalar; /* function of one unknown; NULL: two unknowns */
 } Descent;
@@ -91,9 +91,9 @@ typedef struct Race {
 enum { ENVELOPE_STEPS = 3, ENVELOPE_COLUMNS = 25, ENVELOPE_ROWS = 22 };
 
 typedef struct EnvelopeCell {
-    bool is_known;       /* the run of the cell was made */
-    Status bad_status;   /* OK, or the last other status of all steps */
-    int updates;         /* Newton updates of all steps */
+    bool is_known;     /* the run of the cell was made */
+    Status bad_status; /* OK, or the last other status of all steps */
+    int updates;       /* Newton updates of all steps */
 } EnvelopeCell;
 
 /* Whether the square converges, by stiffness (row) and time step (column). */

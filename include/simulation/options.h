@@ -67,9 +67,9 @@ typedef struct Options {
             double ceiling[3]; /* values of --ceiling */
             double barrier[2]; /* d_hat, m; kappa, J/m^2; 0: side/100, 4 k */
             double friction, slip_speed, cells, self_contact;
-            double self_friction; /* between bodies; -1: equal to `friction` */
-            double material;      /* 0: springs, 1: triangles */
-            double young, poisson;         /* values of --young, --poisson */
+            double self_friction;  /* between bodies; -1: equal to `friction` */
+            double material;       /* 0: springs, 1: triangles */
+            double young, poisson; /* values of --young, --poisson */
             double yield, hardening, tear; /* 0: no spring yields or breaks */
             double damping;                /* value of --damping */
             double timestep, tolerance;    /* values of the options */
@@ -122,7 +122,7 @@ typedef enum OptionKind {
 /* The names of a table whose rows begin with a name; NULL ends the table. */
 typedef struct NameTable {
     const void *rows; /* rows of the table, which begin with a name */
-    size_t row_size; /* bytes of a row of the table */
+    size_t row_size;  /* bytes of a row of the table */
 } NameTable;
 
 #define NAMES_OF(table) ((NameTable){table, sizeof *(table)})
@@ -167,9 +167,9 @@ typedef struct OptionRow {
     int count;             /* number of numbers in a value; 0: one */
     unsigned short_counts; /* bit n: the first n numbers are enough */
     const double *omitted_defaults; /* [count] defaults of omitted numbers */
-    char separator;        /* separator of the numbers; 0: a comma */
-    int max_times; /* most values of a repeated option; 0: the last counts */
-    int count_slot;        /* max_times > 0: slot of the number of values */
+    char separator;                 /* separator of the numbers; 0: a comma */
+    int max_times;  /* most values of a repeated option; 0: the last counts */
+    int count_slot; /* max_times > 0: slot of the number of values */
     double default_value;  /* default, as on the slides */
     double low, high;      /* range, both ends included */
     const char *unit;      /* unit of the numbers, or "" if they have none */

@@ -53,8 +53,8 @@ typedef struct SceneBody {
     double pin_speed; /* speed of pinned nodes to the left and right, sides/s */
     double notch[2]; /* the middle is cut between these heights, over the height
                         of the body and from its centre; 0, 0: nowhere */
-    int runs;              /* number of runs with a body each; 0: one run */
-    double lift; /* height of run 0 above run 1, and so on, over the side */
+    int runs;        /* number of runs with a body each; 0: one run */
+    double lift;     /* height of run 0 above run 1, and so on, over the side */
     double friction_factor[3]; /* factor on the friction of each run; 0: 1 */
     /* Returns a further obstacle, at its start; NULL: no obstacle. */
     struct Obstacle (*obstacle)(const struct Options *options);
@@ -70,17 +70,17 @@ typedef struct Scene {
     const char *args; /* options with other values than on the slides */
     /* Fills simulation->system, the mesh and the start. */
     Status (*create)(struct Simulation *simulation);
-    double speed;    /* steps a frame at first; 0: 1, or 1/32 without time */
-    double view[4];  /* m, left, bottom, right, top of the view; 0: automatic */
+    double speed;   /* steps a frame at first; 0: 1, or 1/32 without time */
+    double view[4]; /* m, left, bottom, right, top of the view; 0: automatic */
     double strain_colour_max; /* strain of the full colour; 0: no colours */
     bool needs_dissipation;   /* the sentence describes a motion that dies away,
                                  which is true only of methods that dissipate */
     const char *step_name; /* name of a step, "iteration"; NULL: a time step */
     bool starts_paused;    /* the window waits at step 0 */
     const char *group_heading; /* heading of the group, in its first scene */
-    bool is_hidden; /* has no key and no cell in the overview; the table ends
-                       with these scenes */
-    const char *pin;       /* value of --pin */
+    bool is_hidden;  /* has no key and no cell in the overview; the table ends
+                        with these scenes */
+    const char *pin; /* value of --pin */
     SceneBody body;
     /* Makes one step; NULL: a step in time of each run. */
     Status (*step)(struct Simulation *simulation);

@@ -17,8 +17,8 @@ enum { SIMULATION_MAX_RUNS = 3, SIMULATION_MODE_NODES = 64 };
 typedef struct Ledger {
     double start; /* J, total energy at the start */
     double work;  /* J, work that the mouse and changed options have done */
-    double last_balance; /* J, total energy minus work, after the last step */
-    long gain_steps; /* number of steps with growth beyond the work */
+    double last_balance;  /* J, total energy minus work, after the last step */
+    long gain_steps;      /* number of steps with growth beyond the work */
     double gained_energy; /* J, growth beyond the work, in all gain_steps */
 } Ledger;
 
@@ -31,17 +31,17 @@ struct Simulation {
     int runs; /* number of runs, 1 ... SIMULATION_MAX_RUNS */
     TimeIntegrator run[SIMULATION_MAX_RUNS];
     Ledger ledger[SIMULATION_MAX_RUNS];
-    int step_run; /* run whose step is being computed */
-    Status bad_status;    /* OK, or the last other status of this step's runs */
-    Descent descent;      /* minimisation; zero in scenes that move in time */
-    Exhibit exhibit;      /* data of small scenes, and of switches */
+    int step_run;      /* run whose step is being computed */
+    Status bad_status; /* OK, or the last other status of this step's runs */
+    Descent descent;   /* minimisation; zero in scenes that move in time */
+    Exhibit exhibit;   /* data of small scenes, and of switches */
     Prediction prediction;   /* guess where the next step leads */
     NewtonObserver observer; /* called after each Newton iteration, or NULL */
     void *user_data;         /* argument of observer */
     long steps;              /* steps so far */
     long unconverged_steps;  /* steps so far that did not converge */
     int status_counts[STATUS_COUNT]; /* unconverged steps by their status */
-    Status status;               /* status of the last step */
+    Status status;                   /* status of the last step */
     bool is_over;                /* the scene has ended: a step does nothing */
     NewtonCounters old_counters; /* work of integrators that were replaced */
 };
@@ -69,7 +69,7 @@ enum { ENERGY_ROWS = 2 * SYSTEM_MAX_TERMS + 5 };
 
 typedef struct Energies {
     double kinetic, gravity, total; /* J */
-    double work;       /* work of walls, pins and hand */
+    double work;                    /* work of walls, pins and hand */
     double dissipated; /* energy that the integrator took out; < 0: added */
     int rows;          /* number of energies */
     Energy row[ENERGY_ROWS]; /* energies in the order of the plots' legend */

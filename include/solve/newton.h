@@ -32,7 +32,7 @@ typedef enum ResidualKind {
 typedef struct NewtonRecord {
     long step_number; /* number of the time step, from 1 */
     int iteration;    /* number from 0; -1: prescribed motion ended the step */
-    double residual; /* m/s, max over nodes of |p_x| + |p_y|, over h */
+    double residual;  /* m/s, max over nodes of |p_x| + |p_y|, over h */
     ResidualKind residual_kind; /* how well the residual is known */
     double alpha;               /* step length along p; 0: x has not moved */
     int trials;                 /* step lengths that the line search tried */
@@ -44,8 +44,8 @@ typedef struct NewtonRecord {
     bool has_new_factor; /* has a new factor of the Hessian */
     double shift;        /* kg, added to the diagonal of the Hessian */
     double seconds;      /* computing time of the iteration */
-    Status status;  /* RUNNING, or how the iteration ended the minimisation */
-    Solver solver;  /* NEWTON or MULTIGRID */
+    Status status; /* RUNNING, or how the iteration ended the minimisation */
+    Solver solver; /* NEWTON or MULTIGRID */
     double x_before[2]; /* m, single moving point before the update, or 0 */
     double x_after[2];  /* m, single moving point after the update, or 0 */
 } NewtonRecord;
@@ -66,14 +66,14 @@ typedef struct NewtonSettings {
 
 /* Counts of the work since the object was made.  No decision reads them. */
 typedef struct NewtonCounters {
-    long updates;         /* number of updates of x */
-    long factorisations;  /* number of factorisations of the Hessian */
-    long solves;          /* number of solves with a factor */
-    long projected;       /* blocks projected, summed over factorisations */
-    long cycles;          /* V-cycles of multigrid */
-    long tile_sweeps;     /* sweeps of multigrid's tiles (tiles.h) */
-    long indefinite_ends; /* minimisations that converged with a last p from a
-                             Hessian with negative pivots: perhaps a maximum */
+    long updates;          /* number of updates of x */
+    long factorisations;   /* number of factorisations of the Hessian */
+    long solves;           /* number of solves with a factor */
+    long projected;        /* blocks projected, summed over factorisations */
+    long cycles;           /* V-cycles of multigrid */
+    long tile_sweeps;      /* sweeps of multigrid's tiles (tiles.h) */
+    long indefinite_ends;  /* minimisations that converged with a last p from a
+                              Hessian with negative pivots: perhaps a maximum */
     long handed_to_newton; /* minimisations that multigrid passed to Newton */
 } NewtonCounters;
 
@@ -87,16 +87,16 @@ void newton_counters_add(const NewtonCounters *counters, NewtonCounters *sum);
  * has no Cholesky factor in floating point.  Then H + shift I is factored, and
  * conjugate gradients on H itself, applied spring by spring, correct p. */
 typedef struct SearchDirection {
-    Projection projection;   /* projection of the Hessian in A */
+    Projection projection;    /* projection of the Hessian in A */
     CholeskyKind factor_kind; /* kind of factor that cholesky holds */
     unsigned
         analysed_pattern; /* System.pattern_version at the symbolic analysis */
-    Sparse A;                /* Hessian, one triangle, in elimination order */
-    Cholesky *cholesky;      /* factor of A; NULL: not created yet */
-    double shift;            /* kg, added to the diagonal before factoring */
+    Sparse A;             /* Hessian, one triangle, in elimination order */
+    Cholesky *cholesky;   /* factor of A; NULL: not created yet */
+    double shift;         /* kg, added to the diagonal before factoring */
     double moved_since_factor; /* m, bound of displacements since A's factor */
-    double *b;               /* right-hand side in elimination order */
-    double *r, *z, *q, *d;   /* vectors of conjugate gradients */
+    double *b;                 /* right-hand side in elimination order */
+    double *r, *z, *q, *d;     /* vectors of conjugate gradients */
 } SearchDirection;
 
 /* Data for the rounding errors of a minimisation (rounding.c). */
@@ -142,10 +142,10 @@ typedef struct Newton {
     Multigrid *multigrid; /* data of multigrid; NULL: not created yet */
     Solver active_solver; /* solver of the next iteration: NEWTON, MULTIGRID */
     const char *refusal_reason; /* why multigrid refused to work, or NULL */
-    double change_sum;    /* J s^2, sum of the updates' changes of E */
-    double change_abs_sum; /* J s^2, sum of the absolute changes of E */
-    double total_change;   /* J s^2, E at the end - E at the start, summed over
-                              minimisations; the caller resets it to 0 */
+    double change_sum;          /* J s^2, sum of the updates' changes of E */
+    double change_abs_sum;      /* J s^2, sum of the absolute changes of E */
+    double total_change; /* J s^2, E at the end - E at the start, summed over
+                            minimisations; the caller resets it to 0 */
 } Newton;
 
 /* Allocates the minimiser of a system, which must outlive the object.  Returns

@@ -12,10 +12,10 @@
 typedef struct TimeIntegrator TimeIntegrator;
 
 typedef struct IntegratorMethod {
-    const char *name;       /* name on the command line */
-    const char *label;      /* name in the window */
-    int order;              /* order of accuracy */
-    bool is_implicit;       /* needs Newton */
+    const char *name;        /* name on the command line */
+    const char *label;       /* name in the window */
+    int order;               /* order of accuracy */
+    bool is_implicit;        /* needs Newton */
     bool supports_all_terms; /* works with every term: only backward Euler */
     bool dissipates;   /* takes energy out of motion, which comes to rest */
     bool only_by_name; /* is chosen by name only, and skipped by key M */
@@ -59,9 +59,9 @@ struct TimeIntegrator {
     double memory_h; /* s, time step of `memory`; 0: `memory` is not valid */
     Newton *newton;  /* NULL for explicit methods */
     /* State of an unfinished step: */
-    int stage;     /* 0 ... stages - 1 */
-    Status bad_status; /* OK, or the last other status of a minimisation */
-    double weight; /* s^2, factor of P in E */
+    int stage;             /* 0 ... stages - 1 */
+    Status bad_status;     /* OK, or the last other status of a minimisation */
+    double weight;         /* s^2, factor of P in E */
     double remaining_part; /* part of the prescribed way that is not done yet */
     int parts_made;        /* number of parts of the prescribed way so far */
     long updates_before;   /* Newton's updates before this step */

@@ -135,7 +135,7 @@ Phrase suggest_name(const char *text, const char *dashes, NameTable names)
  * option.  A row stays for one release, so that users learn what to use. */
 static const struct RemovedOption {
     const char *option, *value; /* removed option; its value, or NULL */
-    const char *replacement; /* end of a message: what to use now */
+    const char *replacement;    /* end of a message: what to use now */
 } removed[] = {
     {"vtk", "", "--states and --springs write each step as CSV"},
     {"integrator", "avf", KEEPS_ENERGY},

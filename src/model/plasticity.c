@@ -72,7 +72,7 @@ typedef struct FlowSpring {
     const int *e;           /* nodes of the spring */
     double k, l2;           /* J/m^2, m^2 in this step */
     double d[2], d_squared; /* m, x_i - x_j, and m^2, |d|^2 */
-    double strain;   /* elastic strain, E - ep */
+    double strain;          /* elastic strain, E - ep */
     FlowLaw law;
 } FlowSpring;
 

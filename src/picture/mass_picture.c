@@ -15,7 +15,7 @@ static const double CIRCLE_MAX = 4;      /* m, largest radius that is shown */
 static const double TWO_PI = 6.283185307179586;
 static const double EIGEN_REACH =
     1.35; /* least half side of the view of eigenvalues */
-static const double EIGEN_MAX = 5;      /* largest eigenvalue that is shown */
+static const double EIGEN_MAX = 5; /* largest eigenvalue that is shown */
 /* Room for the eigenvalues as numbers, ems. */
 static const double NUMBERS_WIDE = 16.4, NUMBERS_HIGH = 9;
 static const double origin[2] = {0, 0};

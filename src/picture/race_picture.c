@@ -5,8 +5,8 @@
 
 #include "picture/cards.h"
 
-enum { HALVED_COLUMNS = 2 }; /* table columns of halved time steps */
-static const double NAMES_WIDTH = 20;    /* ems; a narrower plot has no names */
+enum { HALVED_COLUMNS = 2 };          /* table columns of halved time steps */
+static const double NAMES_WIDTH = 20; /* ems; a narrower plot has no names */
 static const double TARGET_ERROR = 0.01; /* m, largest error of a fast run */
 
 /* Returns bounds in powers of ten: h or run time, ms, and error.  Errors

@@ -9,8 +9,8 @@
 
 enum { ROOT_UPDATES = 60, DIGITS_SIZE = 48 };
 
-static const double TANGENT_REACH = 3;    /* m, least half width of the view */
-static const double ITERATES_WIDE = 12;   /* ems */
+static const double TANGENT_REACH = 3;  /* m, least half width of the view */
+static const double ITERATES_WIDE = 12; /* ems */
 
 /* An update with its model q(x) = f + f' (x - x0) + f'' (x - x0)^2 / 2, whose
  * minimum is at x1 = x0 + p. */
@@ -18,9 +18,9 @@ typedef struct ScalarUpdate {
     const Simulation *simulation;
     double x0, x1, f, slope, curvature;
     double alpha; /* step length; 0: unknown, or all lengths were refused */
-    int refused_lengths; /* number of refused trials alpha = 1, 1/2, ... */
-    int iterate;         /* index of the iterate x0 */
-    bool is_made;        /* false: the update is only predicted */
+    int refused_lengths;   /* number of refused trials alpha = 1, 1/2, ... */
+    int iterate;           /* index of the iterate x0 */
+    bool is_made;          /* false: the update is only predicted */
     bool shows_derivative; /* draws f' and tangent, not f and model */
 } ScalarUpdate;
 

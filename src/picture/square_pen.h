@@ -10,7 +10,7 @@ typedef struct SquarePen {
     Plot *stage;
     const Simulation *simulation; /* simulation of the stage */
     const System *system;
-    const double *x, *v;    /* [2n] m, m/s */
+    const double *x, *v; /* [2n] m, m/s */
     double spacing; /* pixels from node to node at rest; more if flown apart */
     double width;   /* width of a spring */
     double node_radius;     /* radius of a node */

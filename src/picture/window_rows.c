@@ -79,8 +79,8 @@ static void draw_setting(Paper *paper, Box box, const Setting *setting,
     box_cut_off(&box, EDGE_LEFT, (int)(0.5 * em + width));
     box.width += (int)(0.8 * em); /* the value may reach into the gap */
     width = paper_write_in_box(
-        paper, setting->is_changed ? FACE_BOLD : FACE_REGULAR, TEXT_SIZE, colour,
-        box, ALIGN_LEFT, format_power(setting->value).text);
+        paper, setting->is_changed ? FACE_BOLD : FACE_REGULAR, TEXT_SIZE,
+        colour, box, ALIGN_LEFT, format_power(setting->value).text);
     canvas_dashes(&paper->canvas, (double[2]){box.x, below + 0.5},
                   (double[2]){box.x + width, below + 0.5}, fmax(1, paper->unit),
                   paper->unit, NULL, colour);

@@ -17,8 +17,8 @@ typedef struct RunAtStep {
     const Simulation *simulation;
     const TimeIntegrator *run;
     double step, time;
-    int run_index;            /* index of the run in its simulation */
-    int pane;                 /* number of the pane, from 1 */
+    int run_index; /* index of the run in its simulation */
+    int pane;      /* number of the pane, from 1 */
     int first_run, first_node, first_spring; /* counts in the runs before */
 } RunAtStep;
 

@@ -9,8 +9,8 @@
 
 static const double CIRCLE_OMEGA = 6.283185307179586; /* 1/s: a turn a second */
 static const double MASS_OMEGA2 = 1; /* 1/s^2, omega2 in the scene `arrows` */
-static const double SPRING_STIFFNESS = 100;           /* J/m^2 */
-static const double SPRING_LENGTH = 1;                /* m, rest length */
+static const double SPRING_STIFFNESS = 100; /* J/m^2 */
+static const double SPRING_LENGTH = 1;      /* m, rest length */
 
 Status create_small_system(System *system, int pins, double length,
                            double stiffness)

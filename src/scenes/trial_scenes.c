@@ -148,7 +148,7 @@ static Status measure_run_time(Simulation *simulation,
                                const IntegratorMethod *method, double h,
                                long steps, TimeIntegrator *run, double *seconds)
 {
-    const double shortest = 1e-3;          /* s, shortest measurement */
+    const double shortest = 1e-3; /* s, shortest measurement */
     double end =
         clock_processor_time() + 0.01; /* s, no measurement begins later */
     Options options = simulation->options;

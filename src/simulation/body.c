@@ -530,7 +530,7 @@ double simulation_find_free_part(const Simulation *simulation,
                                  const double to[2])
 {
     enum { MAX_HALVINGS = 20 };
-    static const double MIN_GAP = 0.999; /* gap to a body over d_hat */
+    static const double MIN_GAP = 0.999;     /* gap to a body over d_hat */
     static const double MIN_PART = 1.0 / 64; /* part of the way, least step */
     Options moved = *options;
     double *at = options_obstacle_at(&moved, number), free = 0, from[2];

@@ -64,8 +64,7 @@ void simulation_find_obstacle(const Simulation *simulation, int run, int number,
 void control_store_obstacle(Control *control, int number,
                             const Simulation *simulation)
 {
-    static const double SAME =
-        1e-9; /* tolerance, in sides of the square */
+    static const double SAME = 1e-9; /* tolerance, in sides of the square */
     double place[2], other[2];
     simulation_find_obstacle(simulation, 0, number, place);
     for (int r = 1; r < simulation->runs; r++) {

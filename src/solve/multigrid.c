@@ -48,14 +48,14 @@ struct Multigrid {
                                 conjugate to last_p */
     double moved_since_setup; /* m, upper bound of a node's displacement since
                                  the V-cycle's matrices were computed */
-    double largest_change;   /* J s^2, largest change of E in this step, < 0 */
-    Quartic line_E;          /* E(x + alpha p) - E(x), J s^2 */
-    unsigned version;        /* System.version that the grid was made for */
-    double weight;           /* s^2, weight of P that the grid was made for */
-    int tiles_rest_until;    /* iteration before which tiles do not relax */
-    bool has_relaxed;        /* tiles relaxed in the last update */
-    bool change_was_hidden;  /* rounding hid the last iteration's change of E,
-                                and p_bound did not fall */
+    double largest_change;    /* J s^2, largest change of E in this step, < 0 */
+    Quartic line_E;           /* E(x + alpha p) - E(x), J s^2 */
+    unsigned version;         /* System.version that the grid was made for */
+    double weight;            /* s^2, weight of P that the grid was made for */
+    int tiles_rest_until;     /* iteration before which tiles do not relax */
+    bool has_relaxed;         /* tiles relaxed in the last update */
+    bool change_was_hidden;   /* rounding hid the last iteration's change of E,
+                                 and p_bound did not fall */
 };
 
 Status multigrid_create(int segments, Multigrid **multigrid)
