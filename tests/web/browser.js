@@ -1,6 +1,6 @@
 // browser.js - Chromium by the DevTools protocol through a pipe: tabs with real
-// mouse, keys and touch.  Host names lead nowhere; whatever a tab asks for or
-// complains of is kept.
+// mouse, keys and touch.  No host name resolves.  Requests and errors of a tab are
+// kept in a list.
 'use strict';
 const { spawn, spawnSync } = require('child_process');
 const fs = require('fs');
@@ -9,7 +9,7 @@ const path = require('path');
 
 const sleep = (ms) => new Promise((done) => setTimeout(done, ms));
 
-// Asks a tab until something is true; a busy machine needs long.
+// Repeats a question until its answer is true, for long on a busy machine.
 const untilIn =
   (tab) =>
   async (expression, ms = 300000) => {
@@ -50,7 +50,7 @@ const launch = async () => {
       chromium.stdio[3].write(JSON.stringify({ id: number, method, params, sessionId }) + '\0');
     });
 
-  // A tab of this size; its complaints go into `trouble`.
+  // Opens a tab of this size, whose errors go into `trouble`.
   const open = async (url, { width = 1280, height = 800, ratio = 1, before = '' } = {}) => {
     const { targetId } = await send('Target.createTarget', { url: 'about:blank' });
     const { sessionId } = await send('Target.attachToTarget', { targetId, flatten: true });
@@ -114,14 +114,14 @@ const launch = async () => {
     chromium.kill();
     await gone;
     for (let tries = 0; fs.existsSync(profile) && tries < 20; tries++) {
-      await sleep(100); // its helpers may still write there
+      await sleep(100); // processes of the browser may still write there
       spawnSync('rm', ['-rf', profile]);
     }
   };
   return { open, close };
 };
 
-// Prints ok or not ok for a promise, with what is wrong.
+// Prints ok or not ok for a promise, and the reason of a failure.
 let failed = 0;
 const verdict = (name, wrong) => {
   const most = Number(process.env.MOST || 12);
@@ -129,7 +129,7 @@ const verdict = (name, wrong) => {
   failed += wrong.length > 0;
 };
 
-// Makes the checks and ends with what they have found.
+// Runs the checks and exits with 1 if one of them failed.
 const finish = (checks) =>
   checks()
     .then(() => process.exit(failed ? 1 : 0))

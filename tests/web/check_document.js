@@ -1,7 +1,7 @@
-// check_document.js ELASTO PAGE [AXE]: what the page says stands beside its canvas:
-// nothing is cut in any size, formulas are MathML, keys alone and a reader's tree
-// lead through the tour, addresses and history, frames, print.  AXE: the script
-// axe.min.js of axe-core; without it that check is skipped.
+// check_document.js ELASTO PAGE [AXE]: checks the texts beside the canvas.
+// No text is cut in any size, formulas are MathML, and the tour works by keys and a
+// screen reader's tree.  Addresses, history, frames in other pages, print.  AXE:
+// axe.min.js of axe-core; without AXE its check is skipped.
 'use strict';
 const { spawnSync } = require('child_process');
 const fs = require('fs');
@@ -16,7 +16,7 @@ const listed = (line) =>
   spawnSync(elasto, line.split(' '), { encoding: 'utf8' }).stdout.trim().split('\n');
 const PAGES = listed('--list --lecture').map((row) => row.trim().split(/\s+/)[1]);
 
-// Opens a page of the tour, or a scene, in a tab and waits until the document says so.
+// Opens a page of the tour, or a scene, in a tab and waits until the document shows it.
 const turnTo = async (tab, name) => {
   await tab.run(`location.hash = '${PAGES.includes(name) ? '--lecture+' : ''}${name}'`);
   await tab.until(`field('page', 2) === '${name}' && !drawn`);
@@ -26,9 +26,9 @@ const answer = async (tab) => {
   await tab.until(`!field('asks')`);
 };
 
-// Words of the document that are wider than their box, out of the window, or
-// covered by the picture when they are scrolled to.  What scrolls by itself, as a
-// long formula, is told apart.
+// Returns the words that are wider than their box, outside the window, or covered
+// by the picture after a scroll to them; and apart from these the elements with a
+// scroll bar of their own, such as long formulas.
 const CUT = `(() => {
   const wrong = [];
   const wide = document.documentElement.clientWidth;
@@ -61,7 +61,7 @@ const CUT = `(() => {
   return wrong;
 })()`;
 
-// Elements of MathML that have not as many children as they need, or an empty one.
+// Returns the elements of MathML with a wrong number of children or an empty child.
 const MATH = `[...document.querySelectorAll('math *')].filter((element) => {
   const needed = { mfrac: 2, msup: 2, msub: 2, mover: 2, msubsup: 3, msqrt: 1 }[element.localName];
   const empty = /^m([ion]|text)$/.test(element.localName) && !element.textContent;
@@ -101,8 +101,8 @@ const sizes = async (browser) => {
   await tab.close();
 };
 
-// By keys alone, through the accessibility tree: what a page asks, says and has to
-// be set.
+// Checks by keys alone, in the accessibility tree, that a page's question, answer
+// and numbers are there.
 const tree = async (tab) => {
   const { nodes } = await tab.ask('Accessibility.getFullAXTree');
   const found = new Map(nodes.map((node) => [node.nodeId, node]));
@@ -144,7 +144,7 @@ const tourByKeys = async (browser) => {
     await tab
       .until(`!field('asks')`, 20000)
       .catch(() => wrong.push(`${name}: N does not show the answer`));
-    // What Try says outside of its buttons; a unit or letter of a formula is no text of its own.
+    // Text of Try outside its buttons.  Units and letters of formulas are not counted.
     const rest = await tab.run(`[...$('try').querySelectorAll('p')].flatMap(({ childNodes }) =>
       [...childNodes].map((node) => (node.nodeType === 3 ? node.data : '|'))).join('')`);
     if (/\b([Pp]ress|[Kk]ey|then|and) (Space|[NRI])\b/.test(rest))
@@ -152,7 +152,7 @@ const tourByKeys = async (browser) => {
     if (i + 1 < PAGES.length) await tab.key('PageDown');
     await tab.until(`field('page', 2) === '${PAGES[Math.min(i + 1, PAGES.length - 1)]}'`);
   }
-  // Legends are text; a switch is a checkbox, and stands in the picture of a bare page.
+  // Legends are text.  A switch is a checkbox; a bare page draws it in the picture.
   await turnTo(tab, 'landscape');
   const boxes = (await tree(tab)).filter(({ role }) => role === 'checkbox').length;
   if (boxes !== 2) wrong.push(`${boxes} checkboxes`);
@@ -160,7 +160,7 @@ const tourByKeys = async (browser) => {
   const leaves = (await tree(tab)).map(({ name }) => name);
   for (const name of ['exact', 'kinetic', 'elastic'])
     if (!leaves.includes(name)) wrong.push(`no ${name} in a legend`);
-  // Tab reaches picture, buttons, fields and lists; the focus is seen on each.
+  // Tab reaches picture, buttons, fields and lists, and each shows its focus.
   const reached = new Set();
   await tab.run(`turnTo = location.hash = '--lecture+${PAGES[1]}'; document.activeElement.blur()`);
   await tab.until(`field('asks') === 'number'`);
@@ -193,7 +193,7 @@ const tourByKeys = async (browser) => {
   await tab.close();
 };
 
-// The browser's own keys stay its own.
+// The program does not take the browser's own keys.
 const keysOfBrowser = async (browser) => {
   const tab = await browser.open(at('square --paused'));
   const wrong = [];
@@ -246,7 +246,7 @@ const history = async (browser) => {
       .catch(() => bad.push(`${line}: no tour`));
     if (!/^elasto: [^\n]+$/.test(await lost.run(`$('said').textContent`)))
       bad.push(`${line}: no line`);
-    // A second wrong address leaves the texts of the tour alive.
+    // After a second wrong address the texts of the tour still change.
     await lost.run(`location.hash = 'nonsense&bare'`);
     await lost
       .until(`!bare && location.hash === '#--lecture'`, 20000)
@@ -256,7 +256,7 @@ const history = async (browser) => {
   verdict('a_wrong_address_shows_the_tour_and_one_line', bad);
 };
 
-// Three frames in a course's page, far down: they leave focus and scroll alone.
+// Checks that three frames far down in a course's page change neither focus nor scroll.
 const frames = async (browser) => {
   const folder = fs.mkdtempSync(path.join(os.tmpdir(), 'elasto-frames-'));
   const file = path.join(folder, 'course.html');
@@ -273,7 +273,7 @@ const frames = async (browser) => {
   await sleep(3000);
   if (await tab.run('scrollY')) wrong.push('the page scrolled');
   if ((await tab.run('document.activeElement.id')) !== 'here') wrong.push('the focus was taken');
-  // A finger scrolls past a frame; after a tap it pulls in the frame.
+  // A finger scrolls past a frame; after a tap in the frame a finger pulls the square.
   const swipe = async () => {
     await tab.run('scrollTo(0, 1700)');
     await tab.touch('touchStart', [200, 500]);
@@ -291,7 +291,7 @@ const frames = async (browser) => {
   const bare = await browser.open(at('circle') + '&bare', { width: 400, height: 300 });
   const seen = `[...document.querySelectorAll('body > *')].filter((e) => e.getBoundingClientRect().width > 0).map((e) => e.id).join()`;
   if ((await bare.run(seen)) !== 'stage') wrong.push(`bare shows ${await bare.run(seen)}`);
-  // A finger that scrolls takes hold of nothing.
+  // A finger that scrolls does not pull the square.
   await bare.run(`canvas.blur(); kinds = []; told = Module._web_mouse;
     Module._web_mouse = (...how) => kinds.push(how[0]) && told(...how)`);
   await bare.touch('touchStart', [200, 200]);
@@ -309,7 +309,7 @@ const frames = async (browser) => {
   fs.rmSync(folder, { recursive: true });
 };
 
-// A4 as Chromium's printer gives it: how many sheets, and words as words.
+// Checks the number of A4 sheets that Chromium prints, and that words can be searched.
 const print = async (browser) => {
   const wrong = [];
   for (const [query, more] of Object.entries({ '': 2, '?notes': 7 })) {
@@ -326,7 +326,7 @@ const print = async (browser) => {
     const asks = query ? 'Notesforwhoeverpresentsit' : 'Answers';
     if (!error && !text.includes(asks)) wrong.push(`no ${asks}`);
     if (!error) wrong.push(...topics.filter((topic) => !text.includes(squeezed(topic))));
-    // Nothing is cut or scrolls on a sheet, which is 188 mm wide.
+    // No element is cut or has a scroll bar on a sheet, which is 188 mm wide.
     await tab.ask('Emulation.setEmulatedMedia', { media: 'print' });
     await tab.ask('Emulation.setDeviceMetricsOverride', SHEET);
     const cut = `[...document.querySelectorAll('#handout :is(section, .pictures, .cells)')]

@@ -1,7 +1,7 @@
-// check_web.js ELASTO PAGE: the page does what the program does.  Every scene
-// and page of the tour ends in the same hash and has the same pixels; sessions by
-// mouse, keys and touch are played again by the program; files, addresses and
-// bad input.  Prints ok or not ok for each promise.
+// check_web.js ELASTO PAGE: checks that the page does what the program does.  Every
+// scene and page of the tour ends in the same hash and has the same pixels.  The
+// program plays sessions by mouse, keys and touch again.  Files, addresses, bad
+// input.  Prints ok or not ok for each promise.
 'use strict';
 const { spawnSync } = require('child_process');
 const crypto = require('crypto');
@@ -18,7 +18,7 @@ const native = (line, more = {}) =>
   spawnSync(elasto, line.split(' '), { encoding: 'utf8', cwd: folder, ...more });
 const hashIn = (text) => (/state(?: hash)? +([0-9a-f]{16})/.exec(text) || [])[1];
 
-// A line without a window, in a tab that is open already; its summary.
+// Runs a command line without a window in an open tab and returns its summary.
 const headless = async (tab, line) => {
   await tab.run(
     `$('summary').textContent = $('said').textContent = ''; location.hash = ${JSON.stringify(at(line).split('#')[1])}`,
@@ -48,7 +48,7 @@ const sameHashes = async (browser, name = 'Chromium') => {
   verdict(`every_scene_and_page_ends_in_the_same_hash_in_${name}`, [...wrong, ...tab.trouble]);
 };
 
-// A tab whose downloads wait in `files`.
+// Opens a tab whose downloads wait in `files`.
 const CATCH = `window.files = {}; HTMLAnchorElement.prototype.click = function () {
   files[this.download] = fetch(this.href).then((file) => file.blob());
 }`;
@@ -60,7 +60,7 @@ const downloaded = (tab, name) =>
     return [...new Uint8Array(digest)].map((n) => n.toString(16).padStart(2, '0')).join('');
   })`);
 
-// Frames as the canvas shows them, at 1x and 2x; the race shows times.
+// Checks the pixels of the canvas at 1x and 2x, without the race, which shows run times.
 const samePixels = async (browser) => {
   const tab = await browser.open(at('square --headless --steps 0'), { before: CATCH });
   const wrong = [];
@@ -77,7 +77,7 @@ const samePixels = async (browser) => {
   verdict('every_scene_and_page_has_the_same_pixels', [...wrong, ...tab.trouble]);
 };
 
-// Tables, and a run that begins in one that is dropped.
+// Checks tables, and a run that begins at the last step of a dropped table.
 const sameTables = async (browser) => {
   const tab = await browser.open(at('square --headless --steps 0'), { before: CATCH });
   const wrong = [];
@@ -98,14 +98,13 @@ const sameTables = async (browser) => {
   verdict('tables_are_the_same_and_begin_a_run', [...wrong, ...tab.trouble]);
 };
 
-// A session ends with Y: a hash, and a script that arrives as a download and
-// leads the program to it.
-// What waits for half a second, a long touch, waits for `patience`.
+// Ends a session with Y, which shows a hash and downloads a script, and checks that
+// the script leads the program to this hash.  A long touch waits for `patience`.
 const TOUCH = `const later = setTimeout; var patience = 500;
   setTimeout = (deed, ms) => later(deed, ms === 500 ? patience : ms);`;
-// What the last command did, and the method.
+// Returns the message of the last command, and the method.
 const SAID = `now.told[0][1] + ' ' + now.time`;
-// Ten more frames.
+// Waits for ten more frames.
 const more = async (tab) => tab.until(`stats.frames > ${await tab.run('stats.frames')} + 9`);
 const SESSIONS = {
   mouse: async (tab, x, y) => {
@@ -131,7 +130,7 @@ const SESSIONS = {
     await tab.key('Space');
     await tab.touch('touchStart', [x, y]);
     await tab.until(`/pinned/.test(${SAID})`);
-    await tab.run('patience = 1e6'); // the next touches are none, however late they move
+    await tab.run('patience = 1e6'); // no touch is a long one now, however late it moves
     await tab.touch('touchEnd');
     await tab.key('Space');
     await tab.touch('touchStart', [x + 50, y - 50]);
@@ -178,7 +177,7 @@ const sessions = async (browser) => {
   }
 };
 
-// Drops a file of this text on the page.
+// Drops a file with this text on the page.
 const drop = (tab, name, text) =>
   tab.run(`(() => {
     const dataTransfer = new DataTransfer();
@@ -199,7 +198,7 @@ const dropped = async (browser, scene, file, hash) => {
   verdict(`the_dropped_${path.basename(file)}_is_played`, [...wrong, ...tab.trouble]);
 };
 
-// Twenty seconds of pushing, pressing and throwing end as natively.
+// Twenty seconds of pushing, pressing and throwing end in the program's hash.
 const pushed = async (browser) => {
   const file = path.join(__dirname, '../data/push.script');
   const told = (word) =>
@@ -207,7 +206,7 @@ const pushed = async (browser) => {
   await dropped(browser, told('line'), file, told('ends'));
 };
 
-// The saved picture is what the canvas shows, also at 2x.
+// The saved picture has the pixels of the canvas, also at 2x.
 const saved = async (browser) => {
   const wrong = [];
   for (const ratio of [1, 2]) {
@@ -218,7 +217,7 @@ const saved = async (browser) => {
       before: CATCH,
     });
     const frames = await tab.run('stats.frames');
-    await tab.key('0'); // what the first window says goes with the first key
+    await tab.key('0'); // the first key removes the greeting
     await tab.until(`stats.frames > ${frames}`);
     await tab.run(
       `ours = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data`,
@@ -258,7 +257,7 @@ const addresses = async (browser) => {
   await tab.run(`location.hash = 'circle+--timestep+0.05&bare'`);
   await follows('', 'circle+--timestep+0.05&bare');
   if (!(await tab.run('document.body.classList.contains("bare")'))) wrong.push('not bare');
-  // Blanks in a value, the + of a number, a % that begins no sign.
+  // A value may have blanks, a number a +, and a % may stand for itself.
   for (const [given, written] of [
     ['square+--timestep+8%20ms', 'square+--timestep+8%20ms'],
     ['square+--stiffness+1e+6', 'square+--stiffness+1e%2B6'],
@@ -268,14 +267,14 @@ const addresses = async (browser) => {
     await follows('', written);
   }
   await tab.run(`heard = ''; new MutationObserver(() => (heard += $('said').textContent))
-    .observe($('said'), { childList: true })`); // it goes by itself
+    .observe($('said'), { childList: true })`); // the message vanishes after a while
   await tab.key('y');
   await tab
     .until(`/link .* copied/.test(heard)`, 60000)
     .catch(() => wrong.push('Y copies no link'));
   verdict('the_address_follows_what_is_shown', [...wrong, ...tab.trouble]);
 
-  // A bad line says what the program says, and what was there goes on.
+  // A bad line shows the program's message, and the present run goes on.
   const bad = [];
   await tab.run(`$('said').textContent = ''; location.hash = 'square+--segments+0'`);
   await tab.until(`$('said').textContent`);
@@ -294,7 +293,7 @@ const addresses = async (browser) => {
   verdict('bad_lines_and_scripts_are_one_sentence', bad);
 };
 
-// What a page has after many steps it had after few.
+// Checks that the memory of a page does not grow with its steps.
 const memory = async (browser) => {
   const sizes = [];
   for (const steps of [1000, 10000]) {
@@ -306,7 +305,7 @@ const memory = async (browser) => {
   verdict('memory_does_not_grow', sizes[0] === sizes[1] ? [] : [`${sizes} bytes`]);
 };
 
-// Browsers that lack something, and tabs that nobody sees.
+// Checks browsers without a needed feature, and hidden tabs.
 const lacking = async (browser) => {
   const wrong = [];
   // A tab with 64 MB.
@@ -349,7 +348,7 @@ const lacking = async (browser) => {
     after === frames && back > after ? [] : [`${frames}, ${after}, ${back} frames`],
   );
 
-  // Nothing is drawn or written while the run is paused.
+  // A paused run draws no frame and writes no text.
   await tab.run(`wake(ask('web_obey', null, 'pause'))`);
   await tab.until(`field('step', 2) === '1' && !drawn`);
   await sleep(700);

@@ -1,5 +1,5 @@
-// firefox.js - Firefox by Marionette, its own protocol: JSON behind its length,
-// through a socket.  Tabs run what they are told.
+// firefox.js - Firefox by its protocol Marionette: JSON after its length, through a
+// socket.
 'use strict';
 const { spawn, spawnSync } = require('child_process');
 const fs = require('fs');
@@ -26,7 +26,7 @@ const launch = async () => {
       const colon = rest.indexOf(':');
       const end = colon + 1 + Number(rest.subarray(0, Math.max(colon, 0)));
       if (colon < 0 || rest.length < end) return;
-      const message = JSON.parse(rest.subarray(colon + 1, end)); // a greeting comes first
+      const message = JSON.parse(rest.subarray(colon + 1, end)); // the first message is a greeting
       const [, number, error, result] = [].concat(message);
       rest = rest.subarray(end);
       const { done, fail } = waiting.get(number) || {};
@@ -43,7 +43,7 @@ const launch = async () => {
     });
   await ask('WebDriver:NewSession');
 
-  // The one tab; what its scripts fail with shows as what they do not answer.
+  // Firefox's only tab.  A script that fails gives no answer.
   const open = async (url) => {
     const tab = { trouble: [], url };
     await ask('WebDriver:Navigate', { url });
@@ -55,7 +55,7 @@ const launch = async () => {
     await tab.until('typeof stats !== "undefined" && (stats.first > 0 || $("said").textContent)');
     return tab;
   };
-  // Of the window, whose frame is left out.
+  // Gives the page this size; the window's frame comes on top of it.
   const resize = async (width, height) => {
     const script = 'return [outerWidth - innerWidth, outerHeight - innerHeight]';
     const { value } = await ask('WebDriver:ExecuteScript', { script, args: [] });
