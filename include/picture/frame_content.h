@@ -287,7 +287,7 @@ typedef struct FrameContent {
     bool is_bare;       /* shows pictures without words */
     bool is_stage_only; /* shows the stage alone, as on the web page */
     bool has_document;  /* the web page has switches, texts and cards */
-    struct Text *text;  /* fonts; NULL: widths of texts are estimated */
+    struct Text *fonts; /* fonts; NULL: widths of texts are estimated */
     double min_em;      /* pixels, least size of an em; 0: the usual minimum */
     TitleBar title_bar;
     SettingsRow settings;

@@ -56,7 +56,7 @@ typedef enum AfterWork {
 typedef struct PaneView {
     int trace_index; /* index in StepTrace.position; -1: end of the step */
     double *ghost;   /* [2n] m, positions before an edit, or NULL */
-    char ghost_label[256]; /* the edited setting, and the outcome before it */
+    char ghost_label[256]; /* edited setting, and the step's old outcome */
 } PaneView;
 
 /* How steps follow each other. */
@@ -81,7 +81,7 @@ typedef struct CommandQueue {
     int count;           /* number of commands */
     bool is_from_page;   /* the commands belong to a page */
     const Control *pins; /* pins to be set at the end of the queue, or NULL */
-    char note[SENTENCE_SIZE]; /* message at the end of the queue, or "" */
+    char note[SENTENCE_SIZE]; /* message when the queue is empty, or "" */
 } CommandQueue;
 
 /* Commands that wait, and gestures: groups that are undone as one. */
@@ -164,7 +164,7 @@ typedef struct Hands {
     const OptionRow *selected; /* selected number, or NULL */
     uint64_t added_rows;       /* bit r: the user added option row r */
     bool is_typing;            /* a field is open: keys go into `typed` */
-    char typed[28];            /* typed value, answer, or line of a list */
+    char typed[28]; /* typed value, answer, or number of a list's line */
 } Hands;
 
 typedef struct Player {
@@ -226,8 +226,9 @@ int player_find_wait_time(const Player *player);
 /* Whether the run is over. */
 bool player_has_ended(const Player *player);
 
-/* Describes how a pane differs: "h 0.01 s, ended at step 3".  A value that all
- * panes but one share is left out where others tell the pane apart. */
+/* Describes how a pane differs: "h 0.01 s, ended at step 3".  A value that only
+ * one pane has differently is left out in the other panes if they differ in
+ * another value, too. */
 void player_write_label(const Player *player, int pane, char label[LABEL_SIZE]);
 
 /* Returns the hash of the present states of all panes (state_hash). */
@@ -239,7 +240,7 @@ int player_copy_options(const Player *player,
 
 /* Finishes the files and closes the window; the past can still be read.
  *   status  in, last status of the run; after a failure files stay NAME.part
- * Returns `status`; if it is OK, OUT_OF_MEMORY, FILE_FAILED or OK. */
+ * Returns `status` unless it is OK; else OK, OUT_OF_MEMORY or FILE_FAILED. */
 Status player_finish(Player *player, Status status);
 void player_free(Player *player);
 

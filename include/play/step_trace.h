@@ -46,7 +46,7 @@ typedef struct TracePosition {
 } TracePosition;
 
 typedef struct StepTrace {
-    Trace start_trace;         /* h and tolerance, which all positions show */
+    Trace start_trace;         /* h and tolerance, the same at all positions */
     int x_length;              /* 2n; 0: no iterates are stored */
     Records records;           /* Newton's record at each iterate */
     TraceIterate *iterate;     /* [records.count] */

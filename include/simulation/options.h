@@ -28,9 +28,9 @@ typedef enum PictureLayer {
 
 /* Effect of the key N. */
 typedef enum NextAction {
-    NEXT_STEP,   /* makes a step */
-    NEXT_NEARER, /* makes the spring shorter by a fifth */
-    NEXT_SPRING, /* makes a step, which adds a spring to the shown Hessian */
+    NEXT_STEP,    /* makes a step */
+    NEXT_SHORTEN, /* makes the spring shorter by a fifth */
+    NEXT_SPRING,  /* makes a step, which adds a spring to the shown Hessian */
 } NextAction;
 
 enum { OPTIONS_MAX_GROUNDS = 8, OPTIONS_MAX_BALLS = 8 };
@@ -63,7 +63,8 @@ typedef struct Options {
             double ball[OPTIONS_MAX_BALLS][3];
             double bodies; /* number of rows of body that are used */
             double body[SQUARE_MESH_MAX_BODIES][BODY_NUMBERS];
-            /* m, m/s, m: height, velocity, lowest height; velocity 0: none */
+            /* height m, velocity m/s, lowest height m; no ceiling if the
+             * velocity is 0 */
             double ceiling[3]; /* values of --ceiling */
             double barrier[2]; /* d_hat, m; kappa, J/m^2; 0: side/100, 4 k */
             double friction, slip_speed, cells, self_contact;
@@ -242,8 +243,8 @@ int options_list_visible(const Options *options,
  * increment six notches are a factor of 10, and whole notches end on 1, 1.5, 2,
  * 3, 5, 7; names follow each other in a circle.  A drag gives fractions of a
  * notch, and a value of three digits. */
-double option_turn_wheel(const OptionRow *row, const Options *options,
-                         double notches);
+double option_find_value_after_wheel(const OptionRow *row,
+                                     const Options *options, double notches);
 
 /* Returns the place of an obstacle in the options, [2] m.
  *   number  of the obstacle: grounds first, then balls */

@@ -118,8 +118,9 @@ bool simulation_is_at_rest(const Simulation *simulation);
 /* Returns Newton's counters, summed over the runs; explicit methods have 0. */
 NewtonCounters simulation_sum_counters(const Simulation *simulation);
 
-/* Returns when a changed option takes effect: row->effect, but EFFECT_NEW_RUN
- * without time (HAS_START keeps EFFECT_REPEAT) and for methods if runs > 1. */
+/* Returns when a changed option takes effect, row->effect with two exceptions.
+ * In a scene without time it is EFFECT_NEW_RUN, but options that need HAS_START
+ * keep EFFECT_REPEAT.  With several runs the method has EFFECT_NEW_RUN. */
 ChangeEffect simulation_find_option_effect(const Simulation *simulation,
                                            const OptionRow *row);
 

@@ -63,7 +63,7 @@ struct TimeIntegrator {
     Status bad_status;     /* OK, or the last other status of a minimisation */
     double weight;         /* s^2, factor of P in E */
     double remaining_part; /* part of the prescribed way that is not done yet */
-    int parts_made;        /* number of parts of the prescribed way so far */
+    int parts_made;        /* parts of the prescribed way that are done */
     long updates_before;   /* Newton's updates before this step */
     bool is_blocked; /* walls and pins cannot move on: a body is in their way */
 };

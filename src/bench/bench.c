@@ -73,10 +73,10 @@ static const TimedMotion motions[] = {
 };
 enum { MOTIONS = sizeof motions / sizeof *motions };
 
-enum { FIRST_STEPS = 8, TARGETS = 5 };
+enum { FIRST_STEPS = 8, TARGET_COUNT = 5 };
 
 /* m, errors for which the fastest methods are named */
-static const double targets[TARGETS] = {1e-2, 1e-3, 1e-4, 1e-5, 1e-6};
+static const double targets[TARGET_COUNT] = {1e-2, 1e-3, 1e-4, 1e-5, 1e-6};
 
 /* m, expected error of the first run */
 static const double first_error = 1e-2;
@@ -116,7 +116,7 @@ static Status create_motion(const TimedMotion *motion, int segments,
 static Status measure_method(bool quick, const TimedMotion *motion,
                              Simulation *simulation,
                              const IntegratorMethod *method,
-                             FastestRun best[TARGETS])
+                             FastestRun best[TARGET_COUNT])
 {
     int segments = simulation->options.segments;
     double longest = quick ? 0.01 : segments / 64.0 + 0.25;
@@ -138,7 +138,7 @@ static Status measure_method(bool quick, const TimedMotion *motion,
                fmin(now.error, 1e300), failed);
         if (failed)
             now.error = INFINITY;
-        for (int t = 0; t < TARGETS; t++)
+        for (int t = 0; t < TARGET_COUNT; t++)
             if (now.error <= targets[t] && ms < best[t].ms)
                 best[t] = (FastestRun){method->name, ms};
         if (2 * now.seconds > longest)
@@ -153,9 +153,9 @@ static Status measure_method(bool quick, const TimedMotion *motion,
 static Status measure_motion(bool quick, const TimedMotion *motion,
                              Simulation *simulation)
 {
-    FastestRun best[2][TARGETS];
-    for (int i = 0; i < 2 * TARGETS; i++)
-        best[i / TARGETS][i % TARGETS] = (FastestRun){NULL, INFINITY};
+    FastestRun best[2][TARGET_COUNT];
+    for (int i = 0; i < 2 * TARGET_COUNT; i++)
+        best[i / TARGET_COUNT][i % TARGET_COUNT] = (FastestRun){NULL, INFINITY};
     for (const IntegratorMethod *method = integrator_methods; method->name;
          method++) {
         Status status = measure_method(quick, motion, simulation, method,
@@ -166,7 +166,7 @@ static Status measure_motion(bool quick, const TimedMotion *motion,
     printf("# %s, %g segments\n#  error m  best explicit             ms  best "
            "implicit        ms  implicit/explicit\n",
            motion->name, simulation->options.segments);
-    for (int t = 0; t < TARGETS; t++) {
+    for (int t = 0; t < TARGET_COUNT; t++) {
         const FastestRun *one = &best[0][t], *other = &best[1][t];
         if (one->name && other->name)
             printf("#  %7.0e  %-16s %11.3f  %-14s %8.3f  %8.3g: implicit %s\n",
@@ -242,8 +242,8 @@ static Status lecture_step(const System *system, double h, double tol,
 }
 
 /* Runs a program from one start and stores its results. */
-static Status measure_start(BenchSolver program, int segments, int start,
-                            int steps, ProgramResults *runs)
+static Status measure_run_from_start(BenchSolver program, int segments,
+                                     int start, int steps, ProgramResults *runs)
 {
     Simulation simulation;
     Options options = make_slides_options(segments);
@@ -286,8 +286,8 @@ static Status measure_solvers(bool quick, int segments, double ms[SOLVERS])
          count++)
         for (int m = 0; m < SOLVERS && !status; m++)
             if (segments <= programs[m].max_segments)
-                status = measure_start((BenchSolver)m, segments, count, steps,
-                                       &runs[m]);
+                status = measure_run_from_start((BenchSolver)m, segments, count,
+                                                steps, &runs[m]);
     for (int m = 0; m < SOLVERS && !status; m++) {
         ProgramResults *all = &runs[m];
         if (segments > programs[m].max_segments)

@@ -172,7 +172,8 @@ Status options_set(Options *options, const OptionRow *row, const char *text,
         options->number[row->slot] = value;
     else if (apply_option_word(&line, &word))
         return STATUS_INVALID_INPUT;
-    /* The integrator, and a body that the option starts anew, must fit. */
+    /* The integrator must allow the new value.  An option that begins a new run
+     * must describe a valid body. */
     bool is_start = row->effect == EFFECT_NEW_RUN &&
                     (row->needed_parts & HAS_SQUARE) &&
                     (options->scene->parts & HAS_BODY);

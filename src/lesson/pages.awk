@@ -105,7 +105,7 @@ BEGIN {
     numbers["speed"] = "speed"
     numbers["flips"] = "switch_flips"
     numbers["pause"] = "pause_step"
-    of_next["nearer"] of_next["spring"]
+    of_next["shorten"] of_next["spring"]
     split("numbers forces modes kinds cuts downhill curves first_step velocity",
           layer)
     for (i in layer)

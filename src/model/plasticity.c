@@ -144,8 +144,9 @@ static int plastic_hessian(const EvalPoint *at, Projection projection,
 /* Writes B and C: along p the strain e changes by D = alpha B + alpha^2 C.
  * Apart from V'(e) alpha B, V then changes by V'(e) alpha^2 C + R_V(e, D):
  * times k l2 the line polynomial and the line remainder. */
-static inline void expand_strain_along(const FlowSpring *spring,
-                                       const double *p, double *B, double *C)
+static inline void compute_strain_polynomial(const FlowSpring *spring,
+                                             const double *p, double *B,
+                                             double *C)
 {
     double change[2];
     *C = spring_vector(spring->e, p, change) / spring->l2;
@@ -158,7 +159,7 @@ static void plastic_line_polynomial(const EvalPoint *at, const double *p,
     double B, C;
     for (int s = 0; s < at->system->springs; s++) {
         FlowSpring spring = evaluate_flow_spring(at, s);
-        expand_strain_along(&spring, p, &B, &C);
+        compute_strain_polynomial(&spring, p, &B, &C);
         q[0] += at->weight * spring.k * spring.l2 *
                 flow_law_slope(spring.law, spring.strain) * C;
     }
@@ -174,7 +175,7 @@ static double plastic_line_remainder(const EvalPoint *at, const double *p,
     for (int s = 0; s < at->system->springs; s++) {
         FlowSpring spring = evaluate_flow_spring(at, s);
         FlowLaw law = spring.law;
-        expand_strain_along(&spring, p, &B, &C);
+        compute_strain_polynomial(&spring, p, &B, &C);
         double t = alpha * (B + alpha * C), way = fabs(t);
         double start = copysign(1, t) * spring.strain;
         double from = -law.yield_strain - start, to = law.yield_strain - start;

@@ -174,7 +174,7 @@ static const Law *find_law(const Simulation *simulation, LawPoint *most)
     return law;
 }
 
-bool law_find_gap(const Simulation *simulation, LawGap *gap)
+bool law_find_gap(const Simulation *simulation, NodeContact *gap)
 {
     LawPoint now;
     const Law *law = find_law(simulation, &now);

@@ -143,7 +143,7 @@ Box page_draw_claim(Paper *paper, Box inside, const FrameContent *content)
 static double find_card_height(const FrameContent *content, double wide,
                                double em, double size, bool keeps_text)
 {
-    Paper paper = {.text = content->text, .em = em, .min_letter = 1};
+    Paper paper = {.text = content->fonts, .em = em, .min_letter = 1};
     Box box = {0, 0, (int)(wide * em + 0.5), 0};
     const double around = 2.6; /* ems, title and margin */
     return measure_page(&paper, box, size, content, keeps_text) / em + around;

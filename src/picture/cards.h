@@ -81,16 +81,16 @@ bool landscape_is_convex(const LocalModel *E);
 void law_add_values(const Simulation *simulation, LiveValues *values);
 
 /* A contact between a node and a wall or an edge. */
-typedef struct LawGap {
+typedef struct NodeContact {
     double nearest[2]; /* m, nearest point of the wall or edge */
     double node[2];    /* m */
     double d;          /* m, the gap */
     double d_hat;      /* m, distance at which the force begins */
-} LawGap;
+} NodeContact;
 
 /* Finds the contact with the largest force.  Returns false if all
  * distances are above d_hat, or the law is of another kind. */
-bool law_find_gap(const Simulation *simulation, LawGap *gap);
+bool law_find_gap(const Simulation *simulation, NodeContact *gap);
 
 /* Finds how far a body has slid, and how far a rigid body would slide, m.
  * Returns false if the scene does not draw the law of friction. */

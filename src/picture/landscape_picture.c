@@ -135,7 +135,7 @@ static Plot draw_map(const Plot *stage)
         write_levels(&plot);
     plot_springs(&plot, system, x, 3.5, curves ? COLOUR_GRID : COLOUR_REST);
     for (int i = 1; i < system->nodes; i++)
-        plot_pin(&plot, x + 2 * i, 5);
+        plot_draw_pin(&plot, x + 2 * i, 5);
     plot_disc(&plot, simulation->exhibit.x_tilde, 6, COLOUR_X_TILDE);
     return plot;
 }

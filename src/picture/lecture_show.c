@@ -58,8 +58,9 @@ static void add_list_lines(const char *text, bool live, char *out, size_t size)
     }
 }
 
-/* Copies the answer of the page.  If options are changed, lines with live
- * values come first; the other lines, if any, follow below lecture->own. */
+/* Copies the answer of the page.  If the user has changed options, lines with
+ * live values come first.  The other lines, which hold for the page's own
+ * options alone, then follow below the heading lecture->own. */
 static void build_answer_text(const LecturePage *page, LectureContent *lecture)
 {
     char *look = lecture->answer_text, others[ANSWER_SIZE] = "";

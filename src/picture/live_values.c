@@ -310,7 +310,8 @@ static void format_value(const LiveValue *one, const char *format, char *out,
         snprintf(out, size, apart ? "(%s)" : "%s", number[0].text);
 }
 
-/* Fills a line of `length` bytes.  Returns false if a value is unknown. */
+/* Fills `line` from `length` bytes of text, with the values of its names.
+ * Returns false if a value is unknown. */
 static bool expand_line(TextLine *line, const char *text, size_t length)
 {
     const LiveValues *values = line->values;

@@ -373,7 +373,7 @@ void mass_draw(Plot *stage)
     plot_ellipse(stage, origin, start, across, 4, false, COLOUR_GRID);
     for (int r = 0; r < simulation->runs; r++)
         plot_line(stage, origin, run[r].x, 1.4, COLOUR_REST);
-    plot_pin(stage, origin, 5);
+    plot_draw_pin(stage, origin, 5);
     draw_trails(stage, true);
     for (int r = 0; simulation->runs > 1 && r < simulation->runs; r++) {
         MassStep step;

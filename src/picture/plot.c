@@ -376,7 +376,7 @@ void plot_ring(const Plot *plot, const double *at, double radius, double width,
 }
 
 /* Draws a dark square with a light middle. */
-void plot_pin(const Plot *plot, const double *at, double radius)
+void plot_draw_pin(const Plot *plot, const double *at, double radius)
 {
     Canvas *canvas = &plot->paper->canvas;
     double p[2], size = fmax(radius, 3) * plot->paper->unit * 1.15;

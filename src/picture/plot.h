@@ -150,7 +150,7 @@ void plot_ring(const Plot *plot, const double *at, double radius, double width,
                Colour colour);
 
 /* Draws the mark of a pinned node. */
-void plot_pin(const Plot *plot, const double *at, double radius);
+void plot_draw_pin(const Plot *plot, const double *at, double radius);
 
 /* Draws an arrow from a to a + factor d. */
 void plot_arrow(const Plot *plot, const double *a, const double *d,

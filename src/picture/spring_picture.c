@@ -90,7 +90,7 @@ void spring_draw(Plot *stage)
     if (!content->lecture.page || (modes && shows_answer))
         draw_length_circle(stage, l / sqrt(3), COLOUR_PROJECT, "l/\u221a3");
     draw_coil(stage, x, projects ? COLOUR_PROJECT : COLOUR_X);
-    plot_pin(stage, origin, 6);
+    plot_draw_pin(stage, origin, 6);
     const double value[2] = {spring.eigenvalue_along, spring.eigenvalue_across};
     int vectors = modes && shows_answer && spring.length > 0 ? 4 : 0;
     for (int i = 0; i < vectors; i++) {
@@ -112,7 +112,8 @@ void spring_draw(Plot *stage)
 
 /* ---- cards -------------------------------------------------------------- */
 
-/* Adds force and Hessian as central differences of energy and force. */
+/* Adds two values: the force as a central difference of the energy, and the
+ * Hessian as central differences of the force. */
 static void add_central_differences(const Simulation *simulation,
                                     LiveValues *values)
 {

@@ -229,7 +229,7 @@ static Colour choose_face_colour(const SquarePen *pen, const int node[4],
     Colour colour =
         colour_of_state(pen, plastic, strain, d2 < l2 || other2 < l2);
     double seen = copysign(sqrt(fabs(strain) / pen->shade_strain), strain);
-    double turned = (d[1] - d[0]) / sqrt(d2); /* rotation of the face */
+    double turned = (d[1] - d[0]) / sqrt(d2); /* 0 in a face that is upright */
     return colour ? colour : shade_of_blue(0.55 + 0.9 * seen + 0.3 * turned);
 }
 
@@ -262,7 +262,7 @@ void square_draw_nodes(const SquarePen *pen)
         if (radius >= 0.5 * pen->width && !node_is_fixed(pen, i))
             plot_disc(pen->stage, node_position(pen, i), radius, colour);
         if (system->pinned[i] && !node_is_fixed(pen, i))
-            plot_pin(pen->stage, node_position(pen, i), radius);
+            plot_draw_pin(pen->stage, node_position(pen, i), radius);
     }
     for (int k = 0;
          pen->fixed_bodies && k < pen->simulation->mesh.outline_edges; k++) {

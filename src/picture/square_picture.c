@@ -442,8 +442,8 @@ static void draw_page_arrows(const SquarePen *pen)
                    "node %d", system->nodes - 1);
 }
 
-/* Draws springs in the colours of their kinds.  A page with switches for the
- * kinds has wider springs of the newest spring's kind. */
+/* Draws springs in the colours of their kinds.  On a page with switches
+ * for the kinds, the springs of the kind that was added last are wider. */
 static void draw_springs_by_kind(const SquarePen *pen)
 {
     const System *system = pen->system;
@@ -464,7 +464,7 @@ static void draw_magnifier(const SquarePen *pen)
 {
     Plot lens = *pen->stage;
     Canvas *canvas = &lens.paper->canvas;
-    LawGap gap;
+    NodeContact gap;
     double bounds[4], least = INFINITY;
     const Box stage = lens.box;
     int air = (int)lens.em, side = (int)(MAGNIFIER_SIDE * lens.em);

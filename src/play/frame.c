@@ -145,7 +145,7 @@ static void build_chip_row(const Player *player, Frame *frame)
     const Simulation *simulation = player_simulation(player);
     const Options *options = player_active_options(player);
     bool time = simulation->scene->parts & HAS_TIME;
-    bool nears = options->next_action == NEXT_NEARER;
+    bool nears = options->next_action == NEXT_SHORTEN;
     bool newton = simulation_has_updates(simulation) && !nears;
     bool ended = simulation->is_over || player->play.mode > MODE_END;
     bool stands = player_is_stopped(player);
@@ -353,7 +353,7 @@ static void build_frame_content(const Player *player, Frame *frame)
     const int active = player->active;
     frame_create(player_simulation(player), content);
     content->view = &player->screen.view;
-    content->text = player->screen.paper.text;
+    content->fonts = player->screen.paper.text;
     content->min_em = window                        ? window->find_font_size()
                       : player->screen.draws_frames ? SMALL_LETTER
                                                     : 0;
@@ -455,7 +455,7 @@ Paper *player_prepare_paper(Player *player)
         paper_free(paper);
         return NULL;
     }
-    player->screen.frame.content.text = paper->text;
+    player->screen.frame.content.fonts = paper->text;
     if (!paper->text && !is_warned && (!font || font[0])) {
         fprintf(stderr, "no font: DejaVu Sans is not installed; pictures have "
                         "no words (ELASTO_FONT=FILE.ttf names another font)\n");

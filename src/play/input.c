@@ -147,9 +147,10 @@ static Status drag_number(Player *player, const MouseTarget *target)
     if (row->display.increment > 0 || row->kind == OPTION_NAME)
         notches = rint(notches);
     else if (notches == rint(notches))
-        notches += 1e-9; /* keeps option_turn_wheel from rounding */
+        notches += 1e-9; /* keeps option_find_value_after_wheel from rounding */
     if (!edge)
-        wanted = option_turn_wheel(row, &mouse->start_options, notches);
+        wanted =
+            option_find_value_after_wheel(row, &mouse->start_options, notches);
     const Command set = make_set_command(row, wanted);
     return now.number[row->slot] == wanted ? STATUS_OK
                                            : player_obey(player, &set);

@@ -147,7 +147,8 @@ Status player_enqueue_notches(Player *player, const OptionRow *row, int notches)
     const Options now = player_shown_options(player);
     if (row->count > 1)
         return player_refuse(player, "several numbers: type them");
-    player_enqueue_set(player, row, option_turn_wheel(row, &now, notches));
+    player_enqueue_set(player, row,
+                       option_find_value_after_wheel(row, &now, notches));
     return STATUS_OK;
 }
 
@@ -162,7 +163,7 @@ Status obey_raise(Player *player, const Command *command)
 }
 
 /* Sets an option to its value on the page, the command line or in the scene. */
-Status obey_default(Player *player, const Command *command)
+Status obey_reset_option(Player *player, const Command *command)
 {
     const OptionRow *row = find_command_option(command);
     const Options *now = &past_start_control(&player->past, 0)->options;

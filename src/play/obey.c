@@ -65,7 +65,7 @@ static Command resolve_key_command(const Player *player, const Command *asked)
     if (asked->kind == COMMAND_TOGGLE_PAUSE)
         meant.kind = player_is_stopped(player) ? COMMAND_PLAY : COMMAND_PAUSE;
     if (asked->kind == COMMAND_NEXT && !player_hides_answer(player) &&
-        player_active_options(player)->next_action == NEXT_NEARER)
+        player_active_options(player)->next_action == NEXT_SHORTEN)
         meant =
             (Command){.kind = COMMAND_HANDLE, .x = 0.8 * x[0], .y = 0.8 * x[1]};
     return meant;

@@ -536,7 +536,7 @@ Status obey_walk_unit(Player *player, const Command *command)
 {
     static const char *const paces[] = {
         "whole steps", "updates of Newton's method", "lines of Algorithm 3"};
-    if (player_active_options(player)->next_action == NEXT_NEARER ||
+    if (player_active_options(player)->next_action == NEXT_SHORTEN ||
         (!panes_use_newton(player) && player->play.walk_unit == UNIT_STEP))
         return player_refuse(player, "a step here has no finer ones");
     player->play.walk_unit = (player->play.walk_unit + 1) % UNITS;

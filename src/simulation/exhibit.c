@@ -65,9 +65,9 @@ int exhibit_list_switches(const Simulation *simulation,
     const char *const *label =
         has_kinds ? kinds : simulation->scene->switch_labels;
     const Options *options = &simulation->options;
-    /* On pages where the key N shortens a spring (NEXT_NEARER), switches are
+    /* On pages where the key N shortens a spring (NEXT_SHORTEN), switches are
      * listed only if the page itself turns one over. */
-    bool none = options->next_action == NEXT_NEARER && !options->flips;
+    bool none = options->next_action == NEXT_SHORTEN && !options->flips;
     int count = 0;
     for (; !none && count < SCENE_MAX_SWITCHES && label[count]; count++)
         out[count] =

@@ -159,10 +159,11 @@ static double find_round_number(double index)
 /* The result is rounded by way of text, because only strtod finds the double
  * nearest to a decimal number.  Arithmetic with powers of 10 may miss that
  * double by a bit, and the number would be shown with 17 digits. */
-double option_turn_wheel(const OptionRow *row, const Options *options,
-                         double notches)
+double option_find_value_after_wheel(const OptionRow *row,
+                                     const Options *options, double notches)
 {
-    static const double FIRST = 0.01; /* value to which a notch raises 0 */
+    static const double FIRST =
+        0.01; /* value after a notch of the wheel from 0 */
     double value = options->number[row->slot];
     double increment = row->display.increment;
     char text[32];

@@ -30,7 +30,7 @@ static void visit_piece(Cursor *cursor, void *piece, size_t size)
 
 /* Visits all that steps change in a system: broken springs, plastic strains,
  * moving obstacles, and the energy that each term has lost. */
-static void visit_system(Cursor *cursor, System *system)
+static void save_or_restore_system(Cursor *cursor, System *system)
 {
     size_t springs = (size_t)system->springs * sizeof(double);
     Plasticity *plasticity = system_term_data(system, &plastic_energy);
@@ -90,7 +90,7 @@ static void visit_state(Cursor *cursor, Simulation *simulation)
         VISIT(run->memory_h);
         visit_piece(cursor, run->memory, (size_t)run->method->arrays * array);
         if (r == 0 || run->system != simulation->run[0].system)
-            visit_system(cursor, run->system);
+            save_or_restore_system(cursor, run->system);
         if (cursor->is_restoring)
             system_mark_changed(run->system, false);
     }

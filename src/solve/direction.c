@@ -120,7 +120,7 @@ static Status assemble_and_factor(Newton *newton)
 
 /* Computes z = (H + shift I)^-1 r; r and z are in the order of the nodes.
  * Returns OK, NOT_FINITE, SINGULAR. */
-static Status apply_factor(Newton *newton, const double *r, double *z)
+static Status apply_inverse_factor(Newton *newton, const double *r, double *z)
 {
     const int *order = newton->system->elimination_order;
     double *b = newton->direction.b;
@@ -198,7 +198,7 @@ static Status solve_with_factor(Newton *newton)
     const SearchDirection *direction = &newton->direction;
     int n = 2 * newton->system->nodes;
     newton->counters.solves++;
-    Status status = apply_factor(newton, at->g, at->p);
+    Status status = apply_inverse_factor(newton, at->g, at->p);
     for (int i = 0; i < n; i++)
         at->p[i] = -at->p[i];
     if (status || direction->shift == 0)
@@ -212,16 +212,16 @@ static Status solve_with_factor(Newton *newton)
     for (int solves = 0; !status && take_conjugate_step(newton, &state) &&
                          solves < CONJUGATE_MAX_SOLVES;
          solves++)
-        status = apply_factor(newton, direction->r, direction->z);
+        status = apply_inverse_factor(newton, direction->r, direction->z);
     return status;
 }
 
 /* Bounds the error of p, with H applied term by term.
  *   error  out, kg^(1/2) m, bound of |p - exact p|_M.  Where H - M is positive
- *          semi-definite: |g + H p|_(M^-1).  Else: twice the correction by the
- *          factor, which must be the factor of H itself.  A factor of an
- *          earlier Hessian may be far stiffer, where a contact has opened; with
- *          projection on demand the bound is then that of the clamped H.
+ *          semi-definite: |g + H p|_(M^-1).  Else: 2 |factor^-1 (g + H p)|_M,
+ *          where the factor must be that of H itself.  (An earlier H may be far
+ *          stiffer, since a contact has opened.)  If projection on demand has
+ *          clamped H, the bound is one for the clamped H.
  * Returns OK, NOT_FINITE, SINGULAR. */
 static Status direction_error_bound(Newton *newton, double *error)
 {
@@ -238,7 +238,7 @@ static Status direction_error_bound(Newton *newton, double *error)
     *error = system_inverse_mass_norm(system, r);
     if (projection != PROJECTION_NONE)
         return STATUS_OK;
-    Status status = apply_factor(newton, r, z);
+    Status status = apply_inverse_factor(newton, r, z);
     for (int i = 0; i < 2 * system->nodes; i++)
         square += system->m[i / 2] * z[i] * z[i];
     *error = 2 * sqrt(square);
@@ -316,7 +316,7 @@ static bool refine_with_last_factor(Newton *newton)
     }
     for (;;) {
         newton->counters.solves++;
-        if (apply_factor(newton, r, z) != STATUS_OK)
+        if (apply_inverse_factor(newton, r, z) != STATUS_OK)
             return false;
         size = largest_row_sum(n / 2, z);
         if (!(size <= CONVERGES * last))

@@ -27,7 +27,7 @@ enum { MAX_HALVINGS = 10, MAX_PARTS = 100 };
 
 /* Limits like MAX_HALVINGS and MAX_PARTS for an obstacle that a
  * hand moves: lower, as the rest of its way can wait for the next step. */
-enum { HAND_HALVINGS = 6, HAND_PARTS = 8 };
+enum { MAX_HAND_HALVINGS = 6, HAND_PARTS = 8 };
 
 /* Whether obstacle k moves in the rest of this step. */
 static bool obstacle_moves(const Contact *contact, int k)
@@ -159,7 +159,7 @@ void prescribed_start(TimeIntegrator *run)
         obstacle_moves(contact, contact->hand.obstacle)) {
         part = move_farthest(
             run, fmin(run->remaining_part, push_max_step(contact, run->h)),
-            HAND_HALVINGS, HAND_PARTS);
+            MAX_HAND_HALVINGS, HAND_PARTS);
         contact->hand.is_blocked = part == 0;
         contact->hand.free_part = run->moved_part;
     }

@@ -33,7 +33,7 @@ static void begin_case(const char *what)
         fprintf(stderr, "\r%-40s\r", what);
 }
 
-static void print_row(const char *name, const Tally *tally)
+static void print_row(const char *name, const VerdictTally *tally)
 {
     printf("%-22s %7ld %9ld %8ld %5ld %9ld %7ld\n", name, tally->cases,
            tally->steps[VERDICT_CONVERGED], tally->steps[VERDICT_REPORTED],
@@ -41,7 +41,7 @@ static void print_row(const char *name, const Tally *tally)
     fflush(stdout);
 }
 
-static void add_tally(const Tally *tally, Tally *sum)
+static void add_tally(const VerdictTally *tally, VerdictTally *sum)
 {
     sum->cases += tally->cases;
     sum->wrong += tally->wrong;
@@ -54,11 +54,11 @@ static void add_tally(const Tally *tally, Tally *sum)
         sum->statuses[i] += tally->statuses[i];
 }
 
-static void run_cases(bool quick, Tally *sum)
+static void run_cases(bool quick, VerdictTally *sum)
 {
     for (const StressCase *row = stress_cases; row->name; row++) {
         char reason[512] = "";
-        Tally tally = {0};
+        VerdictTally tally = {0};
         if (quick && row->slow)
             continue;
         begin_case(row->name);
@@ -87,11 +87,11 @@ static const struct {
                 {"stiff solids", "k", 10000, 3, 0.9},
                 {"bodies", "mn", 20000, 10, 0.998}};
 
-static void run_random(uint64_t seed, bool quick, Tally *sum)
+static void run_random(uint64_t seed, bool quick, VerdictTally *sum)
 {
     for (size_t i = 0; i < sizeof families / sizeof *families; i++) {
         char reason[512];
-        Tally tally = {0};
+        VerdictTally tally = {0};
         long count = families[i].count / (quick ? 10 : 1);
         begin_case(families[i].name);
         if (!stress_scenes(families[i].kinds, seed, count, families[i].steps,
@@ -113,7 +113,7 @@ static int run_command_line(const char *line)
 {
     static const char *const words[VERDICTS] = {"converged", "reported",
                                                 "WRONG"};
-    Tally tally = {0};
+    VerdictTally tally = {0};
     char reason[512] = "";
     begin_case(line);
     Verdict verdict = stress_run(line, 10, &tally, reason);
@@ -124,12 +124,12 @@ static int run_command_line(const char *line)
 /* Maps where the default square converges in three steps: h from 1e-9 to 1e3 s
  * by half decades, k from 1e-6 to 1e15 J/m^2, and eight stretches. With a
  * stretch of 0.1 or more 99 % of the cells must, and each needs an update. */
-static void run_envelope(Solver solver, Tally *sum)
+static void run_envelope(Solver solver, VerdictTally *sum)
 {
     static const double stretch[] = {1e-6, 1e-3, 0.1, 0.5, 1.4, 10, 1e3, 1e6};
     enum { H = 25, K = 22, STRETCHES = sizeof stretch / sizeof *stretch };
     int cells = 0, converged = 0, idle = 0;
-    Tally tally = {0};
+    VerdictTally tally = {0};
     for (int i = 0; i < STRETCHES * K * H; i++) {
         char line[160], reason[512];
         long before = tally.updates;
@@ -153,7 +153,7 @@ static void run_envelope(Solver solver, Tally *sum)
     add_tally(&tally, sum);
 }
 
-static void print_tallies(const Tally *sum)
+static void print_tallies(const VerdictTally *sum)
 {
     print_row("all", sum);
     puts("steps by status:");
@@ -182,7 +182,7 @@ int main(int argc, char **argv)
                            argv[i]),
                    2;
     }
-    Tally sum = {0};
+    VerdictTally sum = {0};
     printf("%-22s %7s %9s %8s %5s %9s %7s\n", "", "cases", "converged",
            "reported", "wrong", "resolved", "blurred");
     run_cases(quick, &sum);

@@ -19,8 +19,8 @@ typedef struct StepPotential {
 /* Returns E at x_n + u, not rounded, by oracle.c, J s^2. */
 long double wide_energy(const StepPotential *potential, const double *u);
 
-/* Returns the error of E at x_n + u, J s^2, which rounding of the coordinates,
- * and of the slope along `direction`, can cause. */
+/* Returns a bound, J s^2, of two rounding errors: of E at x_n + u by the
+ * rounding of the coordinates, and of the slope of E along `direction`. */
 long double wide_noise(const StepPotential *potential, const double *u,
                        const double *direction);
 
@@ -47,16 +47,16 @@ typedef enum Verdict {
 /* Counts of cases, wrong cases, updates, steps by verdict and by status,
  * residuals tested again (judged), and residuals of these that are undecided
  * because rounding is larger than the tolerance. */
-typedef struct Tally {
+typedef struct VerdictTally {
     long cases, wrong, updates, steps[VERDICTS], judged, undecided;
     long statuses[STATUS_COUNT];
-} Tally;
+} VerdictTally;
 
 /* Watches one run: no node is behind a wall and no cell turned over, no update
  * and no step raises E, and residuals of converged steps are computed again. */
 typedef struct Watch {
     TimeIntegrator *run;
-    Tally *tally;       /* counts of all watches */
+    VerdictTally *tally; /* counts of all watches */
     bool residuals;     /* residuals of converged steps are computed again */
     bool springs;       /* the system has no energy but springs and pulls */
     double *x, *v;      /* [2n] m, m/s, before the step */
@@ -76,7 +76,7 @@ typedef struct Watch {
 
 /* Starts to watch a run, whose address must not change and whose observer of
  * Newton becomes the watch. Returns false without memory. */
-bool watch_create(TimeIntegrator *run, Tally *tally, Watch *watch);
+bool watch_create(TimeIntegrator *run, VerdictTally *tally, Watch *watch);
 void watch_free(Watch *watch);
 
 /* Creates a run anew, with its x, v and h, after a change of its system. */
@@ -97,7 +97,8 @@ bool stress_rows(const char *name, bool (*take)(void *user, char *row),
 /* Makes and tests `steps` steps of a command line, which may end with "shaken
  * N".
  *   reason  [512] out, if the verdict is WRONG */
-Verdict stress_run(const char *line, int steps, Tally *tally, char *reason);
+Verdict stress_run(const char *line, int steps, VerdictTally *tally,
+                   char *reason);
 
 /* Command line that runs now */
 extern char stress_line[STRESS_LINE_SIZE];
@@ -116,7 +117,7 @@ extern char stress_line[STRESS_LINE_SIZE];
  *      s, tolerances from 1e-9 m/s
  *   l  large squares */
 bool stress_scenes(const char *kinds, uint64_t seed, long count, int steps,
-                   Tally *tally, char *reason);
+                   VerdictTally *tally, char *reason);
 
 /* Limits the processor time until SIGPROF, s; 0: no limit. */
 void stress_set_time_limit(long seconds);
@@ -125,7 +126,7 @@ typedef struct StressCase {
     const char *name;
     bool slow; /* only in `make stress` */
     /* Returns false and a reason [512] if a promise is broken. */
-    bool (*run)(Tally *tally, char *reason);
+    bool (*run)(VerdictTally *tally, char *reason);
 } StressCase;
 
 extern const StressCase stress_cases[]; /* ends with a NULL name */

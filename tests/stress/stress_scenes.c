@@ -147,7 +147,7 @@ static void perturb_start(uint64_t seed, TimeIntegrator *run)
 /* Makes and tests `steps` steps of every run, after a perturbation if shaken is
  * not 0. Returns the worst verdict. */
 static Verdict run_steps(Simulation *simulation, uint64_t shaken, int steps,
-                         Tally *tally, char *reason)
+                         VerdictTally *tally, char *reason)
 {
     Verdict worst = VERDICT_CONVERGED;
     for (int r = 0; r < simulation->runs; r++) {
@@ -171,7 +171,8 @@ static Verdict run_steps(Simulation *simulation, uint64_t shaken, int steps,
     return worst;
 }
 
-Verdict stress_run(const char *line, int steps, Tally *tally, char *reason)
+Verdict stress_run(const char *line, int steps, VerdictTally *tally,
+                   char *reason)
 {
     char known[STRESS_LINE_SIZE];
     Simulation simulation;
@@ -197,7 +198,7 @@ void stress_set_time_limit(long seconds)
 }
 
 bool stress_scenes(const char *kinds, uint64_t seed, long count, int steps,
-                   Tally *tally, char *reason)
+                   VerdictTally *tally, char *reason)
 {
     Verdict verdict = VERDICT_CONVERGED;
     for (long i = 0; i < count && verdict != VERDICT_WRONG; i++) {
@@ -212,7 +213,7 @@ bool stress_scenes(const char *kinds, uint64_t seed, long count, int steps,
 /* ---- cases that have a name ---------------------------------------------- */
 
 typedef struct RowContext {
-    Tally *tally;
+    VerdictTally *tally;
     char *reason;
     bool each_solver;
 } RowContext;
@@ -245,26 +246,26 @@ static bool run_row(void *user, char *row)
     return true;
 }
 
-static bool extreme_squares(Tally *tally, char *reason)
+static bool extreme_squares(VerdictTally *tally, char *reason)
 {
     return stress_rows("extreme squares", run_row,
                        &(RowContext){tally, reason, true});
 }
 
-static bool large_squares(Tally *tally, char *reason)
+static bool large_squares(VerdictTally *tally, char *reason)
 {
     return stress_rows("large squares", run_row,
                        &(RowContext){tally, reason, false});
 }
 
-static bool earlier_failures(Tally *tally, char *reason)
+static bool earlier_failures(VerdictTally *tally, char *reason)
 {
     return stress_rows("once wrong", run_row,
                        &(RowContext){tally, reason, false});
 }
 
 /* Runs every integrator with a short and a long time step. */
-static bool every_integrator(Tally *tally, char *reason)
+static bool every_integrator(VerdictTally *tally, char *reason)
 {
     for (int i = 0; integrator_methods[i].name; i++)
         for (int gently = 0; gently < 2; gently++) {
@@ -278,7 +279,7 @@ static bool every_integrator(Tally *tally, char *reason)
 }
 
 /* Kicks a square at random every 50 steps; judges some residuals. */
-static bool many_steps(Tally *tally, char *reason)
+static bool many_steps(VerdictTally *tally, char *reason)
 {
     Random random = {7};
     Simulation simulation;

@@ -300,7 +300,7 @@ static bool watch_record(void *user, const NewtonRecord *record)
     return true;
 }
 
-bool watch_create(TimeIntegrator *run, Tally *tally, Watch *watch)
+bool watch_create(TimeIntegrator *run, VerdictTally *tally, Watch *watch)
 {
     *watch =
         (Watch){.run = run, .tally = tally, .residuals = true, .springs = true};

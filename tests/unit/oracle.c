@@ -445,9 +445,16 @@ static void add_pull(Probe *probe, Jet *sum, const void *data, int c)
 }
 
 /* Objects over which a term sums */
-typedef enum Parts { SPRINGS, COORDINATES, WALLS, CELLS, SOLIDS, PAIRS } Parts;
+typedef enum PartKind {
+    SPRINGS,
+    COORDINATES,
+    WALLS,
+    CELLS,
+    SOLIDS,
+    PAIRS
+} PartKind;
 
-static int count_parts(const Probe *probe, Parts parts, const void *data)
+static int count_parts(const Probe *probe, PartKind parts, const void *data)
 {
     const System *system = probe->at->system;
     const Contact *contact = contact_of(system);
@@ -528,7 +535,7 @@ static void frame_of_pair(Probe *probe, Frame *frame, int i)
 }
 
 /* Returns the frame of part i; n = 0 if the energy of the part is convex. */
-static Frame make_frame(Probe *probe, Parts parts, const void *data, int i)
+static Frame make_frame(Probe *probe, PartKind parts, const void *data, int i)
 {
     static const double edges[2][3] = {{-1, 1, 0}, {-1, 0, 1}};
     const System *system = probe->at->system;
@@ -549,7 +556,7 @@ static Frame make_frame(Probe *probe, Parts parts, const void *data, int i)
 /* Formula of each term, and what it sums over; data: those of the term */
 static const struct {
     const TermKind *kind;
-    Parts parts;
+    PartKind parts;
     void (*part)(Probe *probe, Jet *sum, const void *data, int i);
 } formulas[] = {{&mass_spring_energy, SPRINGS, add_spring},
                 {&plastic_energy, SPRINGS, add_spring},
@@ -668,7 +675,7 @@ Real exact_potential(const System *system, const double *x)
 /* ---- derivatives of a step ---------------------------------------------- */
 
 /* Finds the nodes of part i, and returns their number. */
-static int find_part_nodes(const Probe *probe, Parts parts, const void *data,
+static int find_part_nodes(const Probe *probe, PartKind parts, const void *data,
                            int i, int node[3])
 {
     const System *system = probe->at->system;

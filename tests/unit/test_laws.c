@@ -243,11 +243,10 @@ static double find_wall_work(const System *system, const double *x, double h)
     return sum;
 }
 
-/* Returns the energy that a step from x_n, v_n dissipates, J, without the loss
- * of
- * damping: |v' - v|_M^2/2, the work of walls, and the difference between the
- * potential and its tangent at the end.
- *   k  [springs] before the step: forces were in balance with these
+/* Returns the energy that a step from x_n, v_n dissipates, J, without damping:
+ * the sum of |v_n+1 - v_n|_M^2/2, the work of walls, and the difference between
+ * the potential and its tangent at the end.
+ *   k  [springs] stiffnesses before the step, which the forces are made with
  *   P  J, potential at the start */
 static double find_dissipation(const TimeIntegrator *it, double *k,
                                const double *x_n, const double *v_n, Real P)

@@ -151,7 +151,7 @@ static const Race *run_race(const char *options)
 TEST(the_race_measures_errors)
 {
     static const double factor[RACE_METHODS] = {2, 4, 2, 4};
-    enum { VERLET = 1 }; /* index at h = 8 ms; the next row has 4 ms */
+    enum { VERLET = 1 }; /* index of Verlet's run with h = 8 ms */
     const Race *race = run_race("");
     for (int i = 0; i < RACE_METHODS; i++) {
         const RacePoint *point =
@@ -285,7 +285,7 @@ void __wrap_plot_curve(const Plot *plot, int count, const double *x,
 }
 
 /* Cards, large cards after and before the answer, code, the list of pages */
-enum { CARDS, LARGE, LARGE_ASKED, CODE, LIST, KINDS };
+enum { WITH_CARDS, LARGE, LARGE_ASKED, CODE, LIST, KINDS };
 
 /* Returns the first line of a text that is not drawn whole, or NULL. */
 static const char *find_missing_line(const FrameContent *content,
@@ -384,7 +384,7 @@ TEST(pages_are_legible_from_the_back_row)
                     check_frame(page, simulation, kind, &paper);
             for (int i = 0; i < 5 && !simulation_step(simulation); i++)
                 continue;
-            check_frame(page, simulation, s ? CARDS : LARGE, &paper);
+            check_frame(page, simulation, s ? WITH_CARDS : LARGE, &paper);
             free_simulations();
         }
         paper_free(&paper);

@@ -52,7 +52,8 @@ static void go_to_steps(long from, long to, uint64_t *hash)
         hash[step] = go_to_step(step);
 }
 
-/* Returns the stride of tested steps: `all` with all variations. */
+/* Returns the distance of the tested steps: `all` in long tests, else `some`.
+ */
 static int choose_stride(int all, int some)
 {
     return tests_are_long() ? all : some;

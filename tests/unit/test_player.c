@@ -6,8 +6,9 @@
 #include <math.h>
 #include <time.h>
 
-/* The curve E(x + alpha p) - E(x) passes the end of the step, with polynomials
- * and contact; the last test shows its own p, or none. */
+/* The curve E(x + alpha p) - E(x) goes through the point at the step length
+ * that was taken, with polynomials and with contact.  At the last update the
+ * card shows the curve along its p, or none. */
 TEST(the_curve_goes_through_the_step)
 {
     static const char *const lines[] = {"square", "drop --segments 6",
@@ -106,7 +107,8 @@ TEST(steps_are_due_at_the_speed_that_was_asked_for)
     }
 }
 
-/* In the open overview scenes step in each frame, and the run waits. */
+/* While the overview is open, its scenes make a step in each frame, and the run
+ * waits. */
 TEST(the_overview_is_alive)
 {
     const FrameContent *content = &player.screen.frame.content;

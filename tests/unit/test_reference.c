@@ -17,7 +17,7 @@ int main(int argc, char **argv);
 
 /* ---- one reader -------------------------------------------------------- */
 
-enum { ROWS = 1024 };
+enum { MAX_UPDATE_ROWS = 1024 };
 
 /* Newton updates of a table or of a run */
 typedef struct Updates {
@@ -26,7 +26,7 @@ typedef struct Updates {
         long step;
         int update;
         double residual, alpha;
-    } row[ROWS];
+    } row[MAX_UPDATE_ROWS];
 } Updates;
 
 static FILE *open_reference(const char *name, const char *kind)
@@ -43,12 +43,12 @@ static FILE *open_reference(const char *name, const char *kind)
 static void read_updates(FILE *file, Updates *updates)
 {
     int i = 0;
-    while (i < ROWS &&
+    while (i < MAX_UPDATE_ROWS &&
            fscanf(file, "%ld,%d,%lf,%lf", &updates->row[i].step,
                   &updates->row[i].update, &updates->row[i].residual,
                   &updates->row[i].alpha) == 4)
         i++;
-    CHECK(i < ROWS && feof(file));
+    CHECK(i < MAX_UPDATE_ROWS && feof(file));
     updates->count = i;
     fclose(file);
 }
@@ -56,7 +56,7 @@ static void read_updates(FILE *file, Updates *updates)
 static bool store_update(void *user, const NewtonRecord *record)
 {
     Updates *kept = user;
-    CHECK(kept->count < ROWS);
+    CHECK(kept->count < MAX_UPDATE_ROWS);
     int i = kept->count++;
     kept->row[i].step = record->step_number;
     kept->row[i].update = record->iteration;
@@ -262,7 +262,7 @@ static void make_step_tested_last(Solid *solid, double h, double tol, int step,
         else
             for (int i = 0; i < n; i++)
                 x_new[i] = add(x[i], p[i]);
-        CHECK(updates->count < ROWS);
+        CHECK(updates->count < MAX_UPDATE_ROWS);
         updates->row[updates->count].step = step;
         updates->row[updates->count].update = update;
         updates->row[updates->count].residual = residual(solid, p, h);

@@ -120,7 +120,7 @@ static void collect_texts(void)
 
 /* Checks "reads", "lacks" and "list": the window, or the column, has a text
  * with these words. \ stands between two texts that follow each other. */
-static void check_words(const char *verb, char *words)
+static void check_command_words(const char *verb, char *words)
 {
     const char *among = strcmp(verb, "list") == 0 ? column_text : window_text;
     bool wanted = strcmp(verb, "lacks") != 0;
@@ -1076,7 +1076,7 @@ static bool has_digits(double number, const char *digits)
            0.5000001 * pow(10, (e ? atoi(e + 1) : 0) - decimals);
 }
 
-/* Checks a line "NAME NUMBER". */
+/* Checks that the value NAME is NUMBER, for the line "NAME NUMBER". */
 static void check_value(const char *line)
 {
     char name[64];
@@ -1139,7 +1139,7 @@ static void run_line(const char *line)
     else if (strcmp(verb, "asks") == 0)
         player.setup.asks_guess = player.screen.must_redraw = true;
     else if (strstr("reads lacks list", verb))
-        check_words(verb, rest);
+        check_command_words(verb, rest);
     else if (strstr("mark same other", verb))
         check_mark(verb, rest);
     else if (!use_mouse(verb, rest))

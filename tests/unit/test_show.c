@@ -420,7 +420,7 @@ TEST(the_plot_of_energies_stays_high)
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         begin_show(rows[i].line, 8);
         for (int s = 0; s < history.series; s++)
-            history.value[s][4] = -1000 * s; /* all curves are visible */
+            history.value[s][4] = -1000 * s; /* no curve hides another */
         content.settings.count = 12;
         for (int k = 0; k < 12; k++)
             content.settings.item[k] =

@@ -8,7 +8,7 @@ TEST(named_cases_keep_the_promise)
 {
     for (const StressCase *row = stress_cases; row->name; row++) {
         char reason[512] = "";
-        Tally tally = {0};
+        VerdictTally tally = {0};
         if (row->slow)
             continue;
         bool good = row->run(&tally, reason);
@@ -24,7 +24,7 @@ TEST(random_scenes_keep_the_promise)
 {
     static const char *const kinds[] = {"s", "cccctbww", "f", "mn", "k"};
     for (int i = 0; i < 5; i++) {
-        Tally tally = {0};
+        VerdictTally tally = {0};
         char reason[512] = "";
         const long count = choose_count(1000, 32) / (i == 3 ? 3 : 1);
         bool good =
@@ -104,7 +104,7 @@ TEST(broken_promises_are_noticed)
     };
     for (int i = 0; i < 7; i++) {
         Watch watch;
-        Tally tally = {0};
+        VerdictTally tally = {0};
         TimeIntegrator *run =
             &simulate("%s --tolerance 1e-6", rows[i].line)->run[0];
         IntegratorMethod method = *run->method;

@@ -314,8 +314,8 @@ static void compare(const char *what, Real got, Real expected, Real tolerance)
     check_near(what, got, expected, tolerance, __FILE__, __LINE__);
 }
 
-/* Returns two ulps of each product in a.b, which exceed the effect of an ulp in
- * the coordinates where a and b are nearly orthogonal. */
+/* Returns two ulps of the sum of |a_i b_i|.  An ulp in a coordinate changes a.b
+ * by less, also where a and b are nearly orthogonal. */
 static Real dot_noise(const Case *c, const double *a, const double *b)
 {
     Real sum = 0;
