@@ -3,8 +3,8 @@
  *
  * The potential P(x) is the sum of the terms in the list (term.h).  Gravity is
  * not a term: an implicit step adds it to its target u_tilde, an explicit step
- * to the acceleration, so free fall is exact in both.  Arrays change between
- * steps only: by control_apply, state_restore, a switch, begin_step and
+ * to the acceleration, so the velocity in free fall is exact.  Arrays change
+ * between steps only: by control_apply, state_restore, a switch, begin_step and
  * end_step of a term.
  *
  * Code that changes a system calls system_mark_changed, which raises its

@@ -126,7 +126,8 @@ struct TermKind {
      * calls system_mark_changed like begin_step. */
     void (*end_step)(const TermStep *step);
 
-    /* Returns a finite bound of |Hessian| at rest, J/m^2. */
+    /* Returns the size of the Hessian at rest, J/m^2, right up to a small
+     * factor: for springs the largest k.  A bound if is_diagonal. */
     double (*curvature_bound)(const EvalPoint *at);
 
     /* Frees the allocations that data points to, not data itself. */

@@ -68,7 +68,8 @@ typedef struct Picture {
     const char *legend; /* text in the upper left corner, or NULL */
     bool shows_scale;   /* draws a scale of metres in the lower left corner */
     /* Finds the part of the picture at pixel (x, y), which is pick->point in
-     * the world.  NULL: only handles and places are found. */
+     * the world.  NULL: only switches, handles and positions
+     * are found. */
     void (*pick)(const Plot *stage, double x, double y, Pick *pick);
     /* Draws the note about the part under the mouse; may be NULL. */
     void (*draw_hover)(Plot *stage);

@@ -58,7 +58,7 @@ typedef struct StepOutcome {
     int updates;          /* number of Newton's updates in all substeps */
     Status status;        /* OK, or the last other status of the substeps */
     double energy_change; /* change of E in the step, J s^2 */
-    double max_x;         /* m, largest coordinate of run 0 */
+    double max_x;         /* m, largest |coordinate| of run 0 */
 } StepOutcome;
 
 /* A step that a pane has made. */

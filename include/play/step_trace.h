@@ -61,7 +61,8 @@ typedef struct StepTrace {
 } StepTrace;
 
 /* Begins the trace of a step.  E along p is sampled in each iteration (`all`,
- * for a walk), in the last one (`last`, for a card), or not. */
+ * for a walk), in the last one (`last`, for a card), or only in one that ends
+ * with alpha 0. */
 void step_trace_begin(StepTrace *trace, const Simulation *simulation, bool all,
                       bool last);
 

@@ -4,7 +4,7 @@
 #include "simulation/scene.h"
 
 /* The scenes; a NULL name ends the table.  The first row is the default; the
- * last rows are scenes that open by name only. */
+ * last rows are hidden scenes, without a key and a cell in the overview. */
 extern const Scene scenes[];
 
 /* Returns the scene with this name, or this number from 1; NULL: none. */

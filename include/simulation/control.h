@@ -61,8 +61,9 @@ Status simulation_place_node(Simulation *simulation, int node, double x,
 /* Writes the state as bytes, unless `bytes` is NULL.  Returns their number. */
 size_t state_save(const Simulation *simulation, void *bytes);
 
-/* Restores a saved state.  Springs and obstacles get the values with which they
- * were saved, not those of the simulation's options.
+/* Restores a saved state.  Obstacles, plastic strains and the k of springs that
+ * can break or be switched get their saved values.  The control has all other
+ * numbers, so control_apply comes first.
  *   bytes  in, from a simulation with the same system */
 void state_restore(const void *bytes, Simulation *simulation);
 

@@ -1,7 +1,8 @@
 /* scene.h - what a scene is: a row of the table in scene.c.
  *
  * A new scene is a row in scene.c, whose function, such as create_square, fills
- * the system and the start.  Keys, files, options and --list read the row. */
+ * the system and the start.  Files, options, --list and, for the first nine
+ * rows, the keys 1 to 9 read the row. */
 #pragma once
 
 #include "base/status.h"
@@ -53,8 +54,8 @@ typedef struct SceneBody {
     double pin_speed; /* speed of pinned nodes to the left and right, sides/s */
     double notch[2];  /* heights between which springs of the middle column are
                          cut, from the centre, divided by the body's height */
-    int runs;        /* number of runs with a body each; 0: one run */
-    double lift;     /* height of run 0 above run 1, and so on, over the side */
+    int runs;         /* number of runs with a body each; 0: one run */
+    double lift; /* height of run 0 above run 1, and so on, over the side */
     double friction_factor[3]; /* factor on the friction of each run; 0: 1 */
     /* Returns a further obstacle, at its start; NULL: no obstacle. */
     struct Obstacle (*obstacle)(const struct Options *options);

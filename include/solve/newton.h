@@ -34,7 +34,7 @@ typedef struct NewtonRecord {
     int iteration;    /* number from 0; -1: prescribed motion ended the step */
     double residual;  /* m/s, max over nodes of |p_x| + |p_y|, over h */
     ResidualKind residual_kind; /* how well the residual is known */
-    double alpha;               /* step length along p; 0: x has not moved */
+    double alpha;               /* step length along p; 0: no step along p */
     int trials;                 /* step lengths that the line search tried */
     double slope;        /* J s^2, grad E . p; below 0: p leads downhill */
     double change;       /* J s^2, change of E by the update */
@@ -104,7 +104,7 @@ typedef struct Rounding {
     unsigned bounds_version; /* 1 + System.version of min_mass, max_curvature
                                 and shortest_spring; 0: not computed yet */
     double min_mass;         /* kg, the smallest mass */
-    double max_curvature;    /* J/m^2, the largest curvature of a term */
+    double max_curvature;    /* J/m^2, the largest curvature_bound of a term */
     double shortest_spring;  /* m, length at rest; 1 without springs */
     bool is_stiff; /* w max_curvature > 1e5 min_mass, w: P's weight in E:
                       a decrease of E is checked by a second computation */
@@ -113,7 +113,8 @@ typedef struct Rounding {
     double start_energy;    /* J s^2, E at the start; NAN: not needed */
     double energy_limit; /* J s^2, upper limit of E: its value at the start plus
                             rounding; INFINITY: no limit */
-    double E;            /* J s^2, E at the iterate; NAN: not evaluated yet */
+    double E;            /* J s^2, E at the iterate, if rounding is checked
+                            there; NAN: not evaluated yet */
     double E_trial;      /* J s^2, E at the end of the trial step */
     double best_residual;    /* m/s, smallest residual of this minimisation */
     int stagnant_iterations; /* iterations since the smallest residual */
@@ -122,7 +123,7 @@ typedef struct Rounding {
 typedef struct Multigrid Multigrid;
 
 typedef struct Newton {
-    NewtonSettings settings; /* may be changed between iterations */
+    NewtonSettings settings; /* may be changed between minimisations */
     NewtonCounters counters;
     NewtonRecord record; /* record of the last iteration */
     Status status;       /* RUNNING, or how the minimisation ended */

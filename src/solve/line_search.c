@@ -22,8 +22,8 @@ typedef struct SearchContext {
 
 /* Returns E(x + alpha p) - E(x), or 0 without a line search; NaN where a term
  * does not allow the point, or where E, evaluated at both points, changes by
- * more than this difference plus rounding.  u_trial and x_trial get the point
- * if it is accepted. */
+ * more than this difference plus rounding.  Where E does not rise, u_trial
+ * and x_trial get the point. */
 static double step_energy_difference(const void *function, double alpha)
 {
     const SearchContext *search = function;
