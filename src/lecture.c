@@ -321,7 +321,7 @@ static double residual(const Solid *solid, const Vec2 *p, double h)
 
 /* One time step of implicit Euler, from t_n to t_n + h (slide: step_forward).
  * The loop fails if tol is below the rounding errors of p.  elasto also
- * adds the last p: ten to 1e11 times as accurate.  table: updates, or NULL. */
+ * adds the last p: 3 to 1e11 times as accurate.  table: updates, or NULL. */
 static void step_forward(Solid *solid, double h, double tol, int step,
                          FILE *table)
 {

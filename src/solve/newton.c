@@ -134,7 +134,7 @@ static const NewtonPhases newton_phases = {find_direction, find_step_length,
  *     while residual > tolerance
  *
  * The last p is used, unless rounding hides its decrease of E.  The
- * result is then ten to 1e11 times more accurate.  The course's Python tests p
+ * result is then 3 to 1e11 times more accurate.  The course's Python tests p
  * before it uses p, and throws the last p away. */
 Status newton_minimise(Newton *newton)
 {
