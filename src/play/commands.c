@@ -67,7 +67,7 @@ void commands_print_help(FILE *file)
             "for none.\n\"& COMMAND\" is undone together with the one before "
             "it; # begins a comment.\n"
             "What a page does as it opens stands in the script, too.\n"
-            "Tables on pipes keep the rows of steps that were taken back.\n");
+            "Tables keep the rows of steps that were taken back.\n");
     for (int kind = 1; kind < COMMAND_KINDS; kind++) {
         const CommandRow *row = &command_rows[kind];
         char start[64];
