@@ -105,8 +105,9 @@ static Status apply_numbers(const ArgLine *line, const ArgWord *word)
 /* Stores the name of a file, or of nodes.  A table must be CSV. */
 static Status apply_option_text(const ArgLine *line, const ArgWord *word)
 {
-    static const char *const formats[] = {".npz", ".json", ".vtk",  ".gz",
-                                          ".zip", ".xlsx", ".hdf5", ".h5"};
+    static const char *const formats[] = {
+        ".npz", ".npy", ".json", ".vtk",  ".vtu", ".vtp", ".obj",
+        ".gz",  ".zip", ".xlsx", ".hdf5", ".h5",  ".mat", ".parquet"};
     const OptionRow *row = word->row;
     const char *text = word->text, *end = strrchr(text, '.');
     if (!text[0])

@@ -456,8 +456,11 @@ static Status check_gaps_and_cells(const Options *options, const System *system,
                        : refuse(message,
                                 "the cell at node %d would be turned over at "
                                 "the start: its area would be %.3g of that at "
-                                "rest; choose another --stretch",
-                                element->node[0], element->s);
+                                "rest; %s",
+                                element->node[0], element->s,
+                                options->state
+                                    ? "--state-springs FILE has its springs"
+                                    : "choose another --stretch");
         }
     }
     for (int k = 0; k < options->balls; k++)
