@@ -37,8 +37,8 @@ Status output_open(const char *name, char *message, Output *output);
 /* Closes an open file.  Returns OK, or FILE_FAILED and leaves NAME.part. */
 Status output_close(Output *output, CloseAction keep);
 
-/* Writes "NAME: why" into an empty message; why NULL stands for
- * output_reason. Returns the status. */
+/* Writes "NAME: why" into an empty message; why NULL stands for output_reason.
+ * Returns the status. */
 Status output_report(char *message, const char *name, Status status,
                      const char *why);
 

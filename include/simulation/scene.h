@@ -52,10 +52,10 @@ typedef struct SceneBody {
     double aspect;         /* height over width; 0: a square */
     double cell_stiffness; /* k_c over k; 0: one half */
     double pin_speed; /* speed of pinned nodes to the left and right, sides/s */
-    double notch[2];  /* heights between which springs of the middle column are
-                         cut, from the centre, divided by the body's height */
-    int runs;         /* number of runs with a body each; 0: one run */
-    double lift; /* height of run 0 above run 1, and so on, over the side */
+    double notch[2]; /* heights between which springs across the middle line are
+                        cut, from the centre, divided by the body's height */
+    int runs;        /* number of runs with a body each; 0: one run */
+    double lift;     /* height of run 0 above run 1, and so on, over the side */
     double friction_factor[3]; /* factor on the friction of each run; 0: 1 */
     /* Returns a further obstacle, at its start; NULL: no obstacle. */
     struct Obstacle (*obstacle)(const struct Options *options);

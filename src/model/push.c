@@ -52,9 +52,9 @@ static bool obstacle_is_pressed(const Contact *contact, const System *system,
     return false;
 }
 
-/* Whether the obstacle may move to o [2].  The distance from a
- * pinned node that has no contact may not fall below KEPT d_hat.  The centre of
- * a ball may not enter a cell. */
+/* Whether the obstacle may move to o [2].  The distance from a pinned node that
+ * has no contact may not fall below KEPT d_hat or, if it is smaller, the
+ * present distance.  The centre of a ball may not enter a cell. */
 static bool obstacle_has_room(const Contact *contact, const System *system,
                               const double *x, const double o[2])
 {

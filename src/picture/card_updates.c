@@ -47,7 +47,7 @@ void step_energy_draw(const Plot *card)
     free(at);
     const double *E = part[2];
     Plot plot = plot_create(
-        card, (Axis){t[0], t[POINTS - 1], .label = NULL},
+        card, (Axis){t[0], t[POINTS - 1]},
         (Axis){0, 1.4 * fmax(E[START], E[END]), .label = "J s\u00b2"});
     for (int k = 0; k < 3; k++)
         plot_curve(&plot, POINTS, t, part[k], k < 2 ? 1.6 : 2.4,

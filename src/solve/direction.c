@@ -334,9 +334,8 @@ static bool refine_with_last_factor(Newton *newton)
     return dot(n, g, p) <= 0;
 }
 
-/* Returns an upper bound, m, of |p_x| + |p_y| of a direction with this |p|_M:
- * each node has m |p_i|^2 <= |p|_M^2, and |p_x| + |p_y| <= sqrt(2) |p_i|. */
-static double bound_largest_movement(const Newton *newton, double norm)
+/* Each node has m |p_i|^2 <= |p|_M^2, and |p_x| + |p_y| <= sqrt(2) |p_i|. */
+double bound_largest_movement(const Newton *newton, double norm)
 {
     return sqrt(2 / newton->rounding.min_mass) * norm;
 }

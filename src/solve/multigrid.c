@@ -189,6 +189,7 @@ static void multigrid_compute_direction(Newton *newton)
     if (v_cycle_solve(&mg->cycle, mg->g, mg->gradient_norm2, longest, mg->p,
                       &largest)) {
         double square = grid_linear_residual(&mg->grid, mg->g, mg->p);
+        /* `largest` is a sum in single precision. */
         newton->passes_test = p_passes_test(
             &mg->grid, largest * (1 + FLT_EPSILON), square, longest);
     }
@@ -347,10 +348,10 @@ static Status multigrid_test_iterate(Newton *newton, Status status)
         ends && newton->rounding.is_stiff ? turn_free_body(newton) : 0;
     record->change += turned;
     /* p_bound is known at the angle before the turn.  The bound does not hold
-     * after a turn that moves nodes further than this bound. */
-    bool overturns =
-        !newton->passes_test && 4 * sqrt(-turned / newton->rounding.min_mass) >
-                                    newton->tolerance * newton->settings.h;
+     * after a turn that may move a node by more than half of the tolerance. */
+    bool overturns = !newton->passes_test &&
+                     2 * bound_largest_movement(newton, sqrt(-2 * turned)) >
+                         newton->tolerance * newton->settings.h;
     if (ends && !overturns && status != STATUS_NOT_FINITE)
         return STATUS_OK;
     stuck = stuck || overturns;

@@ -33,6 +33,9 @@ void direction_free_matrix(SearchDirection *direction);
 
 Status find_direction(Newton *newton);
 
+/* Returns an upper bound, m, of |p_x| + |p_y| of any p with this |p|_M. */
+double bound_largest_movement(const Newton *newton, double norm);
+
 /* Returns the largest |p_x| + |p_y|, m, of a negligible direction, which passes
  * the test and is at most a millionth of the shortest spring. */
 double negligible_direction_size(const Newton *newton);

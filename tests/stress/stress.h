@@ -19,7 +19,7 @@ typedef struct StepPotential {
 /* Returns E at x_n + u, not rounded, by oracle.c, J s^2. */
 long double wide_energy(const StepPotential *potential, const double *u);
 
-/* Returns a bound, J s^2, of two rounding errors: of E at x_n + u by the
+/* Returns the sum, J s^2, of two rounding errors: of E at x_n + u by the
  * rounding of the coordinates, and of the slope of E along `direction`. */
 long double wide_noise(const StepPotential *potential, const double *u,
                        const double *direction);
