@@ -87,6 +87,7 @@ typedef struct Camera {
 typedef struct Lens {
     double zoom;   /* magnification; 0 means 1 */
     double pan[2]; /* shift in widths and heights of the box at zoom 1 */
+    bool shows_all; /* the view widens to every obstacle, however far away */
 } Lens;
 
 extern const Lens LENS_FITS;

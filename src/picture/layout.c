@@ -552,7 +552,7 @@ WindowHit layout_hit(const Layout *l, double x, double y)
 
 /* ---- stage and world ---------------------------------------------------- */
 
-const Lens LENS_FITS = {1, {0, 0}};
+const Lens LENS_FITS = {1, {0, 0}, false};
 
 static const double MIN_ZOOM = 1e-3, MAX_ZOOM = 1e6;
 

@@ -51,7 +51,7 @@ static CardSets find_first_card_sets(const Simulation *simulation)
 
 void frame_create(const Simulation *simulation, FrameContent *content)
 {
-    static const View whole = {.lens = {1, {0, 0}}};
+    static const View whole = {.lens = {.zoom = 1}};
     *content = (FrameContent){
         .panes = 1, .view = &whole, .cards = find_first_card_sets(simulation)};
     content->pane[0].simulation = simulation;

@@ -18,7 +18,8 @@ static const double MAX_GROWTH = 1e303; /* limit of the view's growth */
 /* Sizes of the first view over that of the square: with words, and bare. */
 static const double VIEW_SIZE = 1.14, BARE_VIEW_SIZE = 1.75;
 static const double MAGNIFIER_SIDE = 11; /* ems */
-/* Balls, grounds and a pull are shown up to here, in halves of the view. */
+/* Balls, grounds and a pull are shown up to here, in halves of the view, unless
+ * the user asks for all. */
 static const double BALL_REACH = 4, GROUND_REACH = 2, PULL_REACH = 16;
 
 /* ---- how much of the world is seen -------------------------------------- */
@@ -99,7 +100,8 @@ static void widen_to_circle(const Extent *seen, const double at[2],
 
 /* Widens the view to show the balls in reach, of each ground in reach a strip
  * that is wide enough for the mouse, and the place to which a script pulls. The
- * obstacle that the hand pushes is in reach wherever it is. */
+ * obstacle that the hand pushes is in reach wherever it is, and so are all when
+ * the user asks for all. */
 static void widen_to_obstacles(const Plot *stage, Extent *view)
 {
     const Simulation *simulation = stage->simulation;
@@ -113,14 +115,15 @@ static void widen_to_obstacles(const Plot *stage, Extent *view)
     for (int k = 0; contact && k < options->grounds + options->balls; k++) {
         const Obstacle *obstacle = &contact->obstacle[k];
         bool held = contact->hand.is_held && contact->hand.obstacle == k;
+        bool seeks_all = held || stage->content->view->lens.shows_all;
         Gap gap = contact_measure_gap(obstacle, obstacle->o, seen.middle, 0);
         const Point foot = point_along(seen.middle, -gap.d, gap.n);
         if (obstacle->kind == OBSTACLE_BALL)
             widen_to_circle(&seen, obstacle->o, obstacle->radius + air,
-                            held ? INFINITY : BALL_REACH, view);
+                            seeks_all ? INFINITY : BALL_REACH, view);
         else
             widen_to_circle(&seen, foot.xy, 3 * air,
-                            held ? INFINITY : GROUND_REACH, view);
+                            seeks_all ? INFINITY : GROUND_REACH, view);
     }
 }
 
@@ -406,7 +409,7 @@ static void draw_node_arrows(const SquarePen *pen, const double *d,
                    k < nodes ? 10 : 3, k < nodes ? COLOUR_WHITE : colour);
     }
     plot_legend(pen->stage, colour, "%s%s", word,
-                factor * longest > 1.001 * most ? "; long ones are cut" : "");
+                factor * longest > 1.001 * most ? "; some cut" : "");
 }
 
 /* Computes the positions at rest, x [2n], out. */

@@ -23,8 +23,8 @@ static void draw_zone_background(Paper *paper, Box zone, bool rule_below)
 }
 
 /* Draws topic and sentence from the left, method and state from the right.  A
- * message stands in the place of the sentence.  If the bar is low and both do
- * not fit, the message also takes the place of the topic. */
+ * message stands in the place of the sentence.  In a low bar, the method makes
+ * way for a message; a long message also takes the place of the topic. */
 static void draw_title_bar(Paper *paper, Box room, const TitleBar *bar)
 {
     double em = paper->em;
@@ -40,7 +40,8 @@ static void draw_title_bar(Paper *paper, Box room, const TitleBar *bar)
     room.width -= (int)(0.9 * em);
     snprintf(words, sizeof words, "%s%s%s", bar->method,
              bar->method[0] && bar->state[0] ? " \u00b7 " : "", bar->state);
-    if (paper_width(paper, FACE_REGULAR, 1, words) > 0.45 * room.width)
+    if ((low && message) ||
+        paper_width(paper, FACE_REGULAR, 1, words) > 0.45 * room.width)
         snprintf(words, sizeof words, "%s", bar->state);
     room.width -= paper_write_in_box(paper, FACE_REGULAR, 1, COLOUR_FAINT, room,
                                      ALIGN_RIGHT, words);

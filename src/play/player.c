@@ -247,9 +247,7 @@ Status player_create(const Options *options, char *const *words,
         status = status ? status : player_obey_queue(player, false);
     } else if (!status && player->setup.asks_guess &&
                simulation_is_draggable(player_simulation(player)))
-        player_note(player,
-                    "pull at a %s with the mouse%s; G: scenes; Page "
-                    "Down: the guided tour",
+        player_note(player, "pull at a %s%s; G: scenes; Page Down: the tour",
                     nodes ? "node" : "mass",
                     nodes ? "; right click pins it" : "");
     return status;

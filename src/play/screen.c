@@ -101,8 +101,10 @@ Status obey_camera(Player *player, const Command *command)
     const Paper *paper = player_prepare_paper(player);
     const FrameContent *content = &player->screen.frame.content;
     Lens *lens = &player->screen.view.lens;
-    if (command->kind == COMMAND_FIT)
+    if (command->kind == COMMAND_FIT) {
         *lens = LENS_FITS;
+        lens->shows_all = true;
+    }
     if (command->kind == COMMAND_FIT || !paper)
         return STATUS_OK;
     player_build_frame(player);
