@@ -37,7 +37,7 @@ typedef struct Obstacle {
     double v[2];     /* m/s, velocity in the present step */
     double friction; /* coefficient of friction mu >= 0 */
     int node;        /* node at the centre of the free ball; -1: fixed */
-    double options_o[2]; /* m, o in the options; a hand may change o alone */
+    double options_o[2]; /* m, `o` in the options; a hand moves only `o` */
 } Obstacle;
 
 /* Width and strength of the barrier. */

@@ -1,9 +1,9 @@
 /* term.h - one summand of the potential: P(x) is the sum of a system's terms.
  *
  * A System holds a list of terms.  A term that a scene lacks is not in its list
- * and costs nothing.  A term is one source file with one constant TermKind.
- * The functions loop over whole arrays, so a term costs one indirect call a
- * pass.
+ * and costs nothing.  A term is one source file with a constant TermKind, or
+ * two. The functions loop over whole arrays, so a term costs one indirect call
+ * a pass.
  *
  * A function pointer that is NULL means: this term adds nothing here.  Terms
  * ignore pins: the caller clears pinned nodes in g and in the Hessian. */
@@ -75,7 +75,8 @@ struct TermKind {
     } rank;
 
     /* Kind of the elements, if the term is a sum over elements (elements.h).
-     * The functions from value to line_remainder are then elements.c's.  Only
+     * The functions from value to line_remainder, without extend_pattern, are
+     * then those of elements.c.  Only
      * such a term may not exist at some x (elements_are_feasible). */
     const ElementKind *element;
 

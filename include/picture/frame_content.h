@@ -112,7 +112,7 @@ typedef struct Pane {
     const History *history;  /* energies or radii over time */
     const Trace *trace;      /* trace of the time step, or NULL */
     const char *label;       /* differences from other panes, "h 0.01, k 5" */
-    Status failure;          /* failure of the shown step, or STATUS_OK */
+    Status failure;          /* status of the shown, or a failed next step */
     /* frame_compute_values fills values, descent and shown_trace. */
     LiveValues values;
     DescentTrace descent;
@@ -143,7 +143,7 @@ typedef struct Pick {
  * so that the thing stays under the mouse. */
 typedef struct DragBounds {
     bool is_dragging; /* during a drag */
-    bool has_left; /* the mouse has left the stage: the view is free for now */
+    bool has_left;    /* the mouse is outside of the stage: the view may move */
     int pane;
     double bounds[4]; /* left, bottom, right, top, m */
 } DragBounds;

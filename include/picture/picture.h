@@ -1,7 +1,7 @@
 /* picture.h - a picture of a scene, or a card, is a row of functions.
  *
- * A scene names its picture.  A new picture is one source file and one row in
- * cards.txt, from which the tables are generated. */
+ * A scene names its picture.  A new picture is one source file, a PictureKind
+ * in scene.h, and a row in cards.txt, from which the tables are generated. */
 #pragma once
 
 #include "picture/paper.h"

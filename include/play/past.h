@@ -83,7 +83,7 @@ typedef struct Branch {
     long stride;       /* every stride-th entry stores its state */
     int panes;         /* number of panes */
     Entry *entry;      /* [capacity][panes]; entry[entries] is being made */
-    int gesture;       /* id; edits of one gesture share a branch; 0: none */
+    int gesture;       /* id; edits of a gesture are undone together; 0: none */
     Command edit;      /* edit that began the branch */
 } Branch;
 
@@ -162,7 +162,8 @@ Status past_begin_runs(Past *past, const Options *options, int panes,
  *            COMMAND_HANDLE, COMMAND_FLIP; COMMAND_ADD_PANE adds a pane with
  *            the past of the last one, COMMAND_END_PANE removes the last one
  *   pane     pane that is edited; PAST_ALL: each pane
- *   again    past_do_work makes the shown step once more with the edit
+ *   again    the branch begins one step earlier: past_set_goal then leads to
+ *            the shown step, made once more with the edit
  *   gesture  id, or 0; edits of one gesture are undone together
  * Returns OK, OUT_OF_MEMORY. */
 Status past_edit(Past *past, const Command *edit, int pane, bool again,

@@ -13,7 +13,7 @@ typedef struct Prediction {
     long guess_step;   /* steps of the simulation when the user guessed */
     double guess[2];   /* m, the guess */
     double outcome[2]; /* m, where the step does lead */
-    double error;      /* m, `guess` to `reached`; in one variable along x */
+    double error;      /* m, `guess` to `outcome`; in one variable along x */
 } Prediction;
 
 /* ---- descents: minimisation by Newton's method, update by update --------- */

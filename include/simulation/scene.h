@@ -34,7 +34,7 @@ enum ScenePart {
     HAS_MINIMUM = 16,        /* tolerance and line search */
     HAS_ONE_COORDINATE = 32, /* a start with one coordinate, x */
     HAS_TIMESTEP = 64,       /* a time step h without an integrator */
-    HAS_BODY = 128,          /* a body: turn, at, velocity, gravity, pin */
+    HAS_BODY = 128,          /* a body: options --turn, --at, --pin and more */
     HAS_SQUARE = HAS_MESH | HAS_TIME | HAS_SPRINGS | HAS_MINIMUM | HAS_BODY
 };
 

@@ -16,7 +16,7 @@ enum { SIMULATION_MAX_RUNS = 3, SIMULATION_MODE_NODES = 64 };
  * behind a barrier of energy, such as another body. */
 typedef struct Ledger {
     double start; /* J, total energy at the start */
-    double work;  /* J, work that the mouse and changed options have done */
+    double work;  /* J, work of placed nodes and of changed options and pins */
     double last_balance;  /* J, total energy minus work, after the last step */
     long gain_steps;      /* number of steps with growth beyond the work */
     double gained_energy; /* J, growth beyond the work, in all gain_steps */

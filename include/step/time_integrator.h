@@ -48,9 +48,9 @@ struct TimeIntegrator {
     long steps;        /* steps so far */
     Status status;     /* status of the last step */
     StepClock clock;   /* time of x and v */
-    bool is_driven;    /* has prescribed motion of walls or pins in this step */
+    bool is_driven;    /* walls, pins or a pushed obstacle move in this step */
     double moved_part; /* part of the way that is done in this step */
-    double work;       /* J, work of the prescribed motion so far */
+    double work;       /* J, work of walls, pins and the hand so far */
     double *x;         /* [2n] m, positions; start of the block of all arrays */
     double *v;         /* [2n] m/s, velocities */
     double *new_x;   /* [2n] m, x at the end of a step; before that workspace */

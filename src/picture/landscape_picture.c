@@ -207,7 +207,8 @@ static double length_beyond_view(const Plot *plot)
     return 4 * (plot->box.width + plot->box.height) / plot->camera.scale[0];
 }
 
-/* Draws the forces of the parts of E that are on; 1 m of arrow is 1 kg m. */
+/* Draws minus the gradient of each part of E that is on; an arrow of 1 m is a
+ * gradient of 1 kg m, as E is in J s^2. */
 static void draw_forces(const Plot *plot, const LocalModel *E)
 {
     const Simulation *simulation = plot->simulation;

@@ -36,7 +36,8 @@ typedef struct Plot {
     int legend_pixel[2]; /* pixels, place of the legend's next words */
 } Plot;
 
-/* Makes the plot of a box in metres; without paper, only for positions. */
+/* Makes the plot of a box, with coordinates in metres.  A plot without paper
+ * can convert positions, not draw. */
 static inline Plot plot_of_box(Paper *paper, const FrameContent *content,
                                const Pane *pane, Box box, double em)
 {

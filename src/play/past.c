@@ -458,8 +458,9 @@ static void abandon_work(Past *past)
         if (!past_makes_step(past))
             continue;
         drop_state(past, find_entry(past, p, new));
+        /* Copied entries belong to the branch below, too. */
         if (present_branch(past)->entries >= present_branch(past)->copied)
-            drop_entry(past, find_entry(past, p, new)); /* not a copy */
+            drop_entry(past, find_entry(past, p, new));
     }
     past->work_stage = WORK_DONE;
 }

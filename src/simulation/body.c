@@ -75,7 +75,8 @@ SquareMesh body_make_mesh(const Options *options)
                               options->side, (int)fmax(options->bodies, 1));
 }
 
-/* Returns the node at the centre of the scene's ball, the last one; or -1. */
+/* Returns the node at the centre of the scene's ball, the body's last node;
+ * without a ball -1. */
 static int find_ball_node(const Options *options)
 {
     return options->scene->body.obstacle

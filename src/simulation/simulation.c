@@ -8,7 +8,7 @@
 #include "model/neo_hookean.h"
 #include "model/self_contact.h"
 
-/* Most Newton iterations in a step; 1024 segments need some thousands. */
+/* Most iterations of a minimisation; large squares get fewer. */
 enum { MAX_NEWTON_ITERATIONS = 10000 };
 
 void options_fill_newton_settings(const Options *options,

@@ -248,7 +248,8 @@ INLINE void begin_relaxation(const Tiles *tiles, double *g)
             start_g[c * plane + e] *= grid->float_m[e];
 }
 
-/* Returns the largest activity of all tiles, which is the lowest number. */
+/* Returns the activity of the most active tile.  Activities are <= 0, and the
+ * lowest number is the most active. */
 INLINE double find_largest_activity(const Tiles *tiles)
 {
     double low[LANES] = {0}, largest = 0;

@@ -208,7 +208,8 @@ EMSCRIPTEN_KEEPALIVE void web_print_page(int page, int width, int height)
         status = player_obey(player, &next);
     if (!status && !row->presses)
         player_run(player);
-    player->screen.window = &window_web; /* fills the texts as for a window */
+    /* With a window, the player also writes the texts of the page. */
+    player->screen.window = &window_web;
     player->screen.paper_size[0] = width;
     player->screen.paper_size[1] = height;
     Paper *paper = player_prepare_paper(player);

@@ -219,10 +219,11 @@ static void add_wall_contact(Probe *probe, Jet *sum, const void *data, int i)
  * right */
 typedef struct Outline {
     int edges, points, *point, (*edge)[2]; /* nodes of the boundary */
-    unsigned char (*whole)[4]; /* [n] whether a spring is unbroken */
-    unsigned char (*sides)[4]; /* [n] number of triangles at a spring */
-    unsigned char *role;       /* [n] IN_A_TRIANGLE, ON_AN_EDGE */
-    double *x;                 /* [2n] m, positions rounded to doubles */
+    /* For each of the 4 springs of a node: whether it is unbroken, and its
+     * number of triangles. */
+    unsigned char (*whole)[4], (*sides)[4];
+    unsigned char *role; /* [n] IN_A_TRIANGLE, ON_AN_EDGE */
+    double *x;           /* [2n] m, positions rounded to doubles */
 } Outline;
 
 enum { IN_A_TRIANGLE = 1, ON_AN_EDGE = 2 };

@@ -116,9 +116,9 @@ static void damage_matrix(Problem *problem, Damage how, int trial)
 }
 
 /* Each kind of factorisation solves a matrix or names its defect, and solves
- * the next one. Sums have size 10: 1e-14 is rounding; refinement stops at
- * 1e-15. L D L^T skips a zero pivot, and the solution reports it. The entry
- * behind the last one is never read. */
+ * the next one. Sums are about 10 large, so 1e-14 is rounding; refinement ends
+ * at a residual of 1e-15. L D L^T skips a zero pivot, and the solution reports
+ * it. Matrices are followed by an entry that must not be read. */
 TEST(matrices_are_solved_or_named)
 {
     static const struct {

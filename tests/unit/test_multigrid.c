@@ -10,14 +10,13 @@
 #include "solve/multigrid.h"
 #include "solve/newton_parts.h"
 
-/* Newton object, iterate, system and start of a step */
-enum { LARGEST = 2 * 129 * 129 };
+enum { LARGEST = 2 * 129 * 129 }; /* unknowns of the largest square here */
 
-static Newton *newton; /* of the running test */
-static Iterate *at;
+static Newton *newton; /* minimiser of the running test */
+static Iterate *at;    /* its iterate */
 static System *body;
-static double *x_n;
-static int size; /* 2n */
+static double *x_n; /* m, start of the step */
+static int size;    /* 2n */
 
 static const double H = 0.004;
 

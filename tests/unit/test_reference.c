@@ -380,9 +380,9 @@ static double find_largest_deviation(int n_seg, double c, int steps)
     return most;
 }
 
-/* Both time steps named above explicit_euler behave as it says. x and v are
- * half a step apart, a tenth of the energy with 4 segments; deviations are
- * 0.19, 0.09 and 0.05. */
+/* The comment above explicit_euler names a stable and an unstable time step,
+ * and both are so. The energy deviates by a tenth with 4 segments, since x and
+ * v are half a step apart. Measured deviations: 0.19, 0.09 and 0.05. */
 TEST(symplectic_euler_stays_as_long_as_it_says)
 {
     static const int n_seg[] = {4, 8, 16};

@@ -642,8 +642,8 @@ static int write_ink(const Canvas *canvas, Box box, const char *name, char *out)
                    ink[0], at[0] / all, at[1] / all, name);
 }
 
-/* Writes the ink of the window without words: of 25 parts of the picture, and
- * of the cards unless the text of a page changes their sizes. */
+/* Writes how much is drawn besides words: in each of 25 parts of the picture,
+ * and in each card unless the text of a page changes the sizes of cards. */
 static int write_shapes(const Layout *layout, char *out)
 {
     enum { PARTS = 5 };
@@ -1387,7 +1387,8 @@ static uint64_t hash_run(void)
     return hash;
 }
 
-/* Goes to each step, back or forwards; a second visit finds its hash. */
+/* Goes to each step, backwards, and stores its hash; or, `again`, forwards, and
+ * checks that its hash is the stored one. */
 static void visit_steps(uint64_t *hash, bool again)
 {
     const long newest = past_newest(&player.past);

@@ -143,7 +143,8 @@ static void make_pair(const Row *row, Random *random, Case *c)
     double angle = random_uniform(random, 0.05, 1.5);
     double up = random_uniform(random, -0.7, 0.7);
     double away = 0.2 * random_logarithmic(random, 1e-2, 1.3);
-    int swap = 4 * random_below(random, 2); /* node 4 or 0 is the corner */
+    /* The corner that comes near the other square is node 0 or node 4. */
+    int swap = 4 * random_below(random, 2);
     for (int i = 0; i < mesh.nodes; i++) {
         double *x = c->x_n + 2 * ((i + swap) % mesh.nodes);
         square_mesh_rest_position(&mesh, i, x);
