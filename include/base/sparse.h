@@ -12,7 +12,7 @@
 #include "base/status.h"
 
 typedef struct Triplets {
-    int size;        /* rows = columns of the matrix */
+    int matrix_size; /* rows = columns of the matrix */
     long long count; /* number of triplets */
     int *row; /* [count] row of each triplet, >= column; NULL: only counted */
     int *column; /* [count] column of each triplet */

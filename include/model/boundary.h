@@ -21,34 +21,34 @@
 
 /* The rectangle that a point or an edge covers on its way, m.  Coordinate 0 is
  * the one along which the bodies are longer (Boundary.sorts_by_y). */
-typedef struct Box2 {
+typedef struct SweptBox {
     double low[2], high[2];
     int edge_spring; /* spring of the edge; -1: the box of a point */
-} Box2;
+} SweptBox;
 
 typedef struct Boundary {
     SquareMesh mesh;
-    unsigned version;  /* System.version for which the boundary was found */
-    int points, edges; /* numbers of points and edges */
-    int *point_node;   /* [nodes] node of each point */
-    Box2 *edge_box;    /* [springs] boxes of the edges, sorted */
-    Box2 *point_box;   /* [nodes] box of each point, by node */
-    unsigned char *triangles; /* [springs] number of solid triangles at each */
+    unsigned system_version; /* System.version of this boundary */
+    int points, edges;       /* numbers of points and edges */
+    int *point_node;         /* [nodes] node of each point */
+    SweptBox *edge_box;      /* [springs] boxes of the edges, sorted */
+    SweptBox *point_box;     /* [nodes] box of each point, by node */
+    unsigned char *triangles_at_spring; /* [springs] number of solid ones */
     unsigned char *node_role; /* [nodes] bits: in a triangle, on an edge */
 
     /* Motion for which the boxes were made: from x by alpha (p - mean). */
     bool has_valid_boxes; /* the boxes are those of the present boundary */
     bool is_swept;        /* the boxes cover the way along p, not x alone */
-    double *x, *p;    /* [2n] m; x is the start of the block of all arrays */
-    double alpha;     /* the boxes cover the motion alpha p */
-    double mean_p[2]; /* m, mean of p over the points; a motion that all points
-                         share brings none closer to an edge */
-    double margin;    /* m, each box is wider by it at all sides */
-    double widest_edge;  /* m, largest extent of an edge's box, coordinate 0 */
-    bool sorts_by_y;     /* coordinate 0 of the boxes is y, not x */
-    bool has_near_edges; /* near_edge had room for all near edges */
-    int *near_edge;      /* [8 nodes] near edges, point by point */
-    int *near_list_end;  /* [nodes] end of each point's edges in near_edge */
+    double *x, *p;     /* [2n] m; x is the start of the block of all arrays */
+    double alpha;      /* the boxes cover the motion alpha p */
+    double mean_p[2];  /* m, mean of p over the points; a motion that all points
+                          share brings none closer to an edge */
+    double box_margin; /* m, each box is wider by it at all sides */
+    double widest_edge; /* m, largest extent of an edge's box, coordinate 0 */
+    bool sorts_by_y;    /* coordinate 0 of the boxes is y, not x */
+    bool has_all_near_edges; /* near_edge had room for all near edges */
+    int *near_edge;          /* [8 nodes] near edges, point by point */
+    int *near_list_end; /* [nodes] end of each point's edges in near_edge */
 } Boundary;
 
 /* Allocates the arrays, which free(boundary->x) frees.  Returns OK or

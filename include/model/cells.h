@@ -15,13 +15,13 @@
 
 #define CELL_J_HAT 0.4 /* area over rest area at which the barrier begins */
 
-typedef struct Cells {
+typedef struct CellBarriers {
     Triangles triangles;    /* four in each cell */
     int (*side_springs)[3]; /* [triangles.count] W is 0 if one is broken */
     double c;               /* J, A0 k_c */
-} Cells;
+} CellBarriers;
 
-/* The sum of W over the triangles with three whole springs; data: Cells. */
+/* The sum of W over triangles with three whole springs; data: CellBarriers. */
 extern const TermKind cell_energy;
 
 /* Adds the term with all triangles of the mesh, or changes its stiffness.

@@ -22,22 +22,22 @@ typedef enum ObstacleKind { OBSTACLE_WALL, OBSTACLE_BALL } ObstacleKind;
 enum { MOTION_MAX_PHASES = 4 };
 
 /* Prescribed motion of an obstacle: phases of constant velocity, then rest. */
-typedef struct Motion {
+typedef struct ObstacleMotion {
     int phases;                          /* number of phases */
     double phase_end[MOTION_MAX_PHASES]; /* s, end of the phase */
     double v[MOTION_MAX_PHASES][2];      /* m/s, velocity in the phase */
-} Motion;
+} ObstacleMotion;
 
 typedef struct Obstacle {
     ObstacleKind kind; /* wall or ball */
-    double o[2];     /* m, point of a wall's surface, centre of a fixed ball */
-    double n[2];     /* outward unit normal of a wall; not used for balls */
-    double radius;   /* m, R > 0; not used for walls */
-    Motion motion;   /* prescribed motion */
-    double v[2];     /* m/s, velocity in the present step */
-    double friction; /* coefficient of friction mu >= 0 */
-    int node;        /* node at the centre of the free ball; -1: fixed */
-    double options_o[2]; /* m, `o` in the options; a hand moves only `o` */
+    double o[2];   /* m, point of a wall's surface, centre of a fixed ball */
+    double n[2];   /* outward unit normal of a wall; not used for balls */
+    double radius; /* m, R > 0; not used for walls */
+    ObstacleMotion motion; /* prescribed motion */
+    double v[2];           /* m/s, velocity in the present step */
+    double friction;       /* coefficient of friction mu >= 0 */
+    int node;              /* node at the centre of the free ball; -1: fixed */
+    double options_o[2];   /* m, `o` in the options; a hand moves only `o` */
 } Obstacle;
 
 /* Width and strength of the barrier. */
@@ -47,22 +47,22 @@ typedef struct Barrier {
 } Barrier;
 
 /* Gap between a node and an obstacle. */
-typedef struct Gap {
+typedef struct NodeGap {
     double d;    /* m; d <= 0: the node is inside the obstacle */
     double n[2]; /* unit vector from the obstacle to the node */
     double r;    /* m, |x_i - x_b| for a ball, infinite for a wall */
-} Gap;
+} NodeGap;
 
 /* Returns the point o of an obstacle, or the node at the centre of the free
  * ball.  x [2n] m, in. */
-const double *obstacle_origin(const Obstacle *obstacle, const double *x);
+const double *obstacle_get_position(const Obstacle *obstacle, const double *x);
 
 /* Measures the gap between a node and an obstacle.
  *   o       [2] m, in, position of the obstacle's point
  *   x_i     [2] m, in, position of the node
  *   radius  m, of the node; 0 for a point */
-Gap contact_measure_gap(const Obstacle *obstacle, const double *o,
-                        const double *x_i, double radius);
+NodeGap contact_measure_gap(const Obstacle *obstacle, const double *o,
+                            const double *x_i, double radius);
 
 /* Returns the force -dW/dd >= 0, N, on the node along n at the gap d > 0, m. */
 double contact_normal_force(const Barrier *barrier, double d);
@@ -71,25 +71,25 @@ double contact_normal_force(const Barrier *barrier, double d);
 enum { CONTACT_MAX_OBSTACLES = 20 };
 
 /* An obstacle that a hand pulls to a point (push.c). */
-typedef struct Push {
+typedef struct ObstaclePush {
     bool is_held;     /* whether a hand holds an obstacle */
     int obstacle;     /* number of the obstacle */
     double target[2]; /* m, target of the obstacle's point o */
     SquareMesh mesh;  /* mesh of the bodies, whose cells no ball may enter */
     bool is_blocked;  /* the obstacle found no room to move in this step */
-    double free_part; /* part of the step before the obstacle stopped */
-} Push;
+    double free_path_part; /* part of the step before the obstacle stopped */
+} ObstaclePush;
 
 typedef struct Contact {
     Barrier barrier;
     int obstacles; /* number of obstacles */
     Obstacle obstacle[CONTACT_MAX_OBSTACLES];
-    int free_ball; /* number of the ball whose centre is a node; -1: none */
-    Push hand;     /* obstacle held by a hand */
+    int free_ball;     /* number of the ball whose centre is a node; -1: none */
+    ObstaclePush hand; /* obstacle held by a hand */
 } Contact;
 
 /* The sum of W over all pairs of a node and an obstacle; data: Contact.  The
- * Element of a pair has s, n, r = d, n, r of its Gap. */
+ * Element of a pair has s, n, r = d, n, r of its NodeGap. */
 extern const TermKind contact_energy;
 
 /* Adds the term or replaces its obstacles; removes it if there are none.
@@ -99,12 +99,12 @@ Status contact_configure(System *system, const Barrier *barrier, int obstacles,
                          const Obstacle *obstacle);
 
 /* Returns the data of the contact term; NULL: the system has no obstacles. */
-Contact *contact_of(const System *system);
+Contact *get_contact(const System *system);
 
 /* Whether the energy of this node and this obstacle counts.  The free ball's
  * own node does not count, nor a fixed node at a fixed obstacle. */
-bool contact_counts_pair(const Contact *contact, const System *system, int node,
-                         int obstacle);
+bool contact_includes_pair(const Contact *contact, const System *system,
+                           int node, int obstacle);
 
 /* Returns the radius of a node, m: R for the free ball's node, 0 for others. */
 double contact_node_radius(const Contact *contact, int node);

@@ -20,33 +20,33 @@
 /* An element is a group of one to three nodes with an energy W, such as a
  * triangle or a node near a wall, at given positions. */
 typedef struct Element {
-    int node_count;            /* 1 ... 3 */
-    int vector_count;          /* vectors that W depends on: 1: a, 2: a and b */
-    int node[3];               /* [nodes] */
-    const double (*weight)[3]; /* [vectors] a, b: sums of weight * x_i */
+    int node_count;   /* 1 ... 3 */
+    int vector_count; /* vectors that W depends on: 1: a, 2: a and b */
+    int node[3];      /* [nodes] */
+    const double (*node_weight)[3]; /* [vectors] a, b: sums of weight * x_i */
     int block_index; /* index of its block of the Hessian; -1: none yet */
     int partner; /* obstacle (contact) or spring of the edge (self-contact) */
     int search_cursor; /* > 0: where get_element(i) continues its search */
-    double factor;     /* factor on gradient and Hessian: 1, or EvalPoint.weight
-                          if the kind's functions do not multiply by it */
-    double v[4];       /* m, the vectors a and b, if the kind uses them */
-    double s;          /* argument of W: a gap, a ratio of areas or a slip */
-    double n[2], r;    /* further numbers, explained at each TermKind */
+    double derivative_factor; /* factor on gradient and Hessian: 1; or
+                      EvalPoint.weight, if the kind's functions lack it */
+    double v[4];    /* m, the vectors a and b, if the kind uses them */
+    double s;       /* argument of W: a gap, a ratio of areas or a slip */
+    double n[2], r; /* further numbers, explained at each TermKind */
 } Element;
 
 /* Computes the element's vectors a and b, which are weighted sums of its nodes'
  * positions, or their change along a direction.
  *   x  [2n] m, in, positions or a direction
  *   v  [4] m, out, a and b */
-static inline void element_get_vectors(const Element *element, const double *x,
-                                       double v[4])
+static inline void element_compute_weighted_sums(const Element *element,
+                                                 const double *x, double v[4])
 {
     for (int m = 0; m < element->vector_count; m++) {
         v[2 * m] = v[2 * m + 1] = 0;
         for (int k = 0; k < element->node_count; k++) {
             const double *at = x + 2 * element->node[k];
-            v[2 * m] += element->weight[m][k] * at[0];
-            v[2 * m + 1] += element->weight[m][k] * at[1];
+            v[2 * m] += element->node_weight[m][k] * at[0];
+            v[2 * m + 1] += element->node_weight[m][k] * at[1];
         }
     }
 }
@@ -55,7 +55,7 @@ static inline void element_get_vectors(const Element *element, const double *x,
  * data of the term begin with this struct. */
 typedef struct Triangles {
     int count;         /* number of triangles */
-    double area;       /* m^2, A0 of each triangle at rest */
+    double rest_area;  /* m^2, A0 of each triangle at rest */
     double inverse_J0; /* 1/m^2, 1/(2 A0), where J is 2 A0 at rest */
     int (*node)[3]; /* [count] nodes a, b, c of each triangle, anticlockwise */
 } Triangles;
@@ -67,7 +67,7 @@ struct ElementKind {
     void (*prepare)(const EvalPoint *at, const double *p, double alpha);
 
     /* Number of elements. */
-    int (*count)(const EvalPoint *at);
+    int (*count_elements)(const EvalPoint *at);
 
     /* Computes element i at x.  Returns false if i has no element, or if W is 0
      * for all changes of a and of b by less than `way`, m. */
@@ -76,10 +76,10 @@ struct ElementKind {
 
     /* Number of blocks of the matrix.  A block has all entries of 1 to 3 nodes.
      * Blocks do not depend on x, which may be NULL. */
-    int (*block_count)(const EvalPoint *at);
+    int (*count_blocks)(const EvalPoint *at);
 
     /* Writes the nodes of a block of the Hessian, returns their number. */
-    int (*block_nodes)(const EvalPoint *at, int block, int node[3]);
+    int (*get_block_nodes)(const EvalPoint *at, int block, int node[3]);
 
     /* Returns the energy W of the element, in joules. */
     double (*value)(const EvalPoint *at, const Element *element);
@@ -94,8 +94,9 @@ struct ElementKind {
 
     /* Writes Hv = H v with more digits than the numbers of H allow.  Returns
      * whether the projection changed H.  NULL: the product with H is enough. */
-    bool (*product)(const EvalPoint *at, const Element *element,
-                    Projection projection, const double v[4], double Hv[4]);
+    bool (*apply_hessian)(const EvalPoint *at, const Element *element,
+                          Projection projection, const double v[4],
+                          double Hv[4]);
 
     /* Returns W((a, b) + alpha P) - W - alpha grad W.P, J, which is computed
      * without cancellation.  P [4] is the change of (a, b) along p. */
@@ -121,9 +122,9 @@ struct ElementKind {
 typedef struct ElementIterator {
     const EvalPoint *point;
     const ElementKind *kind;
-    double motion_bound; /* m, bound on the change of a and b by alpha p */
-    int i, count;        /* present element, number of elements */
-    Element element;     /* present element, out */
+    double motion_bound;  /* m, bound on the change of a and b by alpha p */
+    int i, element_count; /* present element, number of elements */
+    Element element;      /* present element, out */
 } ElementIterator;
 
 ElementIterator elements_begin(const EvalPoint *at, const double *p,
@@ -133,7 +134,7 @@ bool elements_next(ElementIterator *walk);
 /* TermKind's functions for terms with elements (term.h). */
 double elements_value(const EvalPoint *at);
 void elements_gradient(const EvalPoint *at, double *g);
-void elements_pattern(const EvalPoint *at, Triplets *triplets);
+void elements_add_triplets(const EvalPoint *at, Triplets *triplets);
 int elements_hessian(const EvalPoint *at, Projection projection,
                      const int **slot, const double *q, double *out);
 double elements_line_remainder(const EvalPoint *at, const double *p,
@@ -150,5 +151,5 @@ bool elements_are_feasible(const EvalPoint *at);
 /* The TermKind of a term with elements begins with these functions. */
 #define ELEMENTS(kind)                                                         \
     .element = &(kind), .value = elements_value,                               \
-    .gradient = elements_gradient, .pattern = elements_pattern,                \
+    .gradient = elements_gradient, .add_triplets = elements_add_triplets,      \
     .hessian = elements_hessian, .line_remainder = elements_line_remainder

@@ -13,14 +13,14 @@
 #include "model/system.h"
 
 /* A spring that is stretched beyond its strength. */
-typedef struct Overload {
+typedef struct SpringLoad {
     double load; /* strain divided by strength, > 1 */
     int spring;  /* number of the spring */
-} Overload;
+} SpringLoad;
 
 typedef struct Fracture {
-    double strength;    /* s_c > 0, mean strain at which springs break */
-    Overload *overload; /* [springs] workspace, largest load first */
+    double strength;      /* s_c > 0, mean strain at which springs break */
+    SpringLoad *overload; /* [springs] workspace, largest load first */
     unsigned char *has_new_break; /* [nodes] 1: a spring broke there */
 } Fracture;
 

@@ -27,14 +27,14 @@ double friction_slope(double y, double e);
 typedef struct SlidingContact {
     Element element; /* element of the contact term, with v = t for its vectors
                         a and b, and r = mu lambda, N */
-    double travel;   /* m, h t.v_wall: travel of the obstacle along t */
+    double obstacle_travel; /* m, h t.v_wall: travel of the obstacle along t */
 } SlidingContact;
 
 typedef struct Friction {
     double slip_speed; /* m/s, eps_v > 0 */
     double e;          /* m, eps_v h */
     int contacts;      /* number of contacts with a normal force in this step */
-    int capacity;      /* number of contacts for which `contact` has room */
+    int contact_capacity; /* number of contacts for which `contact` has room */
     SlidingContact contact[]; /* [capacity] contacts of this step */
 } Friction;
 

@@ -35,7 +35,7 @@ typedef struct NeoHookean {
 extern const TermKind neo_hookean_energy;
 
 /* Returns the data of the term; NULL: the system consists of springs. */
-static inline const NeoHookean *neo_hookean_of(const System *system)
+static inline const NeoHookean *get_neo_hookean(const System *system)
 {
     return system_term_data(system, &neo_hookean_energy);
 }

@@ -51,4 +51,4 @@ typedef struct Plasticity {
 extern const TermKind plastic_energy;
 
 /* Returns the law V of spring s without damping; elastic without the term. */
-FlowLaw plasticity_get_law(const System *system, int s);
+FlowLaw plasticity_get_flow_law(const System *system, int s);

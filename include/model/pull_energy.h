@@ -12,7 +12,7 @@
 extern const TermKind central_field, hand_energy;
 
 /* Data of central_field, and of hand_energy. */
-typedef struct Pull {
+typedef struct NodePull {
     int node;         /* pulled node i */
     double k;         /* J/m^2, stiffness */
     double target[2]; /* m, o */
@@ -21,11 +21,12 @@ typedef struct Pull {
     double mouse_xy[2]; /* m, position of the mouse */
     double mouse_k;     /* J/m^2, stiffness with which the mouse pulls */
     double cell_size;   /* m, side of a cell of the pulled body */
-    double side;        /* m, side of the pulled body */
-} Pull;
+    double body_side;   /* m, side of the pulled body */
+} NodePull;
 
 /* Adds the term or changes its data.  Returns OK or OUT_OF_MEMORY. */
-Status pull_configure(System *system, const TermKind *kind, const Pull *pull);
+Status pull_configure(System *system, const TermKind *kind,
+                      const NodePull *pull);
 
 /* Sets k and target of the hand before a step.  The node moves part of the way
  * to the mouse: the distance falls by the factor e in 0.06 s, by at most half
@@ -37,8 +38,8 @@ Status pull_configure(System *system, const TermKind *kind, const Pull *pull);
  *   free  [2] m/s^2, in, acceleration of the node without the hand, for an
  *         explicit integrator: the force then moves the node by this way
  *         exactly.  NULL: an implicit integrator, whose stiff spring does so */
-void hand_begin_step(Pull *hand, const double *x, const double *v, double m,
+void hand_begin_step(NodePull *hand, const double *x, const double *v, double m,
                      double h, const double *free);
 
 /* Returns the work of the hand, J, as its node moves from x [2] to y [2], m. */
-double hand_work(const Pull *hand, const double *x, const double *y);
+double hand_work(const NodePull *hand, const double *x, const double *y);

@@ -24,19 +24,19 @@
 #include "model/contact.h"
 
 /* A point and an edge with a block of the matrix. */
-typedef struct SelfPair {
+typedef struct PointEdgePair {
     int node, edge; /* numbers of the node and of the edge's spring */
-} SelfPair;
+} PointEdgePair;
 
 typedef struct SelfContact {
     double d_hat;    /* m, distance at which the barrier begins */
     double c;        /* J, factor on the barrier of a point and an edge */
     double friction; /* coefficient of friction mu */
     Boundary boundary;
-    int pairs;       /* number of blocks in this step */
-    int capacity;    /* number of pairs for which `pair` has room */
-    int start_pairs; /* number of pairs at the start of this step */
-    SelfPair *pair; /* [capacity] the first start_pairs by node, then by edge */
+    int pairs;           /* number of blocks in this step */
+    int pair_capacity;   /* number of pairs for which `pair` has room */
+    int start_pairs;     /* number of pairs at the start of this step */
+    PointEdgePair *pair; /* [pair_capacity] start_pairs by node, then by edge */
 } SelfContact;
 
 /* The sum of W over all points and edges; data: SelfContact.  An element is a
@@ -52,4 +52,4 @@ Status self_contact_configure(System *system, const SquareMesh *mesh,
                               const Barrier *barrier, double friction);
 
 /* Returns the data of the term; NULL: the system has no self-contact. */
-SelfContact *self_contact_of(const System *system);
+SelfContact *get_self_contact(const System *system);

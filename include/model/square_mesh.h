@@ -36,7 +36,7 @@ static inline double twice_signed_area(const double *a, const double *b,
     return (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
 }
 
-/* Sides of a body; square_mesh_get_sides adds them up. */
+/* Sides of a body; square_mesh_get_node_sides adds them up. */
 enum { MESH_LEFT = 1, MESH_RIGHT = 2, MESH_BOTTOM = 4, MESH_TOP = 8 };
 
 /* Returns the mesh with these numbers.
@@ -54,13 +54,13 @@ void square_mesh_list_springs(const SquareMesh *shape, int *e);
 void square_mesh_order_nodes(const SquareMesh *shape, int *order);
 
 /* Returns the body that has a node. */
-int square_mesh_locate_body(const SquareMesh *shape, int node);
+int square_mesh_find_body(const SquareMesh *shape, int node);
 
 /* Writes the position of node i at rest.  x [2] m, out. */
 void square_mesh_rest_position(const SquareMesh *shape, int i, double x[2]);
 
 /* Returns the sum of the sides on which node i lies, MESH_LEFT + ... */
-int square_mesh_get_sides(const SquareMesh *shape, int i);
+int square_mesh_get_node_sides(const SquareMesh *shape, int i);
 
 /* Writes the nodes and springs of cell c, 0 ... cells-1.
  *   node    [4] out, its corners a b c d, anticlockwise from the lower left

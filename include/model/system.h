@@ -36,9 +36,9 @@ struct System {
     double *pin_v;          /* [2n] m/s, velocity of pinned nodes; NULL: 0 */
     int segments;     /* segments a side if the system is one square; else 0 */
     unsigned version; /* rises with every change of numbers or terms */
-    unsigned pattern_version;    /* rises when the Hessian's pattern changes */
-    int terms;                   /* number of terms */
-    Term term[SYSTEM_MAX_TERMS]; /* terms in the order of TermKind.rank */
+    unsigned pattern_version; /* rises when the Hessian's pattern changes */
+    int terms;                /* number of terms */
+    EnergyTerm term[SYSTEM_MAX_TERMS]; /* terms in the order of TermKind.rank */
     /* Energy lost by column, to a NULL name.  A loss outlives its term. */
     EnergyLoss losses[SYSTEM_MAX_TERMS];
 };
@@ -66,7 +66,7 @@ void system_free(System *system);
 void *system_add_term(System *system, const TermKind *kind, size_t bytes);
 
 /* Returns the first term of this kind, or NULL. */
-Term *system_find_term(const System *system, const TermKind *kind);
+EnergyTerm *system_find_term(const System *system, const TermKind *kind);
 
 /* Returns the data of the first term of this kind, or NULL. */
 void *system_term_data(const System *system, const TermKind *kind);
@@ -100,7 +100,7 @@ bool system_has_gravity(const System *system);
 double system_gravity_potential(const System *system, const double *x);
 
 /* Sets g to 0 at pinned nodes.  g [2n] in/out. */
-void system_zero_pinned(const System *system, double *g);
+void system_zero_pinned_entries(const System *system, double *g);
 
 /* Writes a = gravity - M^-1 grad P(x), and 0 at pinned nodes.
  *   x  [2n] m, in

@@ -15,13 +15,13 @@
 typedef struct System System;
 typedef struct TermKind TermKind;
 typedef struct ElementKind ElementKind;
-typedef struct Term Term;
+typedef struct EnergyTerm EnergyTerm;
 struct SquareMesh;
 
 /* Where and with what a term is evaluated. */
 typedef struct EvalPoint {
     const System *system;
-    const Term *term; /* term that is evaluated; NULL: none is selected yet */
+    const EnergyTerm *term; /* evaluated term; NULL: none is selected yet */
     double weight; /* s^2, factor on derivatives of P: h^2 for implicit Euler */
     const double *x_n; /* [2n] m, positions at the start of the step */
     const double *u; /* [2n] m, displacement x - x_n; NULL: outside of a step */
@@ -42,7 +42,7 @@ const TermKind *eval_point_next_term(EvalPoint *at);
 /* The argument of begin_step and end_step. */
 typedef struct TermStep {
     System *system;
-    Term *term;
+    EnergyTerm *term;
     const double *x; /* [2n] m, positions at the start or end of the step */
     const double *v; /* [2n] m/s, velocities at the start or end of the step */
     double h;        /* s, time step */
@@ -88,9 +88,9 @@ struct TermKind {
      * weight -1 and u NULL to collect forces. */
     void (*gradient)(const EvalPoint *at, double *g);
 
-    /* Appends the triplets of the Hessian, by term_add_block.  In a step
+    /* Appends the triplets of the Hessian, by add_block_triplets.  In a step
      * only extend_pattern adds triplets.  NULL: the Hessian is 0. */
-    void (*pattern)(const EvalPoint *at, Triplets *triplets);
+    void (*add_triplets)(const EvalPoint *at, Triplets *triplets);
 
     /* Appends the triplets that the Hessian at x needs and the pattern lacks,
      * for example of bodies that came near each other during the step; *grown
@@ -142,14 +142,14 @@ struct TermKind {
                                       only with backward Euler */
 };
 
-struct Term {
+struct EnergyTerm {
     const TermKind *kind;
     void *data; /* numbers and arrays of the kind, one piece of malloc; the
                    kind's `free` frees further pieces */
 };
 
 /* Appends the triplets of block (i, j): xx xy yx yy, or xx xy yy if i = j. */
-void term_add_block(const System *system, int i, int j, Triplets *triplets);
+void add_block_triplets(const System *system, int i, int j, Triplets *triplets);
 
 /* Appends the triplets xx and yy of node i. */
-void term_add_diagonal(const System *system, int i, Triplets *triplets);
+void add_diagonal_triplets(const System *system, int i, Triplets *triplets);

@@ -42,7 +42,7 @@ void incremental_potential_gradient(const IncrementalPotential *E,
  * diagonal, lead to the last value of A, which is unused.
  *   A  out; free it with sparse_free, also after a failure
  * Returns OK, TOO_LARGE, OUT_OF_MEMORY. */
-Status incremental_potential_pattern(const System *system, Sparse *A);
+Status incremental_potential_create_hessian(const System *system, Sparse *A);
 
 /* Adds pairs near each other at u, x to the terms' lists.  *grown out: whether
  * the Hessian has entries that its pattern lacks, so that the pattern must be
@@ -58,8 +58,9 @@ int incremental_potential_hessian(const Iterate *at, Projection projection,
  *   q  [2n] in, 0 for pinned nodes
  *   y  [2n] out
  * Returns how many blocks of terms the projection changed. */
-int incremental_potential_product(const Iterate *at, Projection projection,
-                                  const double *q, double *y);
+int incremental_potential_apply_hessian(const Iterate *at,
+                                        Projection projection, const double *q,
+                                        double *y);
 
 /* Turns springs that draw nodes to fixed points into masses:
  *   m/2 |u - u_tilde|^2 + w c/2 |x - o|^2 = (m + w c)/2 |u - v|^2 + constant.

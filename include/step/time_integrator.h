@@ -19,7 +19,7 @@ typedef struct IntegratorMethod {
     bool supports_all_terms; /* works with every term: only backward Euler */
     bool dissipates;   /* takes energy out of motion, which comes to rest */
     bool only_by_name; /* is chosen by name only, and skipped by key M */
-    int arrays;        /* arrays [2n] kept between steps */
+    int memory_arrays; /* arrays [2n] kept between steps */
     int stages;        /* minimisations of a step; explicit: 0 */
     /* Fills newton->u_tilde and weight for the present stage.  Gravity is added
      * to u_tilde by completing the square:
@@ -28,7 +28,7 @@ typedef struct IntegratorMethod {
     void (*set_target)(TimeIntegrator *);
     /* Reads newton->iterate.u.  The last stage of an implicit method, and an
      * explicit method, fill new_x and new_v. */
-    void (*finish)(TimeIntegrator *);
+    void (*set_state)(TimeIntegrator *);
 } IntegratorMethod;
 
 /* Time as a number of equal steps since h was last changed.  A sum of steps has
@@ -50,20 +50,20 @@ struct TimeIntegrator {
     StepClock clock;   /* time of x and v */
     bool is_driven;    /* walls, pins or a pushed obstacle move in this step */
     double moved_part; /* part of the way that is done in this step */
-    double work;       /* J, work of walls, pins and the hand so far */
-    double *x;         /* [2n] m, positions; start of the block of all arrays */
-    double *v;         /* [2n] m/s, velocities */
+    double external_work; /* J, work of walls, pins and the hand so far */
+    double *x;       /* [2n] m, positions; start of the block of all arrays */
+    double *v;       /* [2n] m/s, velocities */
     double *new_x;   /* [2n] m, x at the end of a step; before that workspace */
     double *new_v;   /* [2n] m/s, v at the end; before that workspace */
     double *memory;  /* [arrays * 2n] arrays that the method remembers */
     double memory_h; /* s, time step of `memory`; 0: `memory` is not valid */
     Newton *newton;  /* NULL for explicit methods */
     /* State of an unfinished step: */
-    int stage;             /* 0 ... stages - 1 */
-    Status bad_status;     /* OK, or the last other status of a minimisation */
-    double weight;         /* s^2, factor of P in E */
+    int stage;                 /* 0 ... stages - 1 */
+    Status unconverged_status; /* OK, or that of the last stage without OK */
+    double weight;             /* s^2, factor of P in E */
     double remaining_part; /* part of the prescribed way that is not done yet */
-    int parts_made;        /* parts of the prescribed way that are done */
+    int parts_done;        /* parts of the prescribed way that are done */
     long updates_before;   /* Newton's updates before this step */
     bool is_blocked; /* walls and pins cannot move on: a body is in their way */
 };

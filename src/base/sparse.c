@@ -54,7 +54,7 @@ static void counting_sort(int count, int size, const int *key, const int *in,
 Status sparse_create(const Triplets *triplets, Sparse *A)
 {
     const int *row = triplets->row, *column = triplets->column;
-    int count = (int)triplets->count, size = triplets->size;
+    int count = (int)triplets->count, size = triplets->matrix_size;
     size_t bytes = ((size_t)count + 1) * sizeof(int);
     size_t starts = ((size_t)size + 1) * sizeof *A->column_start;
     *A = (Sparse){.size = size,

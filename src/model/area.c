@@ -5,33 +5,33 @@
 
 #include "base/mathematics.h"
 
-void area_expand_along(const double f[4], double unit, const double P[4],
-                       double *J1, double *J2)
+void area_line_polynomial(const double f[4], double unit, const double P[4],
+                          double *J1, double *J2)
 {
     *J1 = unit * (cross(P, f + 2) + cross(f, P + 2));
     *J2 = unit * cross(P, P + 2);
 }
 
-int triangle_count(const EvalPoint *at)
+int count_triangles(const EvalPoint *at)
 {
     return ((const Triangles *)at->term->data)->count;
 }
 
-int triangle_block_nodes(const EvalPoint *at, int t, int node[3])
+int get_triangle_block_nodes(const EvalPoint *at, int t, int node[3])
 {
     const Triangles *triangles = at->term->data;
     memcpy(node, triangles->node[t], 3 * sizeof *node);
     return 3;
 }
 
-void triangle_set_element(const EvalPoint *at, int t, Element *element)
+void fill_triangle_element(const EvalPoint *at, int t, Element *element)
 {
     static const double edges[2][3] = {{-1, 1, 0}, {-1, 0, 1}};
     element->vector_count = 2;
-    element->node_count = triangle_block_nodes(at, t, element->node);
-    element->weight = edges;
+    element->node_count = get_triangle_block_nodes(at, t, element->node);
+    element->node_weight = edges;
     element->block_index = t;
-    element->factor = at->weight;
+    element->derivative_factor = at->weight;
     const int *node = element->node;
     subtract_node(at->x, node[1], node[2], node[0], element->v);
 }
@@ -42,7 +42,7 @@ double triangle_max_step(const EvalPoint *at, const Element *element,
 {
     const Triangles *triangles = at->term->data;
     double J1, J2, most = ELEMENT_LIMIT * element->s;
-    area_expand_along(element->v, triangles->inverse_J0, P, &J1, &J2);
+    area_line_polynomial(element->v, triangles->inverse_J0, P, &J1, &J2);
     double discriminant = J1 * J1 - 4 * J2 * most;
     if (!(discriminant >= 0))
         return INFINITY;
@@ -71,7 +71,7 @@ bool area_project_hessian(const double f[4], double unit, double on_plus,
     static const double any_minus[4] = {0, 0.7071067811865476,
                                         0.7071067811865476, 0};
     double p[2], m[2], *a = area->a, *b = area->b, *Q = area->Q;
-    area_split(f, p, m);
+    area_split_edges(f, p, m);
     for (int i = 0; i < 4; i++) {
         a[i] = (i == 2 ? -1 : 1) * p[i == 1 || i == 2];
         b[i] = (i == 3 ? -1 : 1) * m[i == 1 || i == 2];
@@ -111,8 +111,8 @@ static double dot4(const double a[4], const double b[4])
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
 }
 
-void area_multiply_hessian(const AreaHessian *area, const double v[4],
-                           double Hv[4])
+void area_apply_hessian(const AreaHessian *area, const double v[4],
+                        double Hv[4])
 {
     const double *Q = area->Q;
     double on_a = dot4(area->a, v), on_b = dot4(area->b, v);

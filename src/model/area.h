@@ -20,8 +20,8 @@ static inline double cross(const double a[2], const double b[2])
  *   f+ = (a0, a1, -a1, a0), a rotation times a number; a = plus [2], out
  *   f- = (b0, b1, b1, -b0), a reflection times a number; b = minus [2], out
  * J = |a|^2 - |b|^2. */
-static inline void area_split(const double f[4], double plus[2],
-                              double minus[2])
+static inline void area_split_edges(const double f[4], double plus[2],
+                                    double minus[2])
 {
     plus[0] = 0.5 * (f[0] + f[3]);
     plus[1] = 0.5 * (f[1] - f[2]);
@@ -31,8 +31,8 @@ static inline void area_split(const double f[4], double plus[2],
 
 /* Writes J1 and J2 such that unit J at f + alpha P is unit J + alpha J1 +
  * alpha^2 J2.  f, P [4] in. */
-void area_expand_along(const double f[4], double unit, const double P[4],
-                       double *J1, double *J2);
+void area_line_polynomial(const double f[4], double unit, const double P[4],
+                          double *J1, double *J2);
 
 /* Returns Triangles with legs of this length, m, and a right angle, at rest.
  *   node  [3 count] int, memory for the nodes */
@@ -54,18 +54,18 @@ static inline void subtract_node(const double *x, int i, int j, int node_0,
 }
 
 /* ElementKind's functions for terms with Triangles; s = unit J. */
-int triangle_count(const EvalPoint *at);
-int triangle_block_nodes(const EvalPoint *at, int t, int node[3]);
+int count_triangles(const EvalPoint *at);
+int get_triangle_block_nodes(const EvalPoint *at, int t, int node[3]);
 double triangle_max_step(const EvalPoint *at, const Element *element,
                          const double P[4]);
 
 /* Makes triangle t an element with a = x_b - x_a, b = x_c - x_a, without s. */
-void triangle_set_element(const EvalPoint *at, int t, Element *element);
+void fill_triangle_element(const EvalPoint *at, int t, Element *element);
 
-/* A Hessian H by its eigenspaces.  H is on_plus in the space of f+
- * (area_split), on_minus in that of f-, plus second (unit K f)(unit K f)^T.  Q
- * is H in the plane of a = f+/|f+| and b = f-/|f-|.  The other two eigenvectors
- * are across_a in the space of f+ and across_b in that of f-. */
+/* A Hessian H by its eigenspaces.  H is on_plus in the space of f+, on_minus in
+ * that of f- (area_split_edges), plus second (unit K f)(unit K f)^T.  Q is H in
+ * the plane of a = f+/|f+| and b = f-/|f-|.  The other two eigenvectors are
+ * across_a in the space of f+ and across_b in that of f-. */
 typedef struct AreaHessian {
     double a[4], b[4], across_a[4], across_b[4]; /* unit vectors */
     double Q[3];                                 /* Q_aa, Q_ab, Q_bb */
@@ -84,5 +84,5 @@ void area_assemble_hessian(const AreaHessian *area, double H[4][4]);
  * rotation v of a triangle at rest, a product with the rounded entries of H
  * would have no right digit.
  *   v, Hv  [4] in, out */
-void area_multiply_hessian(const AreaHessian *area, const double v[4],
-                           double Hv[4]);
+void area_apply_hessian(const AreaHessian *area, const double v[4],
+                        double Hv[4]);

@@ -12,21 +12,21 @@ Status boundary_create(const SquareMesh *mesh, Boundary *boundary)
 {
     size_t nodes = (size_t)mesh->nodes, springs = (size_t)mesh->springs;
     size_t bytes =
-        4 * nodes * sizeof(double) + (nodes + springs) * sizeof(Box2) +
+        4 * nodes * sizeof(double) + (nodes + springs) * sizeof(SweptBox) +
         (2 + NEAR_EDGES_PER_NODE) * nodes * sizeof(int) + springs + nodes;
     *boundary =
-        (Boundary){.mesh = *mesh, .version = ~0u, .x = calloc(1, bytes)};
+        (Boundary){.mesh = *mesh, .system_version = ~0u, .x = calloc(1, bytes)};
     if (!boundary->x)
         return STATUS_OUT_OF_MEMORY;
     boundary->p = boundary->x + 2 * nodes;
-    boundary->edge_box = (Box2 *)(boundary->p + 2 * nodes);
+    boundary->edge_box = (SweptBox *)(boundary->p + 2 * nodes);
     boundary->point_box = boundary->edge_box + springs;
     boundary->point_node = (int *)(boundary->point_box + nodes);
     boundary->near_list_end = boundary->point_node + nodes;
     boundary->near_edge = boundary->near_list_end + nodes;
-    boundary->triangles =
+    boundary->triangles_at_spring =
         (unsigned char *)(boundary->near_edge + NEAR_EDGES_PER_NODE * nodes);
-    boundary->node_role = boundary->triangles + springs;
+    boundary->node_role = boundary->triangles_at_spring + springs;
     return STATUS_OK;
 }
 
@@ -40,7 +40,7 @@ enum { IN_A_TRIANGLE = 1, ON_AN_EDGE = 2 };
 static void find_boundary(Boundary *boundary, const System *system)
 {
     const SquareMesh *shape = &boundary->mesh;
-    memset(boundary->triangles, 0, (size_t)shape->springs);
+    memset(boundary->triangles_at_spring, 0, (size_t)shape->springs);
     memset(boundary->node_role, 0, (size_t)shape->nodes);
     boundary->points = boundary->edges = 0;
     for (int c = 0; c < shape->cells; c++) {
@@ -56,11 +56,11 @@ static void find_boundary(Boundary *boundary, const System *system)
         for (int k = other; k < 4; k += 2)
             for (int i = 0; i < 3 && solid >> k & 1; i++) {
                 boundary->node_role[node[k][i]] |= IN_A_TRIANGLE;
-                boundary->triangles[side[k][i]]++;
+                boundary->triangles_at_spring[side[k][i]]++;
             }
     }
     for (int s = 0; s < shape->springs; s++) {
-        if (boundary->triangles[s] != 1)
+        if (boundary->triangles_at_spring[s] != 1)
             continue;
         boundary->edge_box[boundary->edges++].edge_spring = s;
         for (int end = 0; end < 2; end++)
@@ -69,25 +69,25 @@ static void find_boundary(Boundary *boundary, const System *system)
     for (int i = 0; i < shape->nodes; i++)
         if (boundary->node_role[i] != IN_A_TRIANGLE)
             boundary->point_node[boundary->points++] = i;
-    boundary->version = system->version;
+    boundary->system_version = system->version;
     boundary->has_valid_boxes = false;
 }
 
 /* ---- search for near edges ---------------------------------------------- */
 
-static void extend_box(Box2 *box, int k, double from, double to)
+static void extend_box(SweptBox *box, int k, double from, double to)
 {
     box->low[k] = from < box->low[k] ? from : box->low[k];
     box->high[k] = to > box->high[k] ? to : box->high[k];
 }
 
-static const Box2 empty_box = {
+static const SweptBox empty_box = {
     {INFINITY, INFINITY}, {-INFINITY, -INFINITY}, -1};
 
 /* Orders boxes for qsort: by left side, then by spring. */
-static int compare_left_sides(const void *one, const void *other)
+static int compare_box_left_sides(const void *one, const void *other)
 {
-    const Box2 *a = one, *b = other;
+    const SweptBox *a = one, *b = other;
     if (a->low[0] != b->low[0])
         return a->low[0] < b->low[0] ? -1 : 1;
     return a->edge_spring - b->edge_spring;
@@ -99,7 +99,7 @@ static void compute_boxes(Boundary *boundary, const System *system)
     const double *x = boundary->x, *p = boundary->is_swept ? boundary->p : NULL;
     double *mean = boundary->mean_p;
     boundary->widest_edge = mean[0] = mean[1] = 0;
-    Box2 all = empty_box;
+    SweptBox all = empty_box;
     for (int i = 0; i < boundary->points; i++) {
         int node = boundary->point_node[i];
         for (int c = 0; c < 2; c++) {
@@ -111,20 +111,20 @@ static void compute_boxes(Boundary *boundary, const System *system)
     boundary->sorts_by_y = all.high[1] - all.low[1] > all.high[0] - all.low[0];
     for (int i = 0; i < boundary->points; i++) {
         int node = boundary->point_node[i];
-        Box2 *box = &boundary->point_box[node];
+        SweptBox *box = &boundary->point_box[node];
         *box = empty_box;
         for (int c = 0; c < 2; c++) {
             double way = p ? boundary->alpha * (p[2 * node + c] - mean[c]) : 0;
-            extend_box(box, boundary->sorts_by_y ? 1 - c : c,
-                       x[2 * node + c] - boundary->margin + (way < 0 ? way : 0),
-                       x[2 * node + c] + boundary->margin +
-                           (way > 0 ? way : 0));
+            extend_box(
+                box, boundary->sorts_by_y ? 1 - c : c,
+                x[2 * node + c] - boundary->box_margin + (way < 0 ? way : 0),
+                x[2 * node + c] + boundary->box_margin + (way > 0 ? way : 0));
         }
     }
     for (int k = 0; k < boundary->edges; k++) {
-        Box2 *box = &boundary->edge_box[k];
+        SweptBox *box = &boundary->edge_box[k];
         int s = box->edge_spring;
-        const Box2 *other = &boundary->point_box[system->e[2 * s + 1]];
+        const SweptBox *other = &boundary->point_box[system->e[2 * s + 1]];
         *box = boundary->point_box[system->e[2 * s]];
         box->edge_spring = s;
         for (int c = 0; c < 2; c++)
@@ -133,8 +133,8 @@ static void compute_boxes(Boundary *boundary, const System *system)
         boundary->widest_edge =
             wide > boundary->widest_edge ? wide : boundary->widest_edge;
     }
-    qsort(boundary->edge_box, (size_t)boundary->edges, sizeof(Box2),
-          compare_left_sides);
+    qsort(boundary->edge_box, (size_t)boundary->edges, sizeof(SweptBox),
+          compare_box_left_sides);
 }
 
 /* Returns the first sorted edge whose box may reach the coordinate `left`. */
@@ -156,11 +156,11 @@ static int search_next_edge(const Boundary *boundary, const System *system,
                             int i, int *cursor)
 {
     int node = boundary->point_node[i];
-    const Box2 *own = &boundary->point_box[node];
+    const SweptBox *own = &boundary->point_box[node];
     int k = *cursor > 0 ? *cursor : find_first_edge(boundary, own->low[0]);
     for (; k < boundary->edges && boundary->edge_box[k].low[0] <= own->high[0];
          k++) {
-        const Box2 *box = &boundary->edge_box[k];
+        const SweptBox *box = &boundary->edge_box[k];
         const int *end = system->e + 2 * box->edge_spring;
         if (box->low[1] > own->high[1] || box->high[1] < own->low[1] ||
             box->high[0] < own->low[0] || end[0] == node || end[1] == node)
@@ -178,35 +178,35 @@ void boundary_update(Boundary *boundary, const System *system, const double *x,
     size_t bytes = 2 * (size_t)boundary->mesh.nodes * sizeof *x;
     int room = NEAR_EDGES_PER_NODE * boundary->mesh.nodes, count = 0,
         cursor = 0, edge;
-    if (boundary->version != system->version)
+    if (boundary->system_version != system->version)
         find_boundary(boundary, system);
     if (boundary->has_valid_boxes && boundary->is_swept == (p != NULL) &&
-        boundary->alpha == alpha && boundary->margin == margin &&
+        boundary->alpha == alpha && boundary->box_margin == margin &&
         memcmp(boundary->x, x, bytes) == 0 &&
         (!p || memcmp(boundary->p, p, bytes) == 0))
         return;
     boundary->has_valid_boxes = true;
     boundary->is_swept = p != NULL;
     boundary->alpha = alpha;
-    boundary->margin = margin;
+    boundary->box_margin = margin;
     memcpy(boundary->x, x, bytes);
     if (p)
         memcpy(boundary->p, p, bytes);
     compute_boxes(boundary, system);
-    boundary->has_near_edges = true;
-    for (int i = 0; i < boundary->points && boundary->has_near_edges; i++) {
+    boundary->has_all_near_edges = true;
+    for (int i = 0; i < boundary->points && boundary->has_all_near_edges; i++) {
         while ((edge = search_next_edge(boundary, system, i, &cursor)) >= 0 &&
                count < room)
             boundary->near_edge[count++] = edge;
         boundary->near_list_end[i] = count;
-        boundary->has_near_edges = edge < 0;
+        boundary->has_all_near_edges = edge < 0;
     }
 }
 
 int boundary_next_edge(const Boundary *boundary, const System *system, int i,
                        int *cursor)
 {
-    if (!boundary->has_near_edges)
+    if (!boundary->has_all_near_edges)
         return search_next_edge(boundary, system, i, cursor);
     int first = i > 0 ? boundary->near_list_end[i - 1] : 0;
     int k = *cursor > 0 ? *cursor : first;

@@ -13,24 +13,24 @@
 static bool cell_get_element(const EvalPoint *at, int t, double way,
                              Element *element)
 {
-    const Cells *cells = at->term->data;
+    const CellBarriers *cells = at->term->data;
     const double *k = at->system->k;
     const int *node = cells->triangles.node[t], *side = cells->side_springs[t];
     double e[4], unit = cells->triangles.inverse_J0;
     subtract_node(at->x, node[1], node[2], node[0], e);
     double sides = fabs(e[0]) + fabs(e[1]) + fabs(e[2]) + fabs(e[3]);
-    double J = cross(e, e + 2) / (2 * cells->triangles.area);
+    double J = cross(e, e + 2) / (2 * cells->triangles.rest_area);
     if (J >= CELL_J_HAT + unit * way * (sides + way) ||
         !(k[side[0]] > 0 && k[side[1]] > 0 && k[side[2]] > 0))
         return false;
-    triangle_set_element(at, t, element);
+    fill_triangle_element(at, t, element);
     element->s = J;
     return true;
 }
 
 static double cell_value(const EvalPoint *at, const Element *element)
 {
-    const Cells *cells = at->term->data;
+    const CellBarriers *cells = at->term->data;
     return cells->c * barrier_value(element->s / CELL_J_HAT);
 }
 
@@ -38,9 +38,9 @@ static double cell_value(const EvalPoint *at, const Element *element)
 static void cell_gradient(const EvalPoint *at, const Element *element,
                           double g[4])
 {
-    const Cells *cells = at->term->data;
+    const CellBarriers *cells = at->term->data;
     const double *e1 = element->v, *e2 = element->v + 2;
-    double factor = cells->c / CELL_J_HAT / (2 * cells->triangles.area) *
+    double factor = cells->c / CELL_J_HAT / (2 * cells->triangles.rest_area) *
                     barrier_slope(element->s / CELL_J_HAT);
     g[0] = factor * e2[1];
     g[1] = -factor * e2[0];
@@ -51,7 +51,7 @@ static void cell_gradient(const EvalPoint *at, const Element *element,
 static bool cell_hessian(const EvalPoint *at, const Element *element,
                          Projection projection, double H[4][4])
 {
-    const Cells *cells = at->term->data;
+    const CellBarriers *cells = at->term->data;
     double s = element->s / CELL_J_HAT, q = cells->triangles.inverse_J0;
     double slope = cells->c / CELL_J_HAT * barrier_slope(s) * q;
     double bend = cells->c / (CELL_J_HAT * CELL_J_HAT) * barrier_curvature(s);
@@ -65,9 +65,9 @@ static bool cell_hessian(const EvalPoint *at, const Element *element,
 static double cell_line_remainder(const EvalPoint *at, const Element *element,
                                   const double P[4], double alpha)
 {
-    const Cells *cells = at->term->data;
+    const CellBarriers *cells = at->term->data;
     double J1, J2, s = element->s / CELL_J_HAT;
-    area_expand_along(element->v, cells->triangles.inverse_J0, P, &J1, &J2);
+    area_line_polynomial(element->v, cells->triangles.inverse_J0, P, &J1, &J2);
     J1 *= alpha;
     J2 *= alpha * alpha;
     return cells->c * (barrier_slope(s) * J2 / CELL_J_HAT +
@@ -77,19 +77,19 @@ static double cell_line_remainder(const EvalPoint *at, const Element *element,
 /* Returns the curvature where the barrier begins, with sides as at rest. */
 static double cell_curvature_bound(const EvalPoint *at)
 {
-    const Cells *cells = at->term->data;
-    return 2 * cells->c / CELL_J_HAT / CELL_J_HAT / cells->triangles.area;
+    const CellBarriers *cells = at->term->data;
+    return 2 * cells->c / CELL_J_HAT / CELL_J_HAT / cells->triangles.rest_area;
 }
 
 static const ElementKind triangle = {
-    .count = triangle_count,
+    .count_elements = count_triangles,
     .get_element = cell_get_element,
-    .block_nodes = triangle_block_nodes,
+    .get_block_nodes = get_triangle_block_nodes,
     .value = cell_value,
     .gradient = cell_gradient,
     .hessian = cell_hessian,
     .line_remainder = cell_line_remainder,
-    .block_count = triangle_count,
+    .count_blocks = count_triangles,
     .max_step = triangle_max_step,
 };
 
@@ -105,14 +105,14 @@ Status cells_configure(System *system, const SquareMesh *shape,
                        double stiffness)
 {
     int count = 4 * shape->cells;
-    Cells *cells = system_add_term(
+    CellBarriers *cells = system_add_term(
         system, &cell_energy,
         sizeof *cells + 2 * (size_t)count * sizeof *cells->side_springs);
     if (!cells)
         return STATUS_OUT_OF_MEMORY;
     Triangles *triangles = &cells->triangles;
     *triangles = make_right_triangles(count, shape->spacing, cells + 1);
-    cells->c = triangles->area * stiffness;
+    cells->c = triangles->rest_area * stiffness;
     cells->side_springs = triangles->node + count;
     for (int t = 0; t < count; t++)
         square_mesh_get_triangle(shape, t, triangles->node[t],

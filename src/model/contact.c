@@ -8,21 +8,21 @@
 #include "model/barrier.h"
 #include "model/elements.h"
 
-const double *obstacle_origin(const Obstacle *obstacle, const double *x)
+const double *obstacle_get_position(const Obstacle *obstacle, const double *x)
 {
     return obstacle->node < 0 ? obstacle->o : x + 2 * obstacle->node;
 }
 
-Gap contact_measure_gap(const Obstacle *obstacle, const double *o,
-                        const double *x_i, double radius)
+NodeGap contact_measure_gap(const Obstacle *obstacle, const double *o,
+                            const double *x_i, double radius)
 {
     double D[2] = {x_i[0] - o[0], x_i[1] - o[1]};
     const double *n = obstacle->n;
     if (obstacle->kind == OBSTACLE_WALL)
-        return (Gap){
+        return (NodeGap){
             n[0] * D[0] + n[1] * D[1] - radius, {n[0], n[1]}, INFINITY};
     double r = math_hypot(D[0], D[1]);
-    return (Gap){r - (obstacle->radius + radius), {D[0] / r, D[1] / r}, r};
+    return (NodeGap){r - (obstacle->radius + radius), {D[0] / r, D[1] / r}, r};
 }
 
 double contact_normal_force(const Barrier *barrier, double d)
@@ -32,13 +32,13 @@ double contact_normal_force(const Barrier *barrier, double d)
 
 /* ---- pairs of a node and an obstacle ------------------------------------ */
 
-Contact *contact_of(const System *system)
+Contact *get_contact(const System *system)
 {
     return system_term_data(system, &contact_energy);
 }
 
-bool contact_counts_pair(const Contact *contact, const System *system, int node,
-                         int obstacle)
+bool contact_includes_pair(const Contact *contact, const System *system,
+                           int node, int obstacle)
 {
     int ball = contact->obstacle[obstacle].node;
     bool held = system->pinned[node] && !system->pin_v &&
@@ -60,7 +60,7 @@ static const Barrier *contact_barrier(const EvalPoint *at)
 }
 
 /* Pairs are numbered by obstacle, and for each obstacle by node. */
-static int contact_count(const EvalPoint *at)
+static int count_contact_pairs(const EvalPoint *at)
 {
     const Contact *contact = at->term->data;
     return contact->obstacles * at->system->nodes;
@@ -73,12 +73,12 @@ static bool contact_get_element(const EvalPoint *at, int i, double way,
     const Contact *contact = at->term->data;
     int nodes = at->system->nodes, obstacle = i < nodes ? 0 : i / nodes;
     int node = i - obstacle * nodes;
-    if (!contact_counts_pair(contact, at->system, node, obstacle))
+    if (!contact_includes_pair(contact, at->system, node, obstacle))
         return false;
     const Obstacle *other = &contact->obstacle[obstacle];
-    Gap gap = contact_measure_gap(other, obstacle_origin(other, at->x),
-                                  at->x + 2 * node,
-                                  contact_node_radius(contact, node));
+    NodeGap gap = contact_measure_gap(
+        other, obstacle_get_position(other, at->x), at->x + 2 * node,
+        contact_node_radius(contact, node));
     if (gap.d >= contact->barrier.d_hat + way)
         return false;
     element->vector_count = 1;
@@ -86,8 +86,8 @@ static bool contact_get_element(const EvalPoint *at, int i, double way,
     element->node[0] = element->block_index = node;
     element->node[1] = other->node;
     element->partner = obstacle;
-    element->weight = difference;
-    element->factor = 1;
+    element->node_weight = difference;
+    element->derivative_factor = 1;
     element->s = gap.d;
     element->n[0] = gap.n[0];
     element->n[1] = gap.n[1];
@@ -98,14 +98,14 @@ static bool contact_get_element(const EvalPoint *at, int i, double way,
 /* Each node has one block.  With a free ball the block has two nodes, the node
  * and the ball's.  The ball's own block has a neighbour as its second node, so
  * that all blocks have equally many entries. */
-static int contact_block_count(const EvalPoint *at)
+static int count_contact_blocks(const EvalPoint *at)
 {
     return at->system->nodes;
 }
 
-static int contact_block_nodes(const EvalPoint *at, int block, int node[3])
+static int get_contact_block_nodes(const EvalPoint *at, int block, int node[3])
 {
-    const Contact *contact = contact_of(at->system);
+    const Contact *contact = get_contact(at->system);
     node[0] = block;
     if (contact->free_ball < 0)
         return 1;
@@ -211,14 +211,14 @@ static double contact_friction_limit(const EvalPoint *at,
 }
 
 static const ElementKind pairs = {
-    .count = contact_count,
+    .count_elements = count_contact_pairs,
     .get_element = contact_get_element,
-    .block_nodes = contact_block_nodes,
+    .get_block_nodes = get_contact_block_nodes,
     .value = contact_value,
     .gradient = contact_gradient,
     .hessian = contact_hessian,
     .line_remainder = contact_line_remainder,
-    .block_count = contact_block_count,
+    .count_blocks = count_contact_blocks,
     .max_step = contact_max_step,
     .friction_limit = contact_friction_limit,
 };

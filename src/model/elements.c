@@ -15,12 +15,12 @@ ElementIterator elements_begin(const EvalPoint *at, const double *p,
     /* The change of a is alpha |sum w_k p_k|: sum |w_k| is at most 2, and |p_k|
      * at most 1.5 times its larger coordinate. */
     double way = 3 * alpha * most;
-    return (ElementIterator){at, kind, way, -1, kind->count(at), {0}};
+    return (ElementIterator){at, kind, way, -1, kind->count_elements(at), {0}};
 }
 
 bool elements_next(ElementIterator *walk)
 {
-    while (walk->element.search_cursor > 0 || ++walk->i < walk->count)
+    while (walk->element.search_cursor > 0 || ++walk->i < walk->element_count)
         if (walk->kind->get_element(walk->point, walk->i, walk->motion_bound,
                                     &walk->element))
             return true;
@@ -37,7 +37,7 @@ static void element_add_vector(const Element *element, double factor,
     for (int i = 0; i < 2 * element->node_count; i++) {
         double sum = 0;
         for (int m = 0; m < element->vector_count; m++)
-            sum += element->weight[m][i / 2] * g[2 * m + i % 2];
+            sum += element->node_weight[m][i / 2] * g[2 * m + i % 2];
         out[2 * element->node[i / 2] + i % 2] += factor * sum;
     }
 }
@@ -57,7 +57,8 @@ void elements_gradient(const EvalPoint *at, double *g)
     for (ElementIterator walk = elements_begin(at, NULL, 0);
          elements_next(&walk);) {
         walk.kind->gradient(at, &walk.element, own);
-        element_add_vector(&walk.element, walk.element.factor, own, g);
+        element_add_vector(&walk.element, walk.element.derivative_factor, own,
+                           g);
     }
 }
 
@@ -69,20 +70,20 @@ static const int part[BLOCK_PARTS][2] = {{0, 0}, {1, 1}, {2, 2},
 /* Returns the number of triplets of a block, the same for every block. */
 static int count_block_entries(const EvalPoint *at)
 {
-    int node[3], nodes = at->term->kind->element->block_nodes(at, 0, node);
+    int node[3], nodes = at->term->kind->element->get_block_nodes(at, 0, node);
     return nodes * (2 * nodes + 1);
 }
 
-void elements_pattern(const EvalPoint *at, Triplets *triplets)
+void elements_add_triplets(const EvalPoint *at, Triplets *triplets)
 {
     const ElementKind *kind = at->term->kind->element;
-    int node[3], blocks = kind->block_count(at);
+    int node[3], blocks = kind->count_blocks(at);
     for (int b = 0; b < blocks; b++) {
-        int nodes = kind->block_nodes(at, b, node);
+        int nodes = kind->get_block_nodes(at, b, node);
         for (int i = 0; i < BLOCK_PARTS; i++)
             if (part[i][1] < nodes)
-                term_add_block(at->system, node[part[i][0]], node[part[i][1]],
-                               triplets);
+                add_block_triplets(at->system, node[part[i][0]],
+                                   node[part[i][1]], triplets);
     }
 }
 
@@ -103,32 +104,33 @@ static inline void element_add_hessian(const Element *element, int vectors,
                 for (int n = 0; n < vectors; n++) {
                     double column = 0;
                     for (int m = 0; m < vectors; m++)
-                        column +=
-                            element->weight[m][k] * H[2 * m + r][2 * n + c];
-                    sum += element->weight[n][l] * column;
+                        column += element->node_weight[m][k] *
+                                  H[2 * m + r][2 * n + c];
+                    sum += element->node_weight[n][l] * column;
                 }
-                out[*slot++] += element->factor * sum;
+                out[*slot++] += element->derivative_factor * sum;
             }
     }
 }
 
 /* Adds the product of an element's Hessian with q [2n] to out [2n]. */
-static bool add_product(const ElementIterator *walk, Projection projection,
-                        const double *q, double *out)
+static bool add_hessian_q(const ElementIterator *walk, Projection projection,
+                          const double *q, double *out)
 {
     const Element *element = &walk->element;
     double H[4][4], v[4], Hv[4] = {0};
     bool changed;
-    element_get_vectors(element, q, v);
-    if (walk->kind->product) {
-        changed = walk->kind->product(walk->point, element, projection, v, Hv);
+    element_compute_weighted_sums(element, q, v);
+    if (walk->kind->apply_hessian) {
+        changed =
+            walk->kind->apply_hessian(walk->point, element, projection, v, Hv);
     } else {
         changed = walk->kind->hessian(walk->point, element, projection, H);
         for (int r = 0; r < 2 * element->vector_count; r++)
             for (int c = 0; c < 2 * element->vector_count; c++)
                 Hv[r] += H[r][c] * v[c];
     }
-    element_add_vector(element, element->factor, Hv, out);
+    element_add_vector(element, element->derivative_factor, Hv, out);
     return changed;
 }
 
@@ -141,7 +143,7 @@ int elements_hessian(const EvalPoint *at, Projection projection,
          elements_next(&walk);) {
         const Element *element = &walk.element;
         if (q) {
-            projected += add_product(&walk, projection, q, out);
+            projected += add_hessian_q(&walk, projection, q, out);
             continue;
         }
         projected += walk.kind->hessian(at, element, projection, H);
@@ -152,7 +154,7 @@ int elements_hessian(const EvalPoint *at, Projection projection,
             element_add_hessian(element, 2, H, first, out);
     }
     if (!q)
-        *slot += entries * at->term->kind->element->block_count(at);
+        *slot += entries * at->term->kind->element->count_blocks(at);
     return projected;
 }
 
@@ -162,7 +164,7 @@ double elements_line_remainder(const EvalPoint *at, const double *p,
     double sum = 0, P[4];
     for (ElementIterator walk = elements_begin(at, p, alpha);
          elements_next(&walk);) {
-        element_get_vectors(&walk.element, p, P);
+        element_compute_weighted_sums(&walk.element, p, P);
         sum += walk.kind->line_remainder(at, &walk.element, P, alpha);
     }
     return at->weight * sum;
@@ -173,7 +175,7 @@ double elements_max_step(const EvalPoint *at, const double *p)
     double smallest = INFINITY, P[4];
     ElementIterator walk = elements_begin(at, p, 1);
     while (walk.kind->max_step && elements_next(&walk)) {
-        element_get_vectors(&walk.element, p, P);
+        element_compute_weighted_sums(&walk.element, p, P);
         double alpha = walk.kind->max_step(at, &walk.element, P);
         smallest = alpha <= 1 ? fmin(smallest, alpha) : smallest;
     }

@@ -24,7 +24,7 @@ double fracture_strength(const Fracture *fracture, int s)
 /* Orders candidates for qsort: largest load first, equal loads by spring. */
 static int compare_loads(const void *one, const void *other)
 {
-    const Overload *a = one, *b = other;
+    const SpringLoad *a = one, *b = other;
     if (a->load != b->load)
         return a->load > b->load ? -1 : 1;
     return a->spring - b->spring;
@@ -41,9 +41,9 @@ static int find_overloaded_springs(Fracture *fracture, const System *system,
         double strain = spring_strain(d2, system->l2[s]);
         double load = strain / fracture_strength(fracture, s);
         if (load > 1 && !spring_is_broken(system, s))
-            fracture->overload[count++] = (Overload){load, s};
+            fracture->overload[count++] = (SpringLoad){load, s};
     }
-    qsort(fracture->overload, (size_t)count, sizeof(Overload), compare_loads);
+    qsort(fracture->overload, (size_t)count, sizeof(SpringLoad), compare_loads);
     return count;
 }
 
@@ -84,7 +84,7 @@ static Status fracture_configure(System *system, const struct SquareMesh *mesh,
     if (!data)
         return STATUS_OUT_OF_MEMORY;
     data->strength = number[0];
-    data->overload = (Overload *)(data + 1);
+    data->overload = (SpringLoad *)(data + 1);
     data->has_new_break = (unsigned char *)(data->overload + springs);
     return STATUS_OK;
 }

@@ -58,9 +58,9 @@ static double compute_slip(const SlidingContact *contact, double h,
                            const double *v)
 {
     double vectors[4];
-    element_get_vectors(&contact->element, v, vectors);
+    element_compute_weighted_sums(&contact->element, v, vectors);
     return h * tangential_component(&contact->element, vectors) -
-           contact->travel;
+           contact->obstacle_travel;
 }
 
 /* Returns the evaluation point for the contact term of this friction. */
@@ -86,21 +86,21 @@ static Status friction_begin_step(const TermStep *step)
          elements_next(&walk);) {
         SlidingContact contact = {walk.element, 0};
         contact.element.r = walk.kind->friction_limit(
-            &at, &walk.element, contact.element.v, &contact.travel);
-        contact.element.factor = 1;
+            &at, &walk.element, contact.element.v, &contact.obstacle_travel);
+        contact.element.derivative_factor = 1;
         contact.element.search_cursor = 0;
-        contact.travel *= step->h;
+        contact.obstacle_travel *= step->h;
         if (!(contact.element.r > 0))
             continue;
-        if (friction->contacts == friction->capacity) {
-            int room = 2 * friction->capacity + 64;
+        if (friction->contacts == friction->contact_capacity) {
+            int room = 2 * friction->contact_capacity + 64;
             friction =
                 realloc(step->term->data,
                         sizeof *friction + (size_t)room * sizeof contact);
             if (!friction)
                 return STATUS_OUT_OF_MEMORY;
             step->term->data = friction;
-            friction->capacity = room;
+            friction->contact_capacity = room;
         }
         friction->contact[friction->contacts++] = contact;
     }
@@ -120,14 +120,14 @@ static void friction_end_step(const TermStep *step)
     }
 }
 
-static const Friction *friction_of(const EvalPoint *at)
+static const Friction *friction_data(const EvalPoint *at)
 {
     return at->term->data;
 }
 
-static int slip_count(const EvalPoint *at)
+static int count_slips(const EvalPoint *at)
 {
-    return friction_of(at)->contacts;
+    return friction_data(at)->contacts;
 }
 
 /* Element i is contact i; Element.s is the slip y, m.  Returns false
@@ -135,7 +135,7 @@ static int slip_count(const EvalPoint *at)
 static bool slip_get_element(const EvalPoint *at, int i, double way,
                              Element *element)
 {
-    const SlidingContact *contact = &friction_of(at)->contact[i];
+    const SlidingContact *contact = &friction_data(at)->contact[i];
     (void)way;
     if (!at->u)
         return false;
@@ -145,28 +145,28 @@ static bool slip_get_element(const EvalPoint *at, int i, double way,
 }
 
 /* The Hessian of friction has the same blocks as that of its contact term. */
-static int slip_block_count(const EvalPoint *at)
+static int count_slip_blocks(const EvalPoint *at)
 {
     EvalPoint source = select_contact_term(at);
-    return source.term->kind->element->block_count(&source);
+    return source.term->kind->element->count_blocks(&source);
 }
 
-static int slip_block_nodes(const EvalPoint *at, int block, int node[3])
+static int get_slip_block_nodes(const EvalPoint *at, int block, int node[3])
 {
     EvalPoint source = select_contact_term(at);
-    return source.term->kind->element->block_nodes(&source, block, node);
+    return source.term->kind->element->get_block_nodes(&source, block, node);
 }
 
 static double slip_value(const EvalPoint *at, const Element *element)
 {
-    return element->r * friction_value(element->s, friction_of(at)->e);
+    return element->r * friction_value(element->s, friction_data(at)->e);
 }
 
 static void slip_gradient(const EvalPoint *at, const Element *element,
                           double g[4])
 {
     double force = at->weight * element->r *
-                   friction_slope(element->s, friction_of(at)->e);
+                   friction_slope(element->s, friction_data(at)->e);
     for (int i = 0; i < 4; i++)
         g[i] = force * element->v[i];
 }
@@ -176,7 +176,7 @@ static bool slip_hessian(const EvalPoint *at, const Element *element,
                          Projection projection, double H[4][4])
 {
     double bend = at->weight * element->r *
-                  friction_curvature(element->s, friction_of(at)->e);
+                  friction_curvature(element->s, friction_data(at)->e);
     (void)projection;
     for (int i = 0; i < 4; i++)
         for (int k = i; k < 4; k++)
@@ -190,18 +190,18 @@ static double slip_line_remainder(const EvalPoint *at, const Element *element,
     return element->r *
            friction_taylor_remainder(element->s,
                                      alpha * tangential_component(element, P),
-                                     friction_of(at)->e);
+                                     friction_data(at)->e);
 }
 
 static const ElementKind slips = {
-    .count = slip_count,
+    .count_elements = count_slips,
     .get_element = slip_get_element,
-    .block_nodes = slip_block_nodes,
+    .get_block_nodes = get_slip_block_nodes,
     .value = slip_value,
     .gradient = slip_gradient,
     .hessian = slip_hessian,
     .line_remainder = slip_line_remainder,
-    .block_count = slip_block_count,
+    .count_blocks = count_slip_blocks,
 };
 
 /* The TermKind of both terms begins with these functions. */
@@ -222,7 +222,7 @@ double friction_work_of_obstacles(const System *system, const double *u)
         const SlidingContact *contact = &friction->contact[i];
         double y = compute_slip(contact, 1, u);
         sum -= contact->element.r * friction_slope(y, friction->e) *
-               contact->travel;
+               contact->obstacle_travel;
     }
     return sum;
 }

@@ -35,7 +35,7 @@ static int mass_spring_hessian(const EvalPoint *at, Projection projection,
         spring_vector(e, at->x, d);
         projected +=
             spring_hessian(d, at->l2[s], at->weight * at->k[s], projection, H);
-        mass_spring_add(H, e, slot, q, out);
+        mass_spring_add_block(H, e, slot, q, out);
     }
     return projected;
 }
@@ -59,13 +59,13 @@ static void mass_spring_line_polynomial(const EvalPoint *at, const double *p,
     }
 }
 
-void mass_spring_pattern(const EvalPoint *at, Triplets *triplets)
+void mass_spring_add_triplets(const EvalPoint *at, Triplets *triplets)
 {
     for (int s = 0; s < at->system->springs; s++) {
         int i = at->system->e[2 * s], j = at->system->e[2 * s + 1];
-        term_add_block(at->system, i, i, triplets);
-        term_add_block(at->system, j, j, triplets);
-        term_add_block(at->system, i, j, triplets);
+        add_block_triplets(at->system, i, i, triplets);
+        add_block_triplets(at->system, j, j, triplets);
+        add_block_triplets(at->system, i, j, triplets);
     }
 }
 
@@ -81,7 +81,7 @@ const TermKind mass_spring_energy = {
     .energy_name = "elastic",
     .value = mass_spring_value,
     .gradient = mass_spring_gradient,
-    .pattern = mass_spring_pattern,
+    .add_triplets = mass_spring_add_triplets,
     .hessian = mass_spring_hessian,
     .line_polynomial = mass_spring_line_polynomial,
     .curvature_bound = mass_spring_curvature_bound,

@@ -14,7 +14,7 @@ static bool neo_hookean_get_element(const EvalPoint *at, int t, double way,
 {
     const NeoHookean *data = at->term->data;
     (void)way;
-    triangle_set_element(at, t, element);
+    fill_triangle_element(at, t, element);
     element->s = data->triangles.inverse_J0 * cross(element->v, element->v + 2);
     return true;
 }
@@ -36,14 +36,14 @@ static double neo_hookean_value(const EvalPoint *at, const Element *element)
 {
     const NeoHookean *data = at->term->data;
     double plus[2], minus[2], L = math_log(element->s);
-    area_split(element->v, plus, minus);
+    area_split_edges(element->v, plus, minus);
     double shear = 2 * data->triangles.inverse_J0 * squared_length(minus);
-    return data->triangles.area *
+    return data->triangles.rest_area *
            (data->mu * (shear + compute_volume_energy(element->s)) +
             0.5 * data->lambda * L * L);
 }
 
-/* Writes the factors of F+ and F- (area_split) in the stress dW/dF/A0. */
+/* Writes the factors of F+ and F- in the stress dW/dF/A0. */
 static void compute_stresses(const NeoHookean *data, double J, double *on_plus,
                              double *on_minus)
 {
@@ -57,7 +57,7 @@ static void neo_hookean_gradient(const EvalPoint *at, const Element *element,
                                  double g[4])
 {
     double plus[2], minus[2], p, q;
-    area_split(element->v, plus, minus);
+    area_split_edges(element->v, plus, minus);
     compute_stresses(at->term->data, element->s, &p, &q);
     g[0] = 0.5 * (p * plus[0] + q * minus[0]);
     g[1] = 0.5 * (p * plus[1] + q * minus[1]);
@@ -74,7 +74,7 @@ static bool project_hessian(const EvalPoint *at, const Element *element,
     double bend = (data->lambda * (1 - math_log(J)) + data->mu) / (J * J);
     compute_stresses(data, J, &p, &q);
     return area_project_hessian(element->v, data->triangles.inverse_J0, 0.5 * p,
-                                0.5 * q, data->triangles.area * bend,
+                                0.5 * q, data->triangles.rest_area * bend,
                                 projection, area);
 }
 
@@ -87,13 +87,14 @@ static bool neo_hookean_hessian(const EvalPoint *at, const Element *element,
     return changed;
 }
 
-static bool neo_hookean_product(const EvalPoint *at, const Element *element,
-                                Projection projection, const double v[4],
-                                double Hv[4])
+static bool neo_hookean_apply_hessian(const EvalPoint *at,
+                                      const Element *element,
+                                      Projection projection, const double v[4],
+                                      double Hv[4])
 {
     AreaHessian area;
     bool changed = project_hessian(at, element, projection, &area);
-    area_multiply_hessian(&area, v, Hv);
+    area_apply_hessian(&area, v, Hv);
     return changed;
 }
 
@@ -106,8 +107,8 @@ static double neo_hookean_line_remainder(const EvalPoint *at,
     const NeoHookean *data = at->term->data;
     double J1, J2, plus[2], minus[2], J = element->s,
                                       unit = data->triangles.inverse_J0;
-    area_expand_along(element->v, unit, P, &J1, &J2);
-    area_split(P, plus, minus);
+    area_line_polynomial(element->v, unit, P, &J1, &J2);
+    area_split_edges(P, plus, minus);
     double bent = alpha * alpha * J2 / J, z = alpha * J1 / J + bent;
     if (!(z > -1))
         return INFINITY;
@@ -115,7 +116,7 @@ static double neo_hookean_line_remainder(const EvalPoint *at,
     double straight =
         alpha * alpha * unit / J *
         ((J - 1) * squared_length(plus) + (J + 1) * squared_length(minus));
-    return data->triangles.area *
+    return data->triangles.rest_area *
            (data->mu * (straight - curved) +
             0.5 * data->lambda * (2 * math_log(J) * t + L * L));
 }
@@ -129,16 +130,16 @@ static double neo_hookean_curvature_bound(const EvalPoint *at)
 }
 
 static const ElementKind triangle = {
-    .count = triangle_count,
+    .count_elements = count_triangles,
     .get_element = neo_hookean_get_element,
-    .block_nodes = triangle_block_nodes,
+    .get_block_nodes = get_triangle_block_nodes,
     .value = neo_hookean_value,
     .gradient = neo_hookean_gradient,
     .hessian = neo_hookean_hessian,
     .line_remainder = neo_hookean_line_remainder,
-    .block_count = triangle_count,
+    .count_blocks = count_triangles,
     .max_step = triangle_max_step,
-    .product = neo_hookean_product,
+    .apply_hessian = neo_hookean_apply_hessian,
 };
 
 /* Cuts each cell into two triangles, along bd if column + row is odd, else

@@ -60,7 +60,7 @@ static inline FlowLaw make_flow_law(const Plasticity *data, int s)
                      .plastic_slope = 1 - flow};
 }
 
-FlowLaw plasticity_get_law(const System *system, int s)
+FlowLaw plasticity_get_flow_law(const System *system, int s)
 {
     const Plasticity *data = system_term_data(system, &plastic_energy);
     return data ? make_flow_law(data, s)
@@ -136,7 +136,7 @@ static int plastic_hessian(const EvalPoint *at, Projection projection,
         const double H[3] = {factor * (across + difference * d[0] * d[0]),
                              factor * difference * d[0] * d[1],
                              factor * (across + difference * d[1] * d[1])};
-        mass_spring_add(H, spring.e, slot, q, out);
+        mass_spring_add_block(H, spring.e, slot, q, out);
     }
     return projected;
 }
@@ -240,7 +240,7 @@ const TermKind plastic_energy = {
     .loss_name = "plastic",
     .value = plastic_value,
     .gradient = plastic_gradient,
-    .pattern = mass_spring_pattern,
+    .add_triplets = mass_spring_add_triplets,
     .hessian = plastic_hessian,
     .line_polynomial = plastic_line_polynomial,
     .line_remainder = plastic_line_remainder,

@@ -6,7 +6,7 @@
 /* k/2 |x - o|^2 */
 static double pull_value(const EvalPoint *at)
 {
-    const Pull *pull = at->term->data;
+    const NodePull *pull = at->term->data;
     double sum = 0;
     for (int i = 0; i < 2; i++) {
         double d = at->x[2 * pull->node + i] - pull->target[i];
@@ -18,23 +18,23 @@ static double pull_value(const EvalPoint *at)
 /* The factor weight k comes first, so that a huge k does not overflow. */
 static void pull_gradient(const EvalPoint *at, double *g)
 {
-    const Pull *pull = at->term->data;
+    const NodePull *pull = at->term->data;
     for (int i = 0; i < 2; i++)
         g[2 * pull->node + i] += at->weight * pull->k *
                                  (at->x[2 * pull->node + i] - pull->target[i]);
 }
 
-static void pull_pattern(const EvalPoint *at, Triplets *triplets)
+static void pull_add_triplets(const EvalPoint *at, Triplets *triplets)
 {
-    const Pull *pull = at->term->data;
-    term_add_diagonal(at->system, pull->node, triplets);
+    const NodePull *pull = at->term->data;
+    add_diagonal_triplets(at->system, pull->node, triplets);
 }
 
 /* The Hessian k I has no negative eigenvalue. */
 static int pull_hessian(const EvalPoint *at, Projection projection,
                         const int **slot, const double *q, double *out)
 {
-    const Pull *pull = at->term->data;
+    const NodePull *pull = at->term->data;
     double k = at->weight * pull->k;
     (void)projection;
     for (int i = 0; i < 2; i++)
@@ -48,30 +48,31 @@ static int pull_hessian(const EvalPoint *at, Projection projection,
 static void pull_line_polynomial(const EvalPoint *at, const double *p,
                                  double q[3])
 {
-    const Pull *pull = at->term->data;
+    const NodePull *pull = at->term->data;
     for (int i = 2 * pull->node; i < 2 * pull->node + 2; i++)
         q[0] += 0.5 * at->weight * pull->k * p[i] * p[i];
 }
 
 static double pull_curvature_bound(const EvalPoint *at)
 {
-    const Pull *pull = at->term->data;
+    const NodePull *pull = at->term->data;
     return fabs(pull->k);
 }
 
 /* The TermKind of both terms begins with these functions. */
 #define PULL                                                                   \
-    .value = pull_value, .gradient = pull_gradient, .pattern = pull_pattern,   \
-    .hessian = pull_hessian, .line_polynomial = pull_line_polynomial,          \
-    .curvature_bound = pull_curvature_bound, .is_diagonal = true,              \
-    .is_external = true, .supports_all_integrators = true
+    .value = pull_value, .gradient = pull_gradient, .hessian = pull_hessian,   \
+    .add_triplets = pull_add_triplets, .is_diagonal = true,                    \
+    .line_polynomial = pull_line_polynomial, .is_external = true,              \
+    .curvature_bound = pull_curvature_bound, .supports_all_integrators = true
 
 const TermKind central_field = {PULL, .energy_name = "elastic"};
 const TermKind hand_energy = {PULL, .rank = RANK_HAND};
 
-Status pull_configure(System *system, const TermKind *kind, const Pull *pull)
+Status pull_configure(System *system, const TermKind *kind,
+                      const NodePull *pull)
 {
-    Pull *own = system_add_term(system, kind, sizeof *own);
+    NodePull *own = system_add_term(system, kind, sizeof *own);
     if (!own)
         return STATUS_OUT_OF_MEMORY;
     *own = *pull;
@@ -79,13 +80,13 @@ Status pull_configure(System *system, const TermKind *kind, const Pull *pull)
     return STATUS_OK;
 }
 
-void hand_begin_step(Pull *hand, const double *x, const double *v, double m,
+void hand_begin_step(NodePull *hand, const double *x, const double *v, double m,
                      double h, const double *free)
 {
     static const double TIME = 0.06, MOST = 0.5, INERTIA = 10, LIMIT = 1e8;
     static const double CELL = 0.5, SPEED = 0.5, SIDE = 1.0 / 64;
     double reach =
-        fmax(CELL * hand->cell_size, fmin(SPEED * h, SIDE) * hand->side);
+        fmax(CELL * hand->cell_size, fmin(SPEED * h, SIDE) * hand->body_side);
     double d[2] = {hand->mouse_xy[0] - x[0], hand->mouse_xy[1] - x[1]};
     double away = sqrt(d[0] * d[0] + d[1] * d[1]);
     double slow = fmin(MOST, h / TIME), part = slow;
@@ -101,7 +102,7 @@ void hand_begin_step(Pull *hand, const double *x, const double *v, double m,
             x[i] + part * d[i] - (free ? h * v[i] + h * h * free[i] : 0);
 }
 
-double hand_work(const Pull *hand, const double *x, const double *y)
+double hand_work(const NodePull *hand, const double *x, const double *y)
 {
     double sum = 0;
     for (int i = 0; i < 2; i++) {

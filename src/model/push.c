@@ -19,11 +19,11 @@ static const double STRENGTH = 0.1;
 /* The obstacle keeps this part of the barrier's width from pinned nodes. */
 static const double KEPT = 0.3;
 
-enum { MAX_HALVINGS = 8, MAX_PARTS = 16 }; /* limits of the path in a step */
+enum { MAX_HALVINGS = 8, MAX_PATH_PARTS = 16 }; /* limits of a step's path */
 
 /* Writes the displacement of a free obstacle in a step of h seconds. */
-static void plan_obstacle_path(const Push *push, const double *o, double h,
-                               double way[2])
+static void plan_obstacle_path(const ObstaclePush *push, const double *o,
+                               double h, double way[2])
 {
     double side = push->mesh.side;
     double d[2] = {push->target[0] - o[0], push->target[1] - o[1]};
@@ -42,11 +42,11 @@ static bool obstacle_is_pressed(const Contact *contact, const System *system,
     int k = contact->hand.obstacle;
     const Obstacle *obstacle = &contact->obstacle[k];
     for (int i = 0; i < system->nodes; i++) {
-        Gap gap = contact_measure_gap(obstacle, obstacle->o, x + 2 * i,
-                                      contact_node_radius(contact, i));
+        NodeGap gap = contact_measure_gap(obstacle, obstacle->o, x + 2 * i,
+                                          contact_node_radius(contact, i));
         if (gap.d < STRENGTH * contact->barrier.d_hat &&
             gap.n[0] * way[0] + gap.n[1] * way[1] > 0 &&
-            contact_counts_pair(contact, system, i, k))
+            contact_includes_pair(contact, system, i, k))
             return true;
     }
     return false;
@@ -62,7 +62,7 @@ static bool obstacle_has_room(const Contact *contact, const System *system,
     const Obstacle *obstacle = &contact->obstacle[k];
     const double keep = KEPT * contact->barrier.d_hat;
     for (int i = 0; i < system->nodes; i++) {
-        if (!system->pinned[i] || contact_counts_pair(contact, system, i, k))
+        if (!system->pinned[i] || contact_includes_pair(contact, system, i, k))
             continue;
         double before =
             contact_measure_gap(obstacle, obstacle->o, x + 2 * i, 0).d;
@@ -84,7 +84,8 @@ static double find_free_path_part(const Contact *contact, const System *system,
     const Obstacle *obstacle = &contact->obstacle[contact->hand.obstacle];
     double length = math_hypot(way[0], way[1]), free = 0, step = 1;
     if (obstacle->kind == OBSTACLE_BALL)
-        step = fmin(fmax(0.5 * obstacle->radius / length, 1.0 / MAX_PARTS), 1);
+        step = fmin(fmax(0.5 * obstacle->radius / length, 1.0 / MAX_PATH_PARTS),
+                    1);
     for (int i = 0; i < MAX_HALVINGS && free < 1;) {
         double part = fmin(free + step, 1);
         const double o[2] = {obstacle->o[0] + part * way[0],
@@ -102,10 +103,10 @@ static double find_free_path_part(const Contact *contact, const System *system,
 void push_begin_step(Contact *contact, const System *system, const double *x,
                      double h)
 {
-    Push *push = &contact->hand;
+    ObstaclePush *push = &contact->hand;
     double way[2];
     push->is_blocked = false;
-    push->free_part = 0;
+    push->free_path_part = 0;
     push->is_held = push->is_held && push->obstacle < contact->obstacles;
     if (!push->is_held)
         return;

@@ -23,14 +23,14 @@ static double dot2(const double a[2], const double b[2])
 
 static int compare_pairs(const void *one, const void *other)
 {
-    const SelfPair *a = one, *b = other;
+    const PointEdgePair *a = one, *b = other;
     return a->node != b->node ? a->node - b->node : a->edge - b->edge;
 }
 
 /* Returns the block of a pair; -1: none. */
-static int find_pair_block(const SelfContact *self, SelfPair pair)
+static int find_pair_block(const SelfContact *self, PointEdgePair pair)
 {
-    const SelfPair *found =
+    const PointEdgePair *found =
         self->pairs == 0 ? NULL
                          : bsearch(&pair, self->pair, (size_t)self->start_pairs,
                                    sizeof pair, compare_pairs);
@@ -40,15 +40,15 @@ static int find_pair_block(const SelfContact *self, SelfPair pair)
     return found ? (int)(found - self->pair) : -1;
 }
 
-static Status add_pair(SelfContact *self, SelfPair pair)
+static Status add_pair(SelfContact *self, PointEdgePair pair)
 {
-    if (self->pairs == self->capacity) {
-        int room = 2 * self->capacity + 64;
-        SelfPair *more = realloc(self->pair, (size_t)room * sizeof *more);
+    if (self->pairs == self->pair_capacity) {
+        int room = 2 * self->pair_capacity + 64;
+        PointEdgePair *more = realloc(self->pair, (size_t)room * sizeof *more);
         if (!more)
             return STATUS_OUT_OF_MEMORY;
         self->pair = more;
-        self->capacity = room;
+        self->pair_capacity = room;
     }
     self->pair[self->pairs++] = pair;
     return STATUS_OK;
@@ -68,9 +68,10 @@ static Status self_contact_begin_step(const TermStep *step)
     for (int i = 0; i < boundary->points && !status; i++)
         while (!status &&
                (edge = boundary_next_edge(boundary, system, i, &cursor)) >= 0)
-            status = add_pair(self, (SelfPair){boundary->point_node[i], edge});
+            status =
+                add_pair(self, (PointEdgePair){boundary->point_node[i], edge});
     int count = self->pairs - old;
-    SelfPair *fresh = self->pair + old;
+    PointEdgePair *fresh = self->pair + old;
     self->pairs = old;
     if (status || count + old == 0)
         return status;
@@ -78,7 +79,7 @@ static Status self_contact_begin_step(const TermStep *step)
     size_t bytes = (size_t)count * sizeof *fresh;
     if (grown || count != old || memcmp(self->pair, fresh, bytes) != 0) {
         system_mark_changed(system, true);
-        boundary->version = system->version; /* the springs did not change */
+        boundary->system_version = system->version; /* same springs */
     }
     memmove(self->pair, fresh, bytes);
     self->pairs = self->start_pairs = count;
@@ -93,18 +94,18 @@ static Status self_contact_extend_pattern(const EvalPoint *at, bool *grown)
          !status && elements_next(&walk);)
         if (walk.element.block_index < 0) {
             *grown = true;
-            status = add_pair(
-                self, (SelfPair){walk.element.node[0], walk.element.partner});
+            status = add_pair(self, (PointEdgePair){walk.element.node[0],
+                                                    walk.element.partner});
         }
     return status;
 }
 
-static int pair_block_count(const EvalPoint *at)
+static int count_pair_blocks(const EvalPoint *at)
 {
     return self_contact_data(at)->pairs;
 }
 
-static int get_pair_nodes(const System *system, SelfPair pair, int node[3])
+static int get_pair_nodes(const System *system, PointEdgePair pair, int node[3])
 {
     node[0] = pair.node;
     node[1] = system->e[2 * pair.edge];
@@ -112,7 +113,7 @@ static int get_pair_nodes(const System *system, SelfPair pair, int node[3])
     return 3;
 }
 
-static int pair_block_nodes(const EvalPoint *at, int block, int node[3])
+static int get_pair_block_nodes(const EvalPoint *at, int block, int node[3])
 {
     const SelfContact *self = self_contact_data(at);
     return self->pairs == 0
@@ -130,13 +131,13 @@ static void gather_near_edges(const EvalPoint *at, const double *p,
                     0.5 * self->d_hat);
 }
 
-static int pair_count(const EvalPoint *at)
+static int count_point_edge_pairs(const EvalPoint *at)
 {
     return self_contact_data(at)->boundary.points;
 }
 
 /* Writes s = d^2/d_hat^2, n and r of an element from its q and e. */
-static void point_edge_distance(const SelfContact *self, Element *element)
+static void set_point_edge_distance(const SelfContact *self, Element *element)
 {
     const double *q = element->v, *e = element->v + 2;
     double along = dot2(q, e), length2 = dot2(e, e), d;
@@ -181,15 +182,15 @@ static bool pair_get_element(const EvalPoint *at, int i, double way,
     int edge;
     while ((edge = boundary_next_edge(boundary, at->system, i,
                                       &element->search_cursor)) >= 0) {
-        const SelfPair pair = {boundary->point_node[i], edge};
+        const PointEdgePair pair = {boundary->point_node[i], edge};
         element->vector_count = 2;
         element->node_count = get_pair_nodes(at->system, pair, element->node);
-        element->weight = differences;
-        element->factor = at->weight;
+        element->node_weight = differences;
+        element->derivative_factor = at->weight;
         element->partner = edge;
         subtract_node(at->x, element->node[0], element->node[2],
                       element->node[1], element->v);
-        point_edge_distance(self, element);
+        set_point_edge_distance(self, element);
         if (!boundary->is_swept && element->s >= 1)
             continue;
         if (is_below_rounding(self, element, at->x))
@@ -345,14 +346,14 @@ static double pair_friction_limit(const EvalPoint *at, const Element *element,
 }
 
 static const ElementKind near_pairs = {
-    .count = pair_count,
+    .count_elements = count_point_edge_pairs,
     .get_element = pair_get_element,
-    .block_nodes = pair_block_nodes,
+    .get_block_nodes = get_pair_block_nodes,
     .value = pair_value,
     .gradient = pair_gradient,
     .hessian = pair_hessian,
     .line_remainder = pair_line_remainder,
-    .block_count = pair_block_count,
+    .count_blocks = count_pair_blocks,
     .prepare = gather_near_edges,
     .max_step = pair_max_step,
     .friction_limit = pair_friction_limit,
@@ -385,7 +386,7 @@ const TermKind self_contact_energy = {
     .free = self_contact_free,
 };
 
-SelfContact *self_contact_of(const System *system)
+SelfContact *get_self_contact(const System *system)
 {
     return system_term_data(system, &self_contact_energy);
 }

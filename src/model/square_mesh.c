@@ -19,7 +19,7 @@ SquareMesh square_mesh_create(int columns, int rows, double side, int bodies)
 
 /* Returns the body of node, cell or edge i; i becomes its number in the body.
  *   total  number of nodes, cells or edges of all bodies */
-static int locate_in_body(const SquareMesh *shape, int total, int *i)
+static int find_place_in_body(const SquareMesh *shape, int total, int *i)
 {
     int each = total / shape->bodies, body = *i / each;
     *i %= each;
@@ -27,21 +27,21 @@ static int locate_in_body(const SquareMesh *shape, int total, int *i)
 }
 
 /* Returns the node of column i, row j; nodes are numbered column by column. */
-static int grid_index(const SquareMesh *shape, int i, int j)
+static int find_node(const SquareMesh *shape, int i, int j)
 {
     return i * (shape->rows + 1) + j;
 }
 
-int square_mesh_locate_body(const SquareMesh *shape, int node)
+int square_mesh_find_body(const SquareMesh *shape, int node)
 {
-    return locate_in_body(shape, shape->nodes, &node);
+    return find_place_in_body(shape, shape->nodes, &node);
 }
 
 /* x_(i,j) = (-side/2 + i spacing, -high/2 + j spacing) */
 void square_mesh_rest_position(const SquareMesh *shape, int i, double x[2])
 {
-    int stride = grid_index(shape, 1, 0);
-    locate_in_body(shape, shape->nodes, &i);
+    int stride = find_node(shape, 1, 0);
+    find_place_in_body(shape, shape->nodes, &i);
     double step = shape->spacing;
     double high =
         shape->rows == shape->segments ? shape->side : shape->rows * step;
@@ -49,10 +49,10 @@ void square_mesh_rest_position(const SquareMesh *shape, int i, double x[2])
     x[1] = -high / 2 + i % stride * step;
 }
 
-int square_mesh_get_sides(const SquareMesh *shape, int i)
+int square_mesh_get_node_sides(const SquareMesh *shape, int i)
 {
-    locate_in_body(shape, shape->nodes, &i);
-    int stride = grid_index(shape, 1, 0), column = i / stride, row = i % stride;
+    find_place_in_body(shape, shape->nodes, &i);
+    int stride = find_node(shape, 1, 0), column = i / stride, row = i % stride;
     return (column == 0 ? MESH_LEFT : 0) |
            (column == shape->segments ? MESH_RIGHT : 0) |
            (row == 0 ? MESH_BOTTOM : 0) | (row == shape->rows ? MESH_TOP : 0);
@@ -63,10 +63,10 @@ void square_mesh_get_cell(const SquareMesh *shape, int c, int node[4],
 {
     int columns = shape->segments, rows = shape->rows;
     square_mesh_get_patch(shape, c, 1, node);
-    int first = locate_in_body(shape, shape->cells, &c);
+    int first = find_place_in_body(shape, shape->cells, &c);
     first *= shape->springs / shape->bodies;
     int a = first + c / rows * (rows + 1) + c % rows;
-    int upright = first + grid_index(shape, columns, 0) + c;
+    int upright = first + find_node(shape, columns, 0) + c;
     int diagonals = upright + (columns + 1) * rows + c;
     const int springs[6] = {a,       upright + rows, a + 1,
                             upright, diagonals,      diagonals + 1};
@@ -107,47 +107,47 @@ bool square_mesh_get_patch(const SquareMesh *shape, int c, int cells,
                            int node[4])
 {
     int columns = shape->segments, rows = shape->rows;
-    int first = locate_in_body(shape, shape->cells, &c);
+    int first = find_place_in_body(shape, shape->cells, &c);
     first *= shape->nodes / shape->bodies;
     int left = c / rows, low = c % rows;
     int right = left + cells < columns ? left + cells : columns;
     int up = low + cells < rows ? low + cells : rows;
-    node[0] = first + grid_index(shape, left, low);
-    node[1] = first + grid_index(shape, right, low);
-    node[2] = first + grid_index(shape, right, up);
-    node[3] = first + grid_index(shape, left, up);
+    node[0] = first + find_node(shape, left, low);
+    node[1] = first + find_node(shape, right, low);
+    node[2] = first + find_node(shape, right, up);
+    node[3] = first + find_node(shape, left, up);
     return cells == 1 || (left % cells == 0 && low % cells == 0);
 }
 
 /* Returns node k of a body's outline, anticlockwise from the lower left. */
-static int outline_index(const SquareMesh *shape, int k)
+static int get_outline_node(const SquareMesh *shape, int k)
 {
     int columns = shape->segments, rows = shape->rows;
     if (k >= columns + rows) /* from the upper right back to the lower left */
-        return grid_index(shape, columns, rows) -
-               outline_index(shape, k - columns - rows);
-    return k < columns ? grid_index(shape, k, 0)
-                       : grid_index(shape, columns, k - columns);
+        return find_node(shape, columns, rows) -
+               get_outline_node(shape, k - columns - rows);
+    return k < columns ? find_node(shape, k, 0)
+                       : find_node(shape, columns, k - columns);
 }
 
 void square_mesh_get_outline_edge(const SquareMesh *shape, int k, int node[2])
 {
-    int first = locate_in_body(shape, shape->outline_edges, &k);
+    int first = find_place_in_body(shape, shape->outline_edges, &k);
     first *= shape->nodes / shape->bodies;
     int next = (k + 1) % (shape->outline_edges / shape->bodies);
-    node[0] = first + outline_index(shape, k);
-    node[1] = first + outline_index(shape, next);
+    node[0] = first + get_outline_node(shape, k);
+    node[1] = first + get_outline_node(shape, next);
 }
 
 /* Writes the springs from each node (i, j) to (i + right, j + up).  Returns the
  * place in e for the next spring. */
-static int *list_springs(const SquareMesh *shape, int first, int *e, int right,
-                         int up)
+static int *list_springs_of_direction(const SquareMesh *shape, int first,
+                                      int *e, int right, int up)
 {
     for (int i = 0; i + right <= shape->segments; i++)
         for (int j = 0; j + up <= shape->rows; j++) {
-            *e++ = first + grid_index(shape, i, j);
-            *e++ = first + grid_index(shape, i + right, j + up);
+            *e++ = first + find_node(shape, i, j);
+            *e++ = first + find_node(shape, i + right, j + up);
         }
     return e;
 }
@@ -157,8 +157,8 @@ void square_mesh_list_springs(const SquareMesh *shape, int *e)
 {
     int each = shape->nodes / shape->bodies, spring[6], c = 0;
     for (int first = 0; first < shape->nodes; first += each) {
-        e = list_springs(shape, first, e, 1, 0);
-        e = list_springs(shape, first, e, 0, 1);
+        e = list_springs_of_direction(shape, first, e, 1, 0);
+        e = list_springs_of_direction(shape, first, e, 0, 1);
         for (int end = c + shape->segments * shape->rows; c < end;
              c++, e += 4) {
             square_mesh_get_cell(shape, c, e, spring); /* a b c d */
@@ -195,7 +195,7 @@ static int dissect_grid(const SquareMesh *shape, GridRegion part, int next,
     }
     for (int i = part.begin[0]; i < part.end[0]; i++)
         for (int j = part.begin[1]; j < part.end[1]; j++)
-            order[grid_index(shape, i, j)] = next++;
+            order[find_node(shape, i, j)] = next++;
     return next;
 }
 

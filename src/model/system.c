@@ -35,7 +35,7 @@ void system_mark_changed(System *system, bool pattern)
     system->pattern_version += pattern;
 }
 
-static void free_term(Term *term)
+static void free_term(EnergyTerm *term)
 {
     if (term->kind->free)
         term->kind->free(term->data);
@@ -52,17 +52,17 @@ void system_free(System *system)
     *system = (System){0};
 }
 
-Term *system_find_term(const System *system, const TermKind *kind)
+EnergyTerm *system_find_term(const System *system, const TermKind *kind)
 {
     for (int t = 0; t < system->terms; t++)
         if (system->term[t].kind == kind)
-            return (Term *)&system->term[t];
+            return (EnergyTerm *)&system->term[t];
     return NULL;
 }
 
 void *system_term_data(const System *system, const TermKind *kind)
 {
-    const Term *term = system_find_term(system, kind);
+    const EnergyTerm *term = system_find_term(system, kind);
     return term ? term->data : NULL;
 }
 
@@ -75,7 +75,7 @@ void *system_add_term(System *system, const TermKind *kind, size_t bytes)
     for (; place > 0 && system->term[place - 1].kind->rank > kind->rank;
          place--)
         system->term[place] = system->term[place - 1];
-    system->term[place] = (Term){.kind = kind, .data = data};
+    system->term[place] = (EnergyTerm){.kind = kind, .data = data};
     system->terms++;
     system_mark_changed(system, true);
     return data;
@@ -83,11 +83,11 @@ void *system_add_term(System *system, const TermKind *kind, size_t bytes)
 
 void system_remove_term(System *system, const TermKind *kind)
 {
-    Term *term = system_find_term(system, kind);
+    EnergyTerm *term = system_find_term(system, kind);
     if (!term)
         return;
     free_term(term);
-    Term *end = system->term + --system->terms;
+    EnergyTerm *end = system->term + --system->terms;
     for (; term < end; term++)
         term[0] = term[1];
     system_mark_changed(system, true);
@@ -121,7 +121,7 @@ EvalPoint make_eval_point(const System *system, const double *x_n,
 const TermKind *eval_point_next_term(EvalPoint *at)
 {
     const System *system = at->system;
-    const Term *next = at->term ? at->term + 1 : system->term;
+    const EnergyTerm *next = at->term ? at->term + 1 : system->term;
     at->term = next < system->term + system->terms ? next : NULL;
     return at->term ? at->term->kind : NULL;
 }
@@ -180,7 +180,7 @@ double system_potential(const System *system, const double *x)
     return sum;
 }
 
-void system_zero_pinned(const System *system, double *g)
+void system_zero_pinned_entries(const System *system, double *g)
 {
     for (int i = 0; i < system->nodes; i++)
         if (system->pinned[i])
@@ -227,7 +227,7 @@ void system_acceleration(const System *system, const double *x, double *a)
             kind->gradient(&at, a);
     for (int i = 0; i < 2 * system->nodes; i++)
         a[i] = a[i] / system->m[i / 2] + system->gravity[i % 2];
-    system_zero_pinned(system, a);
+    system_zero_pinned_entries(system, a);
 }
 
 double system_curvature_bound(const System *system)
@@ -242,7 +242,7 @@ double system_curvature_bound(const System *system)
     return most;
 }
 
-void term_add_block(const System *system, int i, int j, Triplets *triplets)
+void add_block_triplets(const System *system, int i, int j, Triplets *triplets)
 {
     int r = system->elimination_order[i], c = system->elimination_order[j];
     triplets_add(triplets, 2 * r, 2 * c);
@@ -252,7 +252,7 @@ void term_add_block(const System *system, int i, int j, Triplets *triplets)
     triplets_add(triplets, 2 * r + 1, 2 * c + 1);
 }
 
-void term_add_diagonal(const System *system, int i, Triplets *triplets)
+void add_diagonal_triplets(const System *system, int i, Triplets *triplets)
 {
     int place = system->elimination_order[i];
     triplets_add(triplets, 2 * place, 2 * place);

@@ -57,7 +57,7 @@ static double triangle_energy_density(const void *data, double J)
         f[i + 1] += part * n[1];
     }
     return element_energy_at(&there, J) /
-           neo_hookean_of(there.eval.system)->triangles.area;
+           get_neo_hookean(there.eval.system)->triangles.rest_area;
 }
 
 static double friction_force_ratio(const void *now, double v)
@@ -98,7 +98,7 @@ static void set_spring_law(LawPoint *now, int s)
     const Plasticity *flow = system_term_data(system, &plastic_energy);
     const Fracture *tear = system_term_data(system, &fracture);
     double d[2];
-    now->spring = plasticity_get_law(system, s);
+    now->spring = plasticity_get_flow_law(system, s);
     double d2 = spring_vector(system->e + 2 * s, now->eval.x, d);
     now->x = spring_strain(d2, system->l2[s]);
     now->x /= tear ? fracture_strength(tear, s) : 1;
@@ -128,7 +128,8 @@ static const Law *find_law(const Simulation *simulation, LawPoint *most)
     const Law *law = name ? laws : NULL;
     while (law && strcmp(law->name, name) != 0)
         law++;
-    const Term *term = law ? system_find_term(system, law->law_term) : NULL;
+    const EnergyTerm *term =
+        law ? system_find_term(system, law->law_term) : NULL;
     if (!term)
         return NULL;
     bool rubs = law->evaluate == friction_force_ratio;
@@ -139,9 +140,9 @@ static const Law *find_law(const Simulation *simulation, LawPoint *most)
     if (rubs)
         most->axis_unit = ((const Friction *)term->data)->slip_speed;
     else if (law->element_term == &contact_energy)
-        most->axis_unit = contact_of(system)->barrier.d_hat;
+        most->axis_unit = get_contact(system)->barrier.d_hat;
     else if (law->element_term == &self_contact_energy)
-        most->axis_unit = self_contact_of(system)->d_hat;
+        most->axis_unit = get_self_contact(system)->d_hat;
     LawPoint now = *most;
     for (int s = 0; s < system->springs && !law->element_term; s++) {
         set_spring_law(&now, s);
@@ -161,7 +162,7 @@ static const Law *find_law(const Simulation *simulation, LawPoint *most)
         now.x = element->s;
         if (rubs) {
             now.load = walk.kind->friction_limit(&now.eval, element, t, &slip);
-            element_get_vectors(element, v, w);
+            element_compute_weighted_sums(element, v, w);
             for (int i = 0; i < 2 * element->vector_count; i++)
                 slip -= t[i] * w[i];
             mean = force > 0 ? mean : 0;
@@ -247,8 +248,8 @@ void law_add_values(const Simulation *simulation, LiveValues *values)
     if (law->evaluate == element_energy_at) {
         const System *system = now.eval.system;
         values_add(values, "c",
-                   self ? self_contact_of(system)->c
-                        : contact_of(system)->barrier.c);
+                   self ? get_self_contact(system)->c
+                        : get_contact(system)->barrier.c);
         values_add(values, "d hat", 1e3 * now.axis_unit);
         values_add(values, "law force", contact_force_at(&now));
     }

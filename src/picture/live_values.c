@@ -104,7 +104,7 @@ static void add_setting_values(const Simulation *simulation, LiveValues *values)
     values_add_flag(values, "raw", options->projection == PROJECTION_NONE);
     values_add_flag(values, "whole", whole);
     values_add(values, "springs", simulation->system.springs);
-    values_add_flag(values, "of a solid", neo_hookean_of(&simulation->system));
+    values_add_flag(values, "of a solid", get_neo_hookean(&simulation->system));
     values_add_flag(values, "done", simulation->is_over);
     if (simulation->is_over && scene->step == step_descent &&
         descent->residual <= options->tolerance) { /* x is stationary */

@@ -17,7 +17,7 @@ static const double MIN_FORCE = 0.02; /* smallest drawn / largest force */
  *   force     [2] N, out
  *   friction  term of the friction at these contacts; NULL: none */
 static double compute_contact_force(const SquarePen *pen, const EvalPoint *at,
-                                    const Term *friction,
+                                    const EnergyTerm *friction,
                                     const Element *element, double force[2])
 {
     const ElementKind *kind = at->term->kind->element;
@@ -28,7 +28,7 @@ static double compute_contact_force(const SquarePen *pen, const EvalPoint *at,
     if (friction && grip > 0) {
         double speed = ((const Friction *)friction->data)->slip_speed;
         double slip = -carry;
-        element_get_vectors(element, pen->v, v);
+        element_compute_weighted_sums(element, pen->v, v);
         for (int i = 0; i < 2 * element->vector_count; i++)
             slip += t[i] * v[i];
         rub = -grip * friction_slope(slip * h, speed * h);
@@ -49,7 +49,7 @@ static void draw_contact_term(const SquarePen *pen, bool between_bodies,
     EvalPoint at = make_eval_point(system, NULL, NULL, pen->x);
     at.term = system_find_term(system, between_bodies ? &self_contact_energy
                                                       : &contact_energy);
-    const Term *friction = system_find_term(
+    const EnergyTerm *friction = system_find_term(
         system, between_bodies ? &self_friction_energy : &friction_energy);
     if (!at.term)
         return;
@@ -158,7 +158,7 @@ void square_draw_obstacles(const SquarePen *pen)
     double reach = contact ? contact->barrier.d_hat : 0;
     for (int i = 0; contact && i < contact->obstacles; i++) {
         const Obstacle *obstacle = &contact->obstacle[i];
-        const double *at = obstacle_origin(obstacle, pen->x);
+        const double *at = obstacle_get_position(obstacle, pen->x);
         double radius = obstacle->radius * scale;
         if (obstacle->kind == OBSTACLE_WALL) {
             draw_wall(stage, obstacle, reach, pen->simulation->runs > 1);

@@ -20,11 +20,11 @@ void square_pick(const Plot *stage, double x, double y, Pick *pick)
     const System *system = &simulation->system;
     const SquareMesh *mesh = &simulation->mesh;
     const Options *options = &simulation->options;
-    const Contact *contact = contact_of(system);
+    const Contact *contact = get_contact(system);
     const double *at = pane_positions(stage->pane);
     double spacing = stage->camera.scale[0] * mesh->spacing;
     double reach = fmin(fmax(0.3 * spacing, 7), 16), best = reach * reach / 4;
-    int springs = neo_hookean_of(system) ? 0 : system->springs;
+    int springs = get_neo_hookean(system) ? 0 : system->springs;
     Pick node = *pick;
     if (plot_pick_point(stage, system->nodes, at, fmax(reach, 0.75 * spacing),
                         x, y, PICK_NODE, &node))
@@ -49,8 +49,8 @@ void square_pick(const Plot *stage, double x, double y, Pick *pick)
     }
     if (pick->kind == PICK_SPRING) {
         const int *e = system->e + 2 * (size_t)pick->index;
-        int sides = square_mesh_get_sides(mesh, e[0]) &
-                    square_mesh_get_sides(mesh, e[1]);
+        int sides = square_mesh_get_node_sides(mesh, e[0]) &
+                    square_mesh_get_node_sides(mesh, e[1]);
         if (stage->content->time_line.is_paused && simulation->steps == 0 &&
             options->bodies == 0 && sides & (MESH_LEFT | MESH_RIGHT)) {
             pick->kind = PICK_EDGE;
@@ -139,10 +139,10 @@ static void describe_spring(Plot *stage, const Pane *pane, int s)
     const System *system = &pane->simulation->system;
     const int *e = system->e + 2 * s;
     Projection projection = pane->simulation->options.projection;
-    double k = neo_hookean_of(system) ? NAN : system->k[s];
+    double k = get_neo_hookean(system) ? NAN : system->k[s];
     double l2 = system->l2[s], d[2];
     double d2 = spring_vector(e, pane_positions(pane), d);
-    const FlowLaw law = plasticity_get_law(system, s);
+    const FlowLaw law = plasticity_get_flow_law(system, s);
     double s_e = spring_eigenvalue_across(d2, l2) / l2 - law.ep;
     double across = l2 * flow_law_slope(law, s_e);
     double along = flow_law_eigenvalue_along(law, s_e, d2, across);

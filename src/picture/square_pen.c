@@ -35,7 +35,7 @@ static bool node_is_fixed(const SquarePen *pen, int node)
 {
     const SquareMesh *mesh = &pen->simulation->mesh;
     return pen->fixed_bodies && node < mesh->nodes &&
-           pen->fixed_bodies >> square_mesh_locate_body(mesh, node) & 1;
+           pen->fixed_bodies >> square_mesh_find_body(mesh, node) & 1;
 }
 
 SquarePen square_pen_create(Plot *stage, int run)
@@ -55,7 +55,7 @@ SquarePen square_pen_create(Plot *stage, int run)
         .spacing = stage->camera.scale[0] * mesh->spacing,
         .shade_strain = find_strain_range(simulation, NULL),
         .ep = plasticity ? plasticity->ep : NULL,
-        .contact = contact_of(system),
+        .contact = get_contact(system),
         .fixed_bodies = mesh->bodies > 1 ? (1u << mesh->bodies) - 1 : 0};
     double unit = stage->paper->unit;
     double seen =
@@ -64,7 +64,7 @@ SquarePen square_pen_create(Plot *stage, int run)
         pen.spacing *= seen / mesh->side;
     for (int i = 0; pen.fixed_bodies && i < mesh->nodes; i++)
         if (!system->pinned[i])
-            pen.fixed_bodies &= ~(1u << square_mesh_locate_body(mesh, i));
+            pen.fixed_bodies &= ~(1u << square_mesh_find_body(mesh, i));
     pen.width = fmax(fmin(fmax(0.06 * pen.spacing / unit, 1.1), 1.9), 1 / unit);
     pen.node_radius = NODE_RADIUS * pen.spacing / unit;
     if (!content->is_bare)
@@ -83,7 +83,7 @@ SquarePen square_pen_create(Plot *stage, int run)
                                      trace->at_line <= LINE_SEARCH)) &&
                           !content->shows_strain &&
                           simulation->options.projection != PROJECTION_NONE &&
-                          trace->projected != 0 && !neo_hookean_of(system);
+                          trace->projected != 0 && !get_neo_hookean(system);
     return pen;
 }
 
@@ -186,14 +186,14 @@ static Colour shade_of_blue(double part)
 
 int square_fill_cells(const SquarePen *pen, bool all)
 {
-    const NeoHookean *solid = neo_hookean_of(pen->system);
+    const NeoHookean *solid = get_neo_hookean(pen->system);
     int folded = 0, node[4];
     for (int t = 0; solid && t < solid->triangles.count; t++) {
         const int *n = solid->triangles.node[t];
         const int face[4] = {n[0], n[1], n[2], n[2]};
         double J = fabs(twice_signed_area(pen->x + 2 * n[0], pen->x + 2 * n[1],
                                           pen->x + 2 * n[2])) /
-                   (2 * solid->triangles.area);
+                   (2 * solid->triangles.rest_area);
         Colour shade = shade_of_blue(fmin(fmax(0.6 + 0.5 * log(J), 0), 1));
         Colour colour = colour_mix(shade, COLOUR_WHITE, 0.6);
         fill_face(pen, face, node_is_fixed(pen, n[0]) ? COLOUR_SOLID : colour);

@@ -106,7 +106,7 @@ static void widen_to_obstacles(const Plot *stage, Extent *view)
 {
     const Simulation *simulation = stage->simulation;
     const Options *options = &simulation->options;
-    const Contact *contact = contact_of(&simulation->system);
+    const Contact *contact = get_contact(&simulation->system);
     const HandGrip *hand = &stage->content->hand;
     const Extent seen = find_seen_extent(stage, view);
     double air = 0.04 * fmin(view->half_size[0], view->half_size[1]);
@@ -116,7 +116,8 @@ static void widen_to_obstacles(const Plot *stage, Extent *view)
         const Obstacle *obstacle = &contact->obstacle[k];
         bool held = contact->hand.is_held && contact->hand.obstacle == k;
         bool seeks_all = held || stage->content->view->lens.shows_all;
-        Gap gap = contact_measure_gap(obstacle, obstacle->o, seen.middle, 0);
+        NodeGap gap =
+            contact_measure_gap(obstacle, obstacle->o, seen.middle, 0);
         const Point foot = point_along(seen.middle, -gap.d, gap.n);
         if (obstacle->kind == OBSTACLE_BALL)
             widen_to_circle(&seen, obstacle->o, obstacle->radius + air,

@@ -38,7 +38,7 @@ static Status create_orbit(Simulation *simulation, double omega2,
     Status status = create_small_system(&simulation->system, 0, 0, 0);
     if (!status)
         status = pull_configure(&simulation->system, &central_field,
-                                &(Pull){.k = SMALL_MASS * omega2});
+                                &(NodePull){.k = SMALL_MASS * omega2});
     simulation->runs = chosen ? 1 : SIMULATION_MAX_RUNS;
     memcpy(simulation->exhibit.exact_start, x, 2 * sizeof *x);
     memcpy(simulation->exhibit.exact_start + 2, v, 2 * sizeof *v);

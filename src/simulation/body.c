@@ -51,9 +51,9 @@ const char *pins_read(const char *text, const SquareMesh *shape,
         if (!is_pin || number > most || (text[end] && text[end] != ','))
             return text;
         for (int i = 0; pinned && i < shape->nodes; i++) {
-            int sides = square_mesh_get_sides(shape, i);
+            int sides = square_mesh_get_node_sides(shape, i);
             bool in_body =
-                !digits[0] || square_mesh_locate_body(shape, i) + 1 == number;
+                !digits[0] || square_mesh_find_body(shape, i) + 1 == number;
             bool on_side = (sides & word->on_all_sides) == word->on_all_sides &&
                            (!word->on_one_side || (sides & word->on_one_side));
             pinned[i] |= name[0] ? in_body && on_side : i == number;
@@ -193,7 +193,7 @@ static Barrier make_barrier(const Options *options)
 static Status set_obstacles(const Options *options, System *system)
 {
     const Barrier barrier = make_barrier(options);
-    const Contact *contact = contact_of(system);
+    const Contact *contact = get_contact(system);
     Obstacle list[CONTACT_MAX_OBSTACLES];
     int count = list_obstacles(options, list);
     for (int i = 0; contact && i < contact->obstacles; i++) {
@@ -266,7 +266,7 @@ static Status place_body(const Options *options, int run, double *x, double *v,
                                 message);
     for (int i = 0; i < shape.nodes; i++) {
         double rest[2];
-        int body = square_mesh_locate_body(&shape, i);
+        int body = square_mesh_find_body(&shape, i);
         const double *start =
             options->bodies > 0 ? options->body[body] : single;
         double angle = start[2] * DEGREE, c = cos(angle), s = sin(angle);
@@ -515,7 +515,7 @@ static Status check_clearance(const Simulation *simulation,
         if (count > 0 && contact.obstacle[count - 1].node >= 0)
             contact.free_ball = count - 1;
         system.terms = 1;
-        system.term[0] = (Term){&contact_energy, &contact};
+        system.term[0] = (EnergyTerm){&contact_energy, &contact};
         status = check_gaps_and_cells(&own, &system, simulation->run[run].x,
                                       min_gap * contact.barrier.d_hat, number,
                                       message);
@@ -605,8 +605,8 @@ static Status check_crossing_outlines(const Options *options, const double *x,
             bool neighbours = other[1] == edge[0] || other[0] == edge[1];
             if (neighbours || !edges_cross(x, edge, other))
                 continue;
-            int a = square_mesh_locate_body(&shape, other[0]) + 1;
-            int b = square_mesh_locate_body(&shape, edge[0]) + 1;
+            int a = square_mesh_find_body(&shape, other[0]) + 1;
+            int b = square_mesh_find_body(&shape, edge[0]) + 1;
             return a == b ? refuse(message,
                                    "--self-contact: body %d would cross itself "
                                    "at the start; --self-contact off allows it",

@@ -55,7 +55,7 @@ static double get_height_offset(const Simulation *simulation, int run,
 void simulation_find_obstacle(const Simulation *simulation, int run, int number,
                               double at[2])
 {
-    const Contact *contact = contact_of(simulation->run[run].system);
+    const Contact *contact = get_contact(simulation->run[run].system);
     const Obstacle *obstacle = &contact->obstacle[number];
     at[0] = obstacle->o[0];
     at[1] = obstacle->o[1] - get_height_offset(simulation, run, obstacle);
@@ -124,7 +124,7 @@ static Status update_run_options(Simulation *simulation, int r,
         run->steps = old.steps;
         run->clock = old.clock;
         run->moved_part = old.moved_part;
-        run->work = old.work;
+        run->external_work = old.external_work;
         if (old.newton)
             newton_counters_add(&old.newton->counters,
                                 &simulation->old_counters);
@@ -174,31 +174,31 @@ static Status apply_hand(Simulation *simulation, const Control *control)
         return STATUS_OK;
     }
     const double *x = simulation->run[0].x + 2 * node;
-    double k = neo_hookean_of(system) ? simulation->options.young
-                                      : mass_spring_curvature_bound(&at);
+    double k = get_neo_hookean(system) ? simulation->options.young
+                                       : mass_spring_curvature_bound(&at);
     return pull_configure(
         system, &hand_energy,
-        &(Pull){.node = node,
-                .cell_size = mesh->nodes > 0 ? mesh->spacing : INFINITY,
-                .side = mesh->side,
-                .mouse_xy = {control->target[0], control->target[1]},
-                .target = {x[0], x[1]},
-                .mouse_k = k > 0 ? STIFFER * k : 1e5 * system->m[node]});
+        &(NodePull){.node = node,
+                    .cell_size = mesh->nodes > 0 ? mesh->spacing : INFINITY,
+                    .body_side = mesh->side,
+                    .mouse_xy = {control->target[0], control->target[1]},
+                    .target = {x[0], x[1]},
+                    .mouse_k = k > 0 ? STIFFER * k : 1e5 * system->m[node]});
 }
 
 /* Pushes the obstacle that the mouse holds, if there is one, in each run. */
 static void apply_push(Simulation *simulation, const Control *control)
 {
     for (int r = 0; r < simulation->runs; r++) {
-        Contact *contact = contact_of(simulation->run[r].system);
+        Contact *contact = get_contact(simulation->run[r].system);
         if (!contact)
             continue;
         int held = control->held_obstacle;
         contact->hand =
-            (Push){.is_held = 0 <= held && held < contact->obstacles,
-                   .obstacle = held,
-                   .target = {control->target[0], control->target[1]},
-                   .mesh = simulation->mesh};
+            (ObstaclePush){.is_held = 0 <= held && held < contact->obstacles,
+                           .obstacle = held,
+                           .target = {control->target[0], control->target[1]},
+                           .mesh = simulation->mesh};
         if (contact->hand.is_held)
             contact->hand.target[1] +=
                 get_height_offset(simulation, r, &contact->obstacle[held]);

@@ -22,7 +22,7 @@ Energies simulation_energies(const Simulation *simulation, int run)
     Energies energies = {
         .kinetic = system_kinetic_energy(system, integrator->v),
         .gravity = system_gravity_potential(system, x),
-        .work = simulation->ledger[run].work + integrator->work};
+        .work = simulation->ledger[run].work + integrator->external_work};
     double lost = 0;
     energies.total = energies.kinetic + energies.gravity;
     add_energy(&energies, "total", 0);

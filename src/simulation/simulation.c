@@ -260,8 +260,8 @@ bool simulation_projects_springs(const Simulation *simulation)
 {
     const System *system = &simulation->system;
     return !system_find_term(system, &contact_energy) &&
-           !system_find_term(system, &cell_energy) && !neo_hookean_of(system) &&
-           !self_contact_of(system);
+           !system_find_term(system, &cell_energy) &&
+           !get_neo_hookean(system) && !get_self_contact(system);
 }
 
 /* ---- the fastest small oscillation: M q'' = -H q ------------------------ */
@@ -293,7 +293,7 @@ double simulation_find_fastest_mode(const Simulation *simulation,
                 kind->hessian(&at, PROJECTION_NONE, NULL, mode, image);
         for (int i = 0; i < n; i++)
             image[i] /= system->m[i / 2];
-        system_zero_pinned(system, image);
+        system_zero_pinned_entries(system, image);
         omega2 = 0;
         for (int i = 0; i < n; i++)
             omega2 += mode[i] * image[i];

@@ -34,7 +34,7 @@ static void save_or_restore_system(Cursor *cursor, System *system)
 {
     size_t springs = (size_t)system->springs * sizeof(double);
     Plasticity *plasticity = system_term_data(system, &plastic_energy);
-    Contact *contact = contact_of(system);
+    Contact *contact = get_contact(system);
     VISIT(system->losses);
     if (plasticity) {
         visit_piece(cursor, plasticity->ep, springs);
@@ -83,12 +83,13 @@ static void visit_state(Cursor *cursor, Simulation *simulation)
         VISIT(run->steps);
         VISIT(run->clock);
         VISIT(run->moved_part);
-        VISIT(run->work);
+        VISIT(run->external_work);
         VISIT(run->status);
         visit_piece(cursor, run->x, array);
         visit_piece(cursor, run->v, array);
         VISIT(run->memory_h);
-        visit_piece(cursor, run->memory, (size_t)run->method->arrays * array);
+        visit_piece(cursor, run->memory,
+                    (size_t)run->method->memory_arrays * array);
         if (r == 0 || run->system != simulation->run[0].system)
             save_or_restore_system(cursor, run->system);
         if (cursor->is_restoring)

@@ -45,7 +45,7 @@ static Status assemble_hessian(Newton *newton, Projection projection,
         direction_free_matrix(direction);
         direction->analysed_pattern = system->pattern_version;
         direction->factor_kind = kind;
-        status = incremental_potential_pattern(system, &direction->A);
+        status = incremental_potential_create_hessian(system, &direction->A);
         if (!status)
             status = cholesky_create(&direction->A, kind, &direction->cholesky);
     }
@@ -177,7 +177,8 @@ static bool take_conjugate_step(Newton *newton, ConjugateGradients *state)
         return false;
     for (int i = 0; i < n; i++)
         d[i] = z[i] + (last == 0 ? 0 : state->rz / last * d[i]);
-    incremental_potential_product(&newton->iterate, state->projection, d, q);
+    incremental_potential_apply_hessian(&newton->iterate, state->projection, d,
+                                        q);
     double curvature = dot(n, d, q);
     double alpha = state->rz / curvature;
     /* E is not convex along d, or rounding hides its curvature. */
@@ -232,7 +233,7 @@ static Status direction_error_bound(Newton *newton, double *error)
     Projection projection = direction->projection;
     if (projection == PROJECTION_NONE && direction->moved_since_factor > 0)
         projection = PROJECTION_CLAMP;
-    incremental_potential_product(at, projection, at->p, direction->q);
+    incremental_potential_apply_hessian(at, projection, at->p, direction->q);
     for (int i = 0; i < 2 * system->nodes; i++)
         r[i] = -at->g[i] - direction->q[i];
     *error = system_inverse_mass_norm(system, r);
@@ -272,7 +273,7 @@ static void solve_diagonal(Newton *newton)
     int n = 2 * newton->system->nodes;
     for (int i = 0; i < n; i++)
         ones[i] = 1;
-    incremental_potential_product(at, PROJECTION_NONE, ones, H);
+    incremental_potential_apply_hessian(at, PROJECTION_NONE, ones, H);
     for (int i = 0; i < n; i++)
         at->p[i] = at->g[i] == 0 ? 0 : -at->g[i] / H[i];
 }
@@ -302,8 +303,7 @@ static const double NEARBY = 0.03, CONVERGES = 0.1, REFINED = 0.01;
 /* Computes p with the factor of an earlier iteration, as the Hessian hardly
  * changes near the end.  Iterative refinement with the present Hessian,
  *     p += factor^-1 (-g - H p),
- * makes p accurate.  Returns false if the corrections do not converge, or p is
- * not downhill. */
+ * makes p accurate.  Returns false if p diverges or is not downhill. */
 static bool refine_with_last_factor(Newton *newton)
 {
     const SearchDirection *direction = &newton->direction;
@@ -326,7 +326,7 @@ static bool refine_with_last_factor(Newton *newton)
         if (size <= REFINED * largest_row_sum(n / 2, p))
             break;
         last = size;
-        newton->record.projected = incremental_potential_product(
+        newton->record.projected = incremental_potential_apply_hessian(
             &newton->iterate, direction->projection, p, direction->q);
         for (int i = 0; i < n; i++)
             r[i] = -g[i] - direction->q[i];

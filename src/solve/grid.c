@@ -1,5 +1,4 @@
-/* grid.c - the square's numbers laid out as planes, and copies to and from
- * them. */
+/* grid.c - the square's numbers as planes, and copies to and from planes. */
 #include "solve/grid.h"
 
 #include <math.h>

@@ -25,8 +25,7 @@
 #define INLINE static inline __attribute__((always_inline))
 
 /* Nodes of one row, contiguous in memory, with index distances to neighbours,
- * springs and masses.  Indices are ptrdiff_t, as addresses then need no
- * conversions. */
+ * springs and masses.  ptrdiff_t needs no conversion in addresses. */
 typedef struct NodeRun {
     ptrdiff_t first, end; /* index of the first node, and past the last one */
     ptrdiff_t next;       /* distance from a node to the next row */

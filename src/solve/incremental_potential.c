@@ -6,8 +6,8 @@
 
 #include "model/inertia_energy.h"
 
-static EvalPoint eval_point_of(const IncrementalPotential *E, const double *u,
-                               const double *x)
+static EvalPoint make_term_point(const IncrementalPotential *E, const double *u,
+                                 const double *x)
 {
     EvalPoint at = make_eval_point(E->system, E->x_n, u, x);
     at.weight = E->weight;
@@ -17,7 +17,7 @@ static EvalPoint eval_point_of(const IncrementalPotential *E, const double *u,
 double incremental_potential_value(const IncrementalPotential *E,
                                    const double *u, const double *x)
 {
-    EvalPoint at = eval_point_of(E, u, x);
+    EvalPoint at = make_term_point(E, u, x);
     double P = 0;
     for (const TermKind *kind; (kind = eval_point_next_term(&at));)
         if (kind->value)
@@ -30,36 +30,36 @@ void incremental_potential_gradient(const IncrementalPotential *E,
                                     const double *u, const double *x, double *g)
 {
     const System *system = E->system;
-    EvalPoint at = eval_point_of(E, u, x);
+    EvalPoint at = make_term_point(E, u, x);
     for (int i = 0; i < 2 * system->nodes; i++)
         g[i] = 0;
     inertia_energy_gradient(system->nodes, u, E->u_tilde, system->m, g);
     for (const TermKind *kind; (kind = eval_point_next_term(&at));)
         if (kind->gradient)
             kind->gradient(&at, g);
-    system_zero_pinned(system, g);
+    system_zero_pinned_entries(system, g);
 }
 
 /* Adds the triplets of the masses and of all terms. */
-static void add_triplets(const System *system, Triplets *triplets)
+static void add_term_triplets(const System *system, Triplets *triplets)
 {
     EvalPoint at = make_eval_point(system, NULL, NULL, NULL);
     for (int i = 0; i < system->nodes; i++)
-        term_add_diagonal(system, i, triplets);
+        add_diagonal_triplets(system, i, triplets);
     for (const TermKind *kind; (kind = eval_point_next_term(&at));)
-        if (kind->pattern)
-            kind->pattern(&at, triplets);
+        if (kind->add_triplets)
+            kind->add_triplets(&at, triplets);
 }
 
-Status incremental_potential_pattern(const System *system, Sparse *A)
+Status incremental_potential_create_hessian(const System *system, Sparse *A)
 {
     int masses = 2 * system->nodes;
-    Triplets triplets = {.size = masses};
+    Triplets triplets = {.matrix_size = masses};
     *A = (Sparse){0};
-    add_triplets(system, &triplets);
+    add_term_triplets(system, &triplets);
     Status status = triplets_allocate(&triplets);
     if (!status) {
-        add_triplets(system, &triplets);
+        add_term_triplets(system, &triplets);
         status = sparse_create(&triplets, A);
     }
     /* Entries of terms in rows or columns of pinned nodes are dropped, into the
@@ -80,7 +80,7 @@ Status incremental_potential_pattern(const System *system, Sparse *A)
 static int add_hessians(const Iterate *iterate, Projection projection,
                         const int *slot, const double *q, double *out)
 {
-    EvalPoint at = eval_point_of(&iterate->E, iterate->u, iterate->x);
+    EvalPoint at = make_term_point(&iterate->E, iterate->u, iterate->x);
     int projected = 0;
     for (const TermKind *kind; (kind = eval_point_next_term(&at));)
         if (kind->hessian)
@@ -90,7 +90,7 @@ static int add_hessians(const Iterate *iterate, Projection projection,
 
 Status incremental_potential_extend_pattern(const Iterate *iterate, bool *grown)
 {
-    EvalPoint at = eval_point_of(&iterate->E, iterate->u, iterate->x);
+    EvalPoint at = make_term_point(&iterate->E, iterate->u, iterate->x);
     Status status = STATUS_OK;
     *grown = false;
     for (const TermKind *kind; !status && (kind = eval_point_next_term(&at));)
@@ -109,14 +109,15 @@ int incremental_potential_hessian(const Iterate *at, Projection projection,
                         A->value);
 }
 
-int incremental_potential_product(const Iterate *at, Projection projection,
-                                  const double *q, double *y)
+int incremental_potential_apply_hessian(const Iterate *at,
+                                        Projection projection, const double *q,
+                                        double *y)
 {
     const System *system = at->E.system;
     for (int i = 0; i < 2 * system->nodes; i++)
         y[i] = system->m[i / 2] * q[i];
     int projected = add_hessians(at, projection, NULL, q, y);
-    system_zero_pinned(system, y);
+    system_zero_pinned_entries(system, y);
     return projected;
 }
 
@@ -126,7 +127,7 @@ LineEnergy incremental_potential_prepare_line(const Iterate *iterate)
 {
     const System *system = iterate->E.system;
     const double *g = iterate->g, *p = iterate->p;
-    EvalPoint at = eval_point_of(&iterate->E, iterate->u, iterate->x);
+    EvalPoint at = make_term_point(&iterate->E, iterate->u, iterate->x);
     LineEnergy along = {.iterate = iterate};
     double *q = along.polynomial.q;
     for (int i = 0; i < 2 * system->nodes; i++) {
@@ -148,7 +149,7 @@ double line_energy_difference(const void *function, double alpha)
     if (!along->has_remainder)
         return sum;
     const Iterate *iterate = along->iterate;
-    EvalPoint at = eval_point_of(&iterate->E, iterate->u, iterate->x);
+    EvalPoint at = make_term_point(&iterate->E, iterate->u, iterate->x);
     for (const TermKind *kind; (kind = eval_point_next_term(&at));)
         if (kind->line_remainder)
             sum += kind->line_remainder(&at, iterate->p, alpha);
@@ -157,21 +158,21 @@ double line_energy_difference(const void *function, double alpha)
 
 double incremental_potential_max_step(const Iterate *at)
 {
-    EvalPoint point = eval_point_of(&at->E, at->u, at->x);
+    EvalPoint point = make_term_point(&at->E, at->u, at->x);
     return fmin(1, system_max_step(point, at->p, false));
 }
 
 bool incremental_potential_is_feasible(const IncrementalPotential *E,
                                        const double *u, const double *x)
 {
-    return system_is_feasible(eval_point_of(E, u, x));
+    return system_is_feasible(make_term_point(E, u, x));
 }
 
 void incremental_potential_absorb_pulls(const Iterate *iterate, double *m,
                                         double *u_tilde)
 {
     const System *system = iterate->E.system;
-    EvalPoint at = eval_point_of(&iterate->E, iterate->u, iterate->x);
+    EvalPoint at = make_term_point(&iterate->E, iterate->u, iterate->x);
     bool pulls = false;
     for (int t = 0; t < system->terms; t++)
         pulls = pulls || system->term[t].kind->is_diagonal;

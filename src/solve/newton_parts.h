@@ -63,11 +63,10 @@ bool turns_may_follow(const Newton *newton);
 
 /* Turns all nodes to the angle at which E is lowest, if P stays the same in a
  * turn (system_turns_freely), and the scene is stiff, or p passes the test and
- * turns_may_follow.  Then
- * angular momentum is exact: sum m d x (u - u_tilde) = 0, with d the vector
- * from the pivot to a node.  Newton's directions are straight and stretch what
- * they turn, so a stiff body would turn by tiny steps, which pass the test.
- * Returns the change of E, J s^2. */
+ * turns_may_follow.  Then angular momentum is exact: sum m d x (u - u_tilde) is
+ * 0, with d the vector from the pivot to a node.  Newton's directions are
+ * straight and stretch what they turn, so a stiff body would turn by tiny
+ * steps, which pass the test.  Returns the change of E, J s^2. */
 double turn_free_body(Newton *newton);
 
 /* ---- multigrid.c: the same phases for large squares, without a factor */

@@ -13,8 +13,7 @@
  * Tiles work in single precision on a copy of x.  Near the minimum, where the
  * nodes move by less than the rounding of this copy, it stays as it is, and the
  * changes of the springs' forces follow from the nodes' displacements alone.
- * The result is a direction, along which the caller minimises E in double
- * precision. */
+ * The result is a direction; the caller minimises E along it in doubles. */
 #pragma once
 
 #include "solve/grid.h"

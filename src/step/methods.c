@@ -24,14 +24,14 @@ static void drift_positions(TimeIntegrator *run, const double *v)
 }
 
 /* Drifts with the velocity of t_n.  Order 1. */
-static void forward_euler_finish(TimeIntegrator *run)
+static void forward_euler_set_state(TimeIntegrator *run)
 {
     kick_velocities(run);
     drift_positions(run, run->v);
 }
 
 /* Drifts with the velocity of t_(n+1).  Order 1. */
-static void symplectic_euler_finish(TimeIntegrator *run)
+static void symplectic_euler_set_state(TimeIntegrator *run)
 {
     kick_velocities(run);
     drift_positions(run, run->new_v);
@@ -40,7 +40,7 @@ static void symplectic_euler_finish(TimeIntegrator *run)
 /* Velocity Verlet: x_(n+1) = x_n + h v_n + h^2/2 a_n,
  * v_(n+1) = v_n + h/2 (a_n + a_(n+1)).  Order 2, symplectic; a_(n+1) is
  * remembered, so a step costs one evaluation. */
-static void verlet_finish(TimeIntegrator *run)
+static void verlet_set_state(TimeIntegrator *run)
 {
     double *a = run->memory, h = run->h;
     double *new_x = run->new_x, *new_v = run->new_v;
@@ -79,7 +79,7 @@ static void backward_euler_set_target(TimeIntegrator *run)
     set_drift_target(run, h, run->v, h * h);
 }
 
-static void backward_euler_finish(TimeIntegrator *run)
+static void backward_euler_set_state(TimeIntegrator *run)
 {
     const Iterate *end = &run->newton->iterate;
     double h = run->h;
@@ -105,13 +105,13 @@ static void bdf2_set_target(TimeIntegrator *run)
         run->newton->u_tilde[i] = du[i] / 3 + 2 * h / 9 * (4 * v[i] - v_old[i]);
 }
 
-static void bdf2_finish(TimeIntegrator *run)
+static void bdf2_set_state(TimeIntegrator *run)
 {
     const Iterate *end = &run->newton->iterate;
     double h = run->h, *v = run->v;
     double *du = run->memory, *v_old = du + run->x_length;
     if (run->memory_h != h)
-        backward_euler_finish(run);
+        backward_euler_set_state(run);
     for (size_t i = 0; run->memory_h == h && i < run->x_length; i++) {
         run->new_x[i] = end->x[i];
         run->new_v[i] = (3 * end->u[i] - du[i]) / (2 * h);
@@ -143,7 +143,7 @@ static void sdirk2_set_target(TimeIntegrator *run)
     }
 }
 
-static void sdirk2_finish(TimeIntegrator *run)
+static void sdirk2_set_state(TimeIntegrator *run)
 {
     const Iterate *end = &run->newton->iterate;
     double h = run->h, gh = SDIRK_G * h, rest = (1 - SDIRK_G) * h;
@@ -164,7 +164,7 @@ static void midpoint_set_target(TimeIntegrator *run)
     set_drift_target(run, half, run->v, half * half);
 }
 
-static void midpoint_finish(TimeIntegrator *run)
+static void midpoint_set_state(TimeIntegrator *run)
 {
     const double *u = run->newton->iterate.u;
     for (size_t i = 0; i < run->x_length; i++) {
@@ -176,18 +176,20 @@ static void midpoint_finish(TimeIntegrator *run)
 const IntegratorMethod integrator_methods[] = {
     {"backward-euler", "backward Euler", 1, .is_implicit = true,
      .supports_all_terms = true, .dissipates = true, .stages = 1,
-     .set_target = backward_euler_set_target, .finish = backward_euler_finish},
+     .set_target = backward_euler_set_target,
+     .set_state = backward_euler_set_state},
     {"symplectic-euler", "symplectic Euler", 1,
-     .finish = symplectic_euler_finish},
-    {"forward-euler", "forward Euler", 1, .finish = forward_euler_finish},
-    {"verlet", "velocity Verlet", 2, .arrays = 1, .finish = verlet_finish},
+     .set_state = symplectic_euler_set_state},
+    {"forward-euler", "forward Euler", 1, .set_state = forward_euler_set_state},
+    {"verlet", "velocity Verlet", 2, .memory_arrays = 1,
+     .set_state = verlet_set_state},
     {"midpoint", "implicit midpoint", 2, .is_implicit = true, .stages = 1,
-     .set_target = midpoint_set_target, .finish = midpoint_finish},
+     .set_target = midpoint_set_target, .set_state = midpoint_set_state},
     {"bdf2", "BDF2", 2, .is_implicit = true, .dissipates = true,
-     .only_by_name = true, .arrays = 2, .stages = 1,
-     .set_target = bdf2_set_target, .finish = bdf2_finish},
+     .only_by_name = true, .memory_arrays = 2, .stages = 1,
+     .set_target = bdf2_set_target, .set_state = bdf2_set_state},
     {"sdirk2", "SDIRK2", 2, .is_implicit = true, .dissipates = true,
      .only_by_name = true, .stages = 2, .set_target = sdirk2_set_target,
-     .finish = sdirk2_finish},
+     .set_state = sdirk2_set_state},
     {.name = NULL},
 };

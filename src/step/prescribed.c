@@ -19,15 +19,15 @@
  * wall at 50 m/s in steps of 0.01 s onto cells of 1/8 m needs 19 parts.  Where
  * a body leaves room for less than a thousandth of the way, the step ends,
  * because each further part would take more updates than the one before. */
-enum { MAX_HALVINGS = 10, MAX_PARTS = 100 };
+enum { MAX_HALVINGS = 10, MAX_MOTION_PARTS = 100 };
 
 /* Nodes that a wall would touch are carried along and keep this part of the
  * barrier's width as their gap. */
 #define CARRIED_GAP 0.3
 
-/* Limits like MAX_HALVINGS and MAX_PARTS for an obstacle that a
+/* Limits like MAX_HALVINGS and MAX_MOTION_PARTS for an obstacle that a
  * hand moves: lower, as the rest of its way can wait for the next step. */
-enum { MAX_HAND_HALVINGS = 6, HAND_PARTS = 8 };
+enum { MAX_HAND_HALVINGS = 6, MAX_HAND_PARTS = 8 };
 
 /* Whether obstacle k moves in the rest of this step. */
 static bool obstacle_moves(const Contact *contact, int k)
@@ -37,18 +37,18 @@ static bool obstacle_moves(const Contact *contact, int k)
     return !stopped && (v[0] != 0 || v[1] != 0);
 }
 
-bool prescribed_begin(TimeIntegrator *run)
+bool prescribed_begin_step(TimeIntegrator *run)
 {
-    Contact *contact = contact_of(run->system);
+    Contact *contact = get_contact(run->system);
     bool any = run->system->pin_v != NULL;
     run->moved_part = 0;
     run->remaining_part = 1;
-    run->parts_made = 0;
+    run->parts_done = 0;
     run->is_blocked = false;
     run->updates_before = run->newton ? run->newton->counters.updates : 0;
     for (int k = 0; contact && k < contact->obstacles; k++) {
         Obstacle *obstacle = &contact->obstacle[k];
-        const Motion *motion = &obstacle->motion;
+        const ObstacleMotion *motion = &obstacle->motion;
         double from = 0; /* part of the step, as `to` */
         obstacle->v[0] = obstacle->v[1] = 0;
         for (int i = 0; i < motion->phases; i++) {
@@ -89,13 +89,14 @@ static void move_carried_nodes(const System *system, const Contact *contact,
         if (!obstacle_moves(contact, k))
             continue;
         for (int i = 0; i < system->nodes; i++) {
-            if (!contact_counts_pair(contact, system, i, k) ||
+            if (!contact_includes_pair(contact, system, i, k) ||
                 system->pinned[i]) /* a pinned node stays */
                 continue;
             double now[2] = {x_n[2 * i] + u[2 * i],
                              x_n[2 * i + 1] + u[2 * i + 1]};
             double radius = contact_node_radius(contact, i);
-            Gap after = contact_measure_gap(obstacle, obstacle->o, now, radius);
+            NodeGap after =
+                contact_measure_gap(obstacle, obstacle->o, now, radius);
             double gap =
                 contact_measure_gap(obstacle, back, before + 2 * i, radius).d;
             double keep = fmin(gap, CARRIED_GAP * contact->barrier.d_hat);
@@ -111,12 +112,12 @@ static void move_carried_nodes(const System *system, const Contact *contact,
 static bool try_prescribed_motion(TimeIntegrator *run, double part)
 {
     const System *system = run->system;
-    Contact *contact = contact_of(run->system);
+    Contact *contact = get_contact(run->system);
     const double *x_n = run->x;
     double *u = run->new_x, *x = run->new_v, way = part * run->h;
     double *before = run->newton->x_trial, *p = run->newton->u_trial;
     for (int i = 0; i < 2 * system->nodes; i++) {
-        u[i] = p[i] = run->parts_made == 0 ? 0 : run->newton->iterate.u[i];
+        u[i] = p[i] = run->parts_done == 0 ? 0 : run->newton->iterate.u[i];
         before[i] = x_n[i] + u[i];
         if (system->pin_v && system->pinned[i / 2])
             u[i] += way * system->pin_v[i];
@@ -142,39 +143,40 @@ static bool try_prescribed_motion(TimeIntegrator *run, double part)
  *   halvings  in, number of parts that are tried, each half the one before
  *   parts     in, limit of the parts of a step so far
  * Returns the part, or 0 if there was no room. */
-static double move_farthest(TimeIntegrator *run, double part, int halvings,
-                            int parts)
+static double make_longest_motion(TimeIntegrator *run, double part,
+                                  int halvings, int parts)
 {
-    for (int i = 0; i < halvings && run->parts_made < parts; i++, part /= 2)
+    for (int i = 0; i < halvings && run->parts_done < parts; i++, part /= 2)
         if (try_prescribed_motion(run, part))
             return part;
     return 0;
 }
 
-void prescribed_start(TimeIntegrator *run)
+void prescribed_begin_part(TimeIntegrator *run)
 {
-    Contact *contact = contact_of(run->system);
+    Contact *contact = get_contact(run->system);
     double part = 0;
     if (contact && contact->hand.is_held &&
         obstacle_moves(contact, contact->hand.obstacle)) {
-        part = move_farthest(
+        part = make_longest_motion(
             run, fmin(run->remaining_part, push_max_step(contact, run->h)),
-            MAX_HAND_HALVINGS, HAND_PARTS);
+            MAX_HAND_HALVINGS, MAX_HAND_PARTS);
         contact->hand.is_blocked = part == 0;
-        contact->hand.free_part = run->moved_part;
+        contact->hand.free_path_part = run->moved_part;
     }
     bool others = run->system->pin_v != NULL;
     for (int k = 0; contact && k < contact->obstacles; k++)
         others = others || obstacle_moves(contact, k);
     if (part == 0 && others)
-        part = move_farthest(run, run->remaining_part, MAX_HALVINGS, MAX_PARTS);
+        part = make_longest_motion(run, run->remaining_part, MAX_HALVINGS,
+                                   MAX_MOTION_PARTS);
     run->is_blocked = part == 0 && others;
     if (part == 0) /* no further motion in this step */
         try_prescribed_motion(run, 0);
     else
         run->moved_part += part;
     run->remaining_part = part == 0 ? 0 : run->remaining_part - part;
-    run->parts_made++;
+    run->parts_done++;
     bool guess = run->remaining_part > 0;
     double tolerance = run->newton->settings.tolerance;
     newton_start(run->newton, run->x, run->new_x, run->weight,
@@ -213,10 +215,10 @@ bool prescribed_end_part(TimeIntegrator *run, Status *status)
     return false;
 }
 
-double prescribed_work(const TimeIntegrator *run)
+double prescribed_compute_work(const TimeIntegrator *run)
 {
     const System *system = run->system;
-    const Contact *contact = contact_of(system);
+    const Contact *contact = get_contact(system);
     const Newton *newton = run->newton;
     const double *u = newton->iterate.u, *x = newton->iterate.x;
     EvalPoint at = make_eval_point(system, newton->iterate.E.x_n, u, x);
@@ -241,7 +243,7 @@ double prescribed_work(const TimeIntegrator *run)
             const double *v = contact->obstacle[k].v, *n = walk.element.n;
             bool stopped =
                 contact->hand.is_blocked && k == contact->hand.obstacle;
-            sum += (stopped ? contact->hand.free_part : run->moved_part) *
+            sum += (stopped ? contact->hand.free_path_part : run->moved_part) *
                    contact_normal_force(&contact->barrier, walk.element.s) *
                    (n[0] * v[0] + n[1] * v[1]);
         }

@@ -1,21 +1,21 @@
 /* prescribed.h - motion of walls, pins and a pushed obstacle within a step.
  *
- * A step has one or several minimisations: prescribed_start moves walls and
- * pins as far as there is room and starts one, prescribed_end_part says whether
- * another one follows. */
+ * A step has one or several minimisations: prescribed_begin_part moves walls
+ * and pins as far as there is room and starts one, prescribed_end_part says
+ * whether another one follows. */
 #pragma once
 
 #include "step/time_integrator.h"
 
 /* Gives each obstacle the mean velocity that its motion has in this step.
  * Returns whether anything moves. */
-bool prescribed_begin(TimeIntegrator *run);
+bool prescribed_begin_step(TimeIntegrator *run);
 
 /* Moves walls and pins as far as there is room, and starts to minimise E from
  * there.  Where another part of the way follows, the minimiser is only a guess,
  * and the tolerance is loose.  An obstacle that a hand moves stops where there
  * is no room; walls and pins go on. */
-void prescribed_start(TimeIntegrator *run);
+void prescribed_begin_part(TimeIntegrator *run);
 
 /* Ends the part of the way whose minimisation has ended.  Returns whether
  * another part follows.  After the last part, a status that differs from that
@@ -27,4 +27,4 @@ bool prescribed_end_part(TimeIntegrator *run, Status *status);
 /* Returns the work of the prescribed motion in a step, J.  The pins' work is
  * their reaction, the gradient of E there, times their way.  The obstacles'
  * work is their force on the nodes, normal and of friction, times their way. */
-double prescribed_work(const TimeIntegrator *run);
+double prescribed_compute_work(const TimeIntegrator *run);

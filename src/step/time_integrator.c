@@ -37,7 +37,7 @@ Status time_integrator_create(const IntegratorMethod *method, System *system,
         integrator_method_refuses(method, system) ||
         (system->pin_v && !method->supports_all_terms))
         return STATUS_INVALID_INPUT;
-    run->x = calloc((4 + (size_t)method->arrays) * size, sizeof *x);
+    run->x = calloc((4 + (size_t)method->memory_arrays) * size, sizeof *x);
     if (!run->x)
         return STATUS_OUT_OF_MEMORY;
     run->v = run->x + size;
@@ -67,10 +67,10 @@ void time_integrator_free(TimeIntegrator *run)
  *
  *     x_tilde = x + h v        method->set_target
  *     x = argmin of E          newton_minimise
- *     v = (x - x_n) / h        method->finish */
+ *     v = (x - x_n) / h        method->set_state */
 
 /* Advances the clock by a step of h. */
-static void count_step(StepClock *clock, double h)
+static void advance_step_clock(StepClock *clock, double h)
 {
     if (h != clock->h)
         *clock = (StepClock){.change_time = clock->time, .h = h};
@@ -104,7 +104,7 @@ static void end_term_steps(TimeIntegrator *run)
 static void begin_hand_step(TimeIntegrator *run)
 {
     System *system = run->system;
-    Pull *hand = system_term_data(system, &hand_energy);
+    NodePull *hand = system_term_data(system, &hand_energy);
     if (!hand)
         return;
     size_t i = 2 * (size_t)hand->node;
@@ -129,7 +129,7 @@ static void begin_stage(TimeIntegrator *run)
             newton->u_tilde[i] += run->weight * system->gravity[i % 2];
     newton->step = run->steps + 1;
     if (run->is_driven)
-        prescribed_start(run);
+        prescribed_begin_part(run);
     else
         newton_start(newton, run->x, NULL, run->weight,
                      newton->settings.tolerance);
@@ -146,26 +146,26 @@ static Status end_step(TimeIntegrator *run, Status status)
         run->memory_h = 0;
         return run->status = STATUS_NOT_FINITE;
     }
-    const Pull *hand = system_term_data(run->system, &hand_energy);
+    const NodePull *hand = system_term_data(run->system, &hand_energy);
     if (hand)
-        run->work += hand_work(hand, run->x + 2 * hand->node,
-                               run->new_x + 2 * hand->node);
+        run->external_work += hand_work(hand, run->x + 2 * hand->node,
+                                        run->new_x + 2 * hand->node);
     memcpy(run->x, run->new_x, both * sizeof(double));
     run->steps++;
-    count_step(&run->clock, run->h);
+    advance_step_clock(&run->clock, run->h);
     if (run->is_driven)
-        run->work += prescribed_work(run);
+        run->external_work += prescribed_compute_work(run);
     end_term_steps(run);
     return run->status;
 }
 
 Status time_integrator_begin(TimeIntegrator *run)
 {
-    run->bad_status = STATUS_OK;
+    run->unconverged_status = STATUS_OK;
     run->stage = 0;
     if (run->newton)
         run->newton->total_change = 0;
-    run->is_driven = prescribed_begin(run);
+    run->is_driven = prescribed_begin_step(run);
     Status status = begin_term_steps(run);
     if (status)
         return end_step(run, status);
@@ -186,21 +186,21 @@ Status time_integrator_advance(TimeIntegrator *run)
 
         /* Move walls and pins by the next part of their way */
         if (run->is_driven && prescribed_end_part(run, &status)) {
-            prescribed_start(run);
+            prescribed_begin_part(run);
             continue;
         }
         if (status_is_failure(status))
             return end_step(run, status);
-        run->bad_status = status ? status : run->bad_status;
+        run->unconverged_status = status ? status : run->unconverged_status;
 
         /* Compute x and v, or begin the next stage */
-        method->finish(run);
+        method->set_state(run);
         if (++run->stage < method->stages)
             begin_stage(run);
     }
     if (method->stages == 0)
-        method->finish(run);
-    return end_step(run, run->bad_status);
+        method->set_state(run);
+    return end_step(run, run->unconverged_status);
 }
 
 Status time_integrator_step(TimeIntegrator *run)

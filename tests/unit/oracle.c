@@ -172,7 +172,8 @@ static void add_wall_friction(Probe *probe, Jet *sum, const Contact *contact,
                               int i, int k)
 {
     const Obstacle *it = &contact->obstacle[k];
-    const Term *term = system_find_term(probe->at->system, &friction_energy);
+    const EnergyTerm *term =
+        system_find_term(probe->at->system, &friction_energy);
     if (!term || !probe->at->u || !(it->friction > 0))
         return;
     EvalPoint start = *probe->at;
@@ -207,15 +208,15 @@ static void add_wall_barrier(Probe *probe, Jet *sum, const Contact *contact,
 static void add_wall_contact(Probe *probe, Jet *sum, const void *data, int i)
 {
     const System *system = probe->at->system;
-    const Contact *contact = contact_of(system);
+    const Contact *contact = get_contact(system);
     int node = i % system->nodes, k = i / system->nodes;
-    if (contact_counts_pair(contact, system, node, k))
+    if (contact_includes_pair(contact, system, node, k))
         (data == contact ? add_wall_barrier
                          : add_wall_friction)(probe, sum, contact, node, k);
 }
 
-/* Boundary of the bodies, as in boundary.h. Index of `whole` and `sides`: the
- * left or lower node of a spring, and its direction: up, right, up right, down
+/* Boundary of the bodies, as in boundary.h. Indices of `whole` and `sides`:
+ * left or lower node of a spring; its direction: up, right, up right, down
  * right */
 typedef struct Outline {
     int edges, points, *point, (*edge)[2]; /* nodes of the boundary */
@@ -257,9 +258,9 @@ static void add_outline_cell(Outline *outline, int a, int high)
 static Outline find_outline(const System *system)
 {
     static double *bytes;
-    if (!self_contact_of(system))
+    if (!get_self_contact(system))
         return (Outline){0};
-    const SquareMesh *shape = &self_contact_of(system)->boundary.mesh;
+    const SquareMesh *shape = &get_self_contact(system)->boundary.mesh;
     int n = system->nodes, high = shape->rows + 1, wide = shape->segments + 1;
     bytes = realloc(bytes, (size_t)n * (25 + 9 * sizeof(int)));
     CHECK(bytes != NULL);
@@ -330,7 +331,7 @@ static void add_self_friction(Probe *probe, Jet *sum, const SelfContact *self,
                               int p, const int end[2])
 {
     const System *system = probe->at->system;
-    const Term *term = system_find_term(system, &self_friction_energy);
+    const EnergyTerm *term = system_find_term(system, &self_friction_energy);
     if (!term || !probe->at->u)
         return;
     EvalPoint start = *probe->at;
@@ -370,7 +371,7 @@ static bool is_far(const double *x, int p, const int end[2], double most)
 /* Adds c f(d^2/d_hat^2) of pair i, or its friction at x_n: self_contact.h. */
 static void add_self_contact(Probe *probe, Jet *sum, const void *data, int i)
 {
-    const SelfContact *self = self_contact_of(probe->at->system);
+    const SelfContact *self = get_self_contact(probe->at->system);
     const Outline *outline = probe->outline;
     const int p = outline->point[i % outline->points];
     const int *end = outline->edge[i / outline->points];
@@ -386,7 +387,8 @@ static void add_self_contact(Probe *probe, Jet *sum, const void *data, int i)
 }
 
 /* Computes J, area of triangle t over that at rest; false: it is torn. */
-static bool find_cell_area(Probe *probe, const Cells *cells, int t, Jet *J)
+static bool find_cell_area(Probe *probe, const CellBarriers *cells, int t,
+                           Jet *J)
 {
     const double *k = probe->at->system->k;
     const int *node = cells->triangles.node[t], *side = cells->side_springs[t];
@@ -398,14 +400,14 @@ static bool find_cell_area(Probe *probe, const Cells *cells, int t, Jet *J)
             e[edge][axis] =
                 difference(probe, node[1 + edge], node[0], axis, false);
     *J = jet_add(jet_mul(e[0][0], e[1][1]), -1, jet_mul(e[0][1], e[1][0]));
-    *J = jet_add((Jet){0}, 1 / (2 * (Real)cells->triangles.area), *J);
+    *J = jet_add((Jet){0}, 1 / (2 * (Real)cells->triangles.rest_area), *J);
     return true;
 }
 
 /* Adds A0 k_c f(J/J_hat) of triangle t: cells.h. */
 static void add_cell(Probe *probe, Jet *sum, const void *data, int t)
 {
-    const Cells *cells = data;
+    const CellBarriers *cells = data;
     Jet J;
     if (find_cell_area(probe, cells, t, &J))
         add_barrier(probe, sum, cells->c, jet_add((Jet){0}, 1 / 0.4L, J));
@@ -419,7 +421,7 @@ static void add_solid(Probe *probe, Jet *sum, const void *data, int t)
     Jet F[4], size = {.f = -2}, J, L;
     for (int c = 0; c < 4; c++)
         F[c] =
-            jet_add((Jet){0}, 1 / sqrtl(2 * (Real)solid->triangles.area),
+            jet_add((Jet){0}, 1 / sqrtl(2 * (Real)solid->triangles.rest_area),
                     difference(probe, node[1 + c / 2], node[0], c % 2, false));
     for (int c = 0; c < 4; c++)
         size = jet_add(size, 1, jet_mul(F[c], F[c]));
@@ -429,16 +431,17 @@ static void add_solid(Probe *probe, Jet *sum, const void *data, int t)
         return;
     }
     L = jet_chain(J, logl(J.f), 1 / J.f, -1 / (J.f * J.f));
-    add_part(probe, sum, solid->triangles.area * (Real)solid->mu / 2, size);
-    add_part(probe, sum, -solid->triangles.area * (Real)solid->mu, L);
-    add_part(probe, sum, solid->triangles.area * (Real)solid->lambda / 2,
+    add_part(probe, sum, solid->triangles.rest_area * (Real)solid->mu / 2,
+             size);
+    add_part(probe, sum, -solid->triangles.rest_area * (Real)solid->mu, L);
+    add_part(probe, sum, solid->triangles.rest_area * (Real)solid->lambda / 2,
              jet_mul(L, L));
 }
 
 /* Adds k/2 |x - o|^2 of coordinate c: pull_energy.h. */
 static void add_pull(Probe *probe, Jet *sum, const void *data, int c)
 {
-    const Pull *pull = data;
+    const NodePull *pull = data;
     Jet d = coordinate(probe, c, false);
     d.f -= pull->target[c % 2];
     if (pull->node == c / 2)
@@ -458,7 +461,7 @@ typedef enum PartKind {
 static int count_parts(const Probe *probe, PartKind parts, const void *data)
 {
     const System *system = probe->at->system;
-    const Contact *contact = contact_of(system);
+    const Contact *contact = get_contact(system);
     switch (parts) {
     case SPRINGS:
         return system->springs;
@@ -513,7 +516,7 @@ static void frame_of_three(Frame *frame, const int node[3],
  * turns. All other second derivatives are W'', which is never negative. */
 static void frame_of_pair(Probe *probe, Frame *frame, int i)
 {
-    const SelfContact *self = self_contact_of(probe->at->system);
+    const SelfContact *self = get_self_contact(probe->at->system);
     const Outline *outline = probe->outline;
     const int p = outline->point[i % outline->points];
     const int *end = outline->edge[i / outline->points];
@@ -689,7 +692,7 @@ static int find_part_nodes(const Probe *probe, PartKind parts, const void *data,
         node[0] = i / 2;
     else if (parts == WALLS) {
         node[0] = i % system->nodes;
-        node[1] = contact_of(system)->obstacle[i / system->nodes].node;
+        node[1] = get_contact(system)->obstacle[i / system->nodes].node;
     } else if (parts == PAIRS) {
         node[0] = outline->point[i % outline->points];
         memcpy(node + 1, outline->edge[i / outline->points], 2 * sizeof *node);
@@ -1038,7 +1041,7 @@ long exact_crossings(const System *system, const double *x)
 
 double exact_gap(const System *system, const double *x, int node, int obstacle)
 {
-    const Contact *contact = contact_of(system);
+    const Contact *contact = get_contact(system);
     EvalPoint at = make_eval_point(system, x, NULL, x);
     Probe probe = {.at = &at};
     Real n[2];
@@ -1048,19 +1051,19 @@ double exact_gap(const System *system, const double *x, int node, int obstacle)
 
 double smallest_gap(const System *system, const double *x)
 {
-    const Contact *contact = contact_of(system);
+    const Contact *contact = get_contact(system);
     double smallest = INFINITY;
     for (int k = 0; contact && k < contact->obstacles; k++)
         for (int i = 0; i < system->nodes; i++)
-            if (contact_counts_pair(contact, system, i, k))
+            if (contact_includes_pair(contact, system, i, k))
                 smallest = fmin(smallest, exact_gap(system, x, i, k));
     return smallest;
 }
 
 double smallest_cell(const System *system, const double *x)
 {
-    const Cells *cells = system_term_data(system, &cell_energy);
-    const NeoHookean *solid = neo_hookean_of(system);
+    const CellBarriers *cells = system_term_data(system, &cell_energy);
+    const NeoHookean *solid = get_neo_hookean(system);
     EvalPoint at = make_eval_point(system, x, NULL, x);
     Probe probe = {.at = &at};
     double smallest = INFINITY;
@@ -1072,7 +1075,7 @@ double smallest_cell(const System *system, const double *x)
         const int *node = solid->triangles.node[t];
         smallest =
             fmin(smallest, (double)(double_area(x, node[0], node[1], node[2]) /
-                                    (2 * solid->triangles.area)));
+                                    (2 * solid->triangles.rest_area)));
     }
     return smallest;
 }

@@ -21,7 +21,7 @@ typedef struct Problem {
 
 static void problem_create(CholeskyKind kind, Problem *problem)
 {
-    problem->triplets = (Triplets){.size = SIZE, .count = ENTRIES};
+    problem->triplets = (Triplets){.matrix_size = SIZE, .count = ENTRIES};
     CHECK_OK(triplets_allocate(&problem->triplets));
     for (int i = 0; i < SIZE; i++) {
         triplets_add(&problem->triplets, i, i);

@@ -88,18 +88,18 @@ TEST(a_belt_takes_its_load_along)
     double speed = 0;
     int slips = 0;
     put_mass_on_wall(n, mu, 1e-4, G);
-    contact_of(&masses)->obstacle[0].motion =
-        (Motion){.phases = 1, .phase_end = {1e9}, .v = {{W * t[0], W * t[1]}}};
+    get_contact(&masses)->obstacle[0].motion = (ObstacleMotion){
+        .phases = 1, .phase_end = {1e9}, .v = {{W * t[0], W * t[1]}}};
     begin_free_masses(h, (double[2]){0.005 * n[0], 0.005 * n[1]}, still);
     for (int i = 0; i < 200; i++) {
-        double before = speed, done = run.work;
+        double before = speed, done = run.external_work;
         double heat = find_lost_energy();
         make_step();
         speed = run.v[0] * t[0] + run.v[1] * t[1];
         if (i < 60 || speed > 0.9 * W)
             continue; /* the block falls to its height, or sticks */
         CHECK_NEAR((speed - before) / h, mu * N - G * sin(angle), 1e-6);
-        CHECK_NEAR((run.work - done) / h, mu * N * W, 1e-5);
+        CHECK_NEAR((run.external_work - done) / h, mu * N * W, 1e-5);
         CHECK_NEAR((find_lost_energy() - heat) / h, mu * N * (W - speed), 1e-5);
         slips++;
     }
@@ -110,9 +110,10 @@ TEST(a_belt_takes_its_load_along)
 /* Makes a hand push the wall at o = (-0.1, 0), whose normal is x, to (1, 0). */
 static Obstacle *add_hand_on_wall(void)
 {
-    Contact *contact = contact_of(&masses);
+    Contact *contact = get_contact(&masses);
     contact->obstacle[0].o[0] = -0.1;
-    contact->hand = (Push){.is_held = 1, .target = {1, 0}, .mesh = {.side = 1}};
+    contact->hand =
+        (ObstaclePush){.is_held = 1, .target = {1, 0}, .mesh = {.side = 1}};
     return &contact->obstacle[0];
 }
 
@@ -132,11 +133,11 @@ TEST(a_hand_pushes_with_a_bounded_speed)
         CHECK(run.x[0] > wall->o[0]);
     }
     CHECK_NEAR(wall->o[0], 1, 1e-12);
-    CHECK(run.v[0] > 1 && run.work >= 0.5 * run.v[0] * run.v[0]);
-    contact_of(&masses)->hand.is_held = false;
-    double work = run.work;
+    CHECK(run.v[0] > 1 && run.external_work >= 0.5 * run.v[0] * run.v[0]);
+    get_contact(&masses)->hand.is_held = false;
+    double work = run.external_work;
     make_step();
-    CHECK(wall->o[0] == 1 && run.work == work);
+    CHECK(wall->o[0] == 1 && run.external_work == work);
 }
 
 /* A pinned mass stops the pushed wall at a gap of 0.3 d_hat. A free mass before
@@ -157,8 +158,7 @@ TEST(a_fixed_body_stops_the_hand)
                          {.n = {left[0], 0}, .o = {0.05, 0}, .node = -1}};
     CHECK_OK(contact_configure(&masses, &(Barrier){0.01, 1}, 2, walls));
     wall = add_hand_on_wall();
-    contact_of(&masses)->hand.target[0] =
-        0.05; /* near the end the hand moves slowly */
+    get_contact(&masses)->hand.target[0] = 0.05; /* near, where it slows */
     begin_free_masses(0.01, still, still);
     for (int i = 0; i < 300; i++)
         make_step();
@@ -175,8 +175,9 @@ TEST(a_ball_that_is_pushed_jumps_over_nothing)
         .kind = OBSTACLE_BALL, .o = {-0.05, 0}, .radius = 0.02, .node = -1};
     create_masses(1, 0);
     CHECK_OK(contact_configure(&masses, &(Barrier){0.002, 1}, 1, &ball));
-    Contact *contact = contact_of(&masses);
-    contact->hand = (Push){.is_held = 1, .target = {9, 0}, .mesh = {.side = 1}};
+    Contact *contact = get_contact(&masses);
+    contact->hand =
+        (ObstaclePush){.is_held = 1, .target = {9, 0}, .mesh = {.side = 1}};
     begin_free_masses(0.01, still, still);
     for (int i = 0; i < 50; i++) {
         make_step();
@@ -225,7 +226,7 @@ enum { NODES = 1024, SPRINGS = 8 * NODES };
 /* Returns the work of moving walls in the last step, J. */
 static double find_wall_work(const System *system, const double *x, double h)
 {
-    const Contact *contact = contact_of(system);
+    const Contact *contact = get_contact(system);
     double sum = 0;
     for (int k = 0; contact && k < contact->obstacles; k++) {
         const Obstacle *wall = &contact->obstacle[k];
@@ -383,12 +384,12 @@ TEST(a_fast_ceiling_comes_in_parts)
 {
     Simulation *scene = simulate("squeeze --segments 8 --gravity 0");
     TimeIntegrator *it = &scene->run[0];
-    Obstacle *ceiling = &contact_of(it->system)->obstacle[1];
-    ceiling->motion = (Motion){
+    Obstacle *ceiling = &get_contact(it->system)->obstacle[1];
+    ceiling->motion = (ObstacleMotion){
         .phases = 2, .phase_end = {0.01, 10}, .v = {{0, -50}, {0, -60}}};
     make_steps(scene, 1);
     CHECK_NEAR(ceiling->o[1], 0.51 - 0.5, 1e-12);
-    CHECK(it->parts_made > 1);
+    CHECK(it->parts_done > 1);
     CHECK_NEAR(it->moved_part, 1, 1e-15);
     CHECK_STATUS(simulation_step(scene), STATUS_BLOCKED);
     CHECK(ceiling->o[1] > -0.51 && it->moved_part < 1);
@@ -403,20 +404,21 @@ TEST(a_moving_wall_never_gives_back_what_is_dissipated)
     static const double h[] = {1e-4, 1e-3, 0.01};
     for (int k = 0; k < 3; k++) {
         put_mass_on_wall(up, 0, 0, G);
-        contact_of(&masses)->obstacle[0].motion =
-            (Motion){.phases = 3,
-                     .phase_end = {0.2, 0.3, 0.8},
-                     .v = {{0, 0.5}, {0, -3}, {0, 1}}};
+        get_contact(&masses)->obstacle[0].motion =
+            (ObstacleMotion){.phases = 3,
+                             .phase_end = {0.2, 0.3, 0.8},
+                             .v = {{0, 0.5}, {0, -3}, {0, 1}}};
         begin_free_masses(h[k], x, v);
         double before = 0, start = 0, most = 0;
         for (int step = 0; step < 1 / h[k]; step++) {
             double held = system_kinetic_energy(&masses, run.v) +
                           system_potential(&masses, run.x) +
-                          system_gravity_potential(&masses, run.x) - run.work;
+                          system_gravity_potential(&masses, run.x) -
+                          run.external_work;
             start = step == 0 ? held : start;
             CHECK(start - held >= before - 1e-12);
             before = start - held;
-            most = fmax(most, run.work);
+            most = fmax(most, run.external_work);
             CHECK_OK(time_integrator_step(&run));
         }
         CHECK(before > 1e-3 && most > 0.1);

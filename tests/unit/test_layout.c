@@ -231,8 +231,7 @@ static int count_ink(int shift, int from, int to)
     return sum;
 }
 
-/* Markup has the right widths: scripts are small, marks add no width, and
- * unknown braces stay. */
+/* Scripts are small, marks add no width, and unknown braces stay. */
 TEST(markup_has_its_widths)
 {
     static const struct {

@@ -55,8 +55,7 @@ static bool spring_joins(const int e[2], int a, int b)
 }
 
 /* Cells and triangles of two beams are anticlockwise, with the right areas and
- * the springs between their nodes; the outline has the open sides. Coordinates
- * are halves: exact. */
+ * springs; the outline has the open sides. Coordinates are exact halves. */
 TEST(cells_triangles_and_outline_are_those_of_the_springs)
 {
     enum { COLUMNS = 5, ROWS = 3, BODIES = 2 };
@@ -86,9 +85,9 @@ TEST(cells_triangles_and_outline_are_those_of_the_springs)
         square_mesh_get_outline_edge(&mesh, k, node);
         int i = node[0], j = node[1];
         const double *a = x + 2 * i, *b = x + 2 * j;
-        CHECK(i / 24 == j / 24 && square_mesh_locate_body(&mesh, i) == k / 16);
+        CHECK(i / 24 == j / 24 && square_mesh_find_body(&mesh, i) == k / 16);
         CHECK(fabs(a[0] - b[0]) + fabs(a[1] - b[1]) == 0.5);
-        CHECK(square_mesh_get_sides(&mesh, i) ==
+        CHECK(square_mesh_get_node_sides(&mesh, i) ==
               (a[0] == -1.25 ? MESH_LEFT : 0) +
                   (a[0] == 1.25 ? MESH_RIGHT : 0) +
                   (a[1] == -0.75 ? MESH_BOTTOM : 0) +

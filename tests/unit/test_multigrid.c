@@ -67,11 +67,11 @@ static void randomise_problem(Random *random, bool pins)
 static void add_hand(double times)
 {
     int node = body->nodes / 2;
-    Pull hand = {.node = node,
-                 .mouse_xy = {0.1, 0.4},
-                 .mouse_k = times * body->m[node] / (H * H),
-                 .cell_size = 1.0 / body->segments,
-                 .side = 1};
+    NodePull hand = {.node = node,
+                     .mouse_xy = {0.1, 0.4},
+                     .mouse_k = times * body->m[node] / (H * H),
+                     .cell_size = 1.0 / body->segments,
+                     .body_side = 1};
     CHECK_OK(pull_configure(body, &hand_energy, &hand));
 }
 

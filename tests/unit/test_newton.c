@@ -291,8 +291,8 @@ TEST(parts_share_one_limit)
 {
     Simulation *simulation = simulate("squeeze --segments 8 --gravity 0");
     TimeIntegrator *run = &simulation->run[0];
-    contact_of(run->system)->obstacle[1].motion =
-        (Motion){.phases = 1, .phase_end = {0.01}, .v = {{0, -50}}};
+    get_contact(run->system)->obstacle[1].motion =
+        (ObstacleMotion){.phases = 1, .phase_end = {0.01}, .v = {{0, -50}}};
     run->newton->settings.max_iterations = 10;
     CHECK_STATUS(simulation_step(simulation), STATUS_ITERATION_LIMIT);
     CHECK_AT_MOST(run->newton->counters.updates, 19);

@@ -72,8 +72,7 @@ static bool is_of_option(const char *part)
 }
 
 /* Checks a part of a row: "= NAME NUMBER..." is the value of an option, "+
- * NAME" and "- NAME" an option that is on or off; other parts are words of the
- * message. */
+ * NAME" and "- NAME" an option on or off; others are words of the message. */
 static bool part_holds(const char *part, const Options *options,
                        const char *message)
 {

@@ -107,8 +107,7 @@ TEST(steps_are_due_at_the_speed_that_was_asked_for)
     }
 }
 
-/* While the overview is open, its scenes make a step in each frame, and the run
- * waits. */
+/* While the overview is open, its scenes step in each frame; the run waits. */
 TEST(the_overview_is_alive)
 {
     const FrameContent *content = &player.screen.frame.content;

@@ -184,7 +184,7 @@ TEST(a_ceiling_comes_down_as_in_the_lesson)
         "--gravity 9.81 --barrier 0.01,1e5 --tolerance 1e-6 --friction 0.11 "
         "--ground 0,1,0,-1 --at 0,-0.3 --ceiling 0.25,-0.5,-9");
     const TimeIntegrator *run = &scene->run[0];
-    const Obstacle *ceiling = &contact_of(run->system)->obstacle[1];
+    const Obstacle *ceiling = &get_contact(run->system)->obstacle[1];
     FILE *file = open_reference("ceiling_tight", "states");
     for (int step = 0; step <= 120; step++) {
         double y;

@@ -10,8 +10,7 @@
 
 #include "model/self_contact.h"
 
-/* Makes steps until the scene is over, at most `limit`. Returns the last
- * status. */
+/* Makes at most `limit` steps, to the scene's end. Returns the last status. */
 static Status run_to_end(Simulation *simulation, int limit)
 {
     Status status = simulation->status;
@@ -138,8 +137,7 @@ TEST(envelope_cells_are_runs)
     CHECK(refused >= 1); /* cells that did not converge are compared, too */
 }
 
-/* The clearance test of a running simulation ignores the start of a ball and
- * torn cells. */
+/* The clearance test of a run ignores the start of a ball and torn cells. */
 TEST(obstacles_may_stand_where_cells_were_torn)
 {
     char message[256];
@@ -161,7 +159,7 @@ TEST(pairs_that_come_up_inside_a_step_have_entries)
 {
     Simulation *scene = simulate("return --segments 2 --body 0,0 --body 0,1.2");
     const System *system = &scene->system;
-    const SelfContact *self = self_contact_of(system);
+    const SelfContact *self = get_self_contact(system);
     Newton *newton = scene->run[0].newton;
     double u[36] = {0}, Hp[36];
     bool grown;
@@ -181,8 +179,8 @@ TEST(pairs_that_come_up_inside_a_step_have_entries)
     before.x = newton->x_trial;
     incremental_potential_gradient(&before.E, before.u, before.x, before.g);
     CHECK(self->pairs > 0);
-    incremental_potential_product(&before, newton->direction.projection,
-                                  before.p, Hp);
+    incremental_potential_apply_hessian(&before, newton->direction.projection,
+                                        before.p, Hp);
     for (int i = 0; i < 36; i++)
         CHECK_NEAR(Hp[i], -newton->iterate.g[i], 1e-10);
     CHECK_OK(incremental_potential_extend_pattern(&newton->iterate, &grown));

@@ -920,7 +920,7 @@ static double find_own_energy(const Simulation *simulation)
 /* Returns the height of the first wall, m. */
 static double find_wall_height(const Simulation *simulation)
 {
-    return contact_of(&simulation->system)->obstacle[0].o[1];
+    return get_contact(&simulation->system)->obstacle[0].o[1];
 }
 
 /* Returns the distance of the held node from the hand, m. */

@@ -42,27 +42,27 @@ TEST(random_scenes_keep_the_promise)
 /* Steps of an integrator that break one promise each */
 static void reduce_step(TimeIntegrator *run)
 {
-    integrator_methods[0].finish(run);
+    integrator_methods[0].set_state(run);
     for (size_t i = 0; i < run->x_length; i++)
         run->newton->iterate.u[i] *= 0.9;
 }
 
 static void put_node_below_ground(TimeIntegrator *run)
 {
-    integrator_methods[0].finish(run);
+    integrator_methods[0].set_state(run);
     run->new_x[1] = -0.7;
 }
 
 static void add_momentum(TimeIntegrator *run)
 {
-    integrator_methods[0].finish(run);
+    integrator_methods[0].set_state(run);
     for (size_t i = 0; i < run->x_length; i++)
         run->new_v[i] += 1e-5;
 }
 
 static void add_angular_momentum(TimeIntegrator *run)
 {
-    integrator_methods[0].finish(run);
+    integrator_methods[0].set_state(run);
     for (size_t i = 0; i < run->x_length; i++)
         run->new_v[i] += (i % 2 ? 1e-3 : -1e-3) * run->new_x[i ^ 1];
 }
@@ -80,7 +80,7 @@ static void loosen_tolerance(TimeIntegrator *run)
 static void restore_tolerance(TimeIntegrator *run)
 {
     run->newton->settings.tolerance = tolerance;
-    integrator_methods[0].finish(run);
+    integrator_methods[0].set_state(run);
 }
 
 TEST(broken_promises_are_noticed)
@@ -112,7 +112,7 @@ TEST(broken_promises_are_noticed)
         CHECK(watch_step(&watch) == VERDICT_CONVERGED);
         method.set_target =
             rows[i].set_target ? rows[i].set_target : method.set_target;
-        method.finish = rows[i].finish;
+        method.set_state = rows[i].finish;
         run->method = &method;
         CHECK(watch_step(&watch) == VERDICT_WRONG);
         CHECK(strstr(watch.reason, rows[i].why) != NULL);

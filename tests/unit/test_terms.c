@@ -121,7 +121,8 @@ static void make_grid(const Row *row, Random *random, Case *c)
     if (row->shape == GRID && !row->solid && random_below(random, 2))
         c->system.k[random_below(random, c->system.springs)] = 0;
     if (row->shape == CORNER) { /* one triangle remains, without springs */
-        const Cells *cells = system_find_term(&c->system, &cell_energy)->data;
+        const CellBarriers *cells =
+            system_find_term(&c->system, &cell_energy)->data;
         const int *side = cells->side_springs[0];
         for (int s = 0; s < c->system.springs; s++)
             if (s != side[0] && s != side[1] && s != side[2])
@@ -191,12 +192,12 @@ static void make_shape(const Row *row, Random *random, Case *c)
 /* Adds a field and a hand, which pull one node each. */
 static void set_pulls(Random *random, double strength, System *system)
 {
-    const Pull all = {.node = random_below(random, system->nodes),
-                      .k = strength};
-    const Pull one = {.node = random_below(random, system->nodes),
-                      .k = 3 * strength,
-                      .target = {random_uniform(random, -2, 2),
-                                 random_uniform(random, -2, 2)}};
+    const NodePull all = {.node = random_below(random, system->nodes),
+                          .k = strength};
+    const NodePull one = {.node = random_below(random, system->nodes),
+                          .k = 3 * strength,
+                          .target = {random_uniform(random, -2, 2),
+                                     random_uniform(random, -2, 2)}};
     CHECK_OK(pull_configure(system, &central_field, &all));
     CHECK_OK(pull_configure(system, &hand_energy, &one));
 }
@@ -415,10 +416,10 @@ static void check_line(Case *c, const TermKind *kind, Random *random)
 /* Returns the smallest share that is left of a gap or a triangle's area. */
 static double find_remaining_share(const Case *c, const double *x)
 {
-    const Contact *contact = contact_of(&c->system);
+    const Contact *contact = get_contact(&c->system);
     double least = INFINITY;
     for (int i = 0; contact && i < c->system.nodes; i++)
-        if (contact_counts_pair(contact, &c->system, i, 0))
+        if (contact_includes_pair(contact, &c->system, i, 0))
             least = fmin(least, exact_gap(&c->system, x, i, 0) /
                                     exact_gap(&c->system, c->x, i, 0));
     return contact
@@ -466,11 +467,11 @@ static void check_projection(Case *c, Random *random)
     Sparse A;
     bool grown;
     CHECK_OK(incremental_potential_extend_pattern(&iterate, &grown));
-    CHECK_OK(incremental_potential_pattern(&c->system, &A));
+    CHECK_OK(incremental_potential_create_hessian(&c->system, &A));
     CHECK(incremental_potential_hessian(&iterate, PROJECTION_NONE, &A) == 0);
     dense_from_sparse(&A, plain);
     double Hq[SIZE], scale = 0;
-    incremental_potential_product(&iterate, PROJECTION_NONE, c->q, Hq);
+    incremental_potential_apply_hessian(&iterate, PROJECTION_NONE, c->q, Hq);
     for (int i = 0; i < n * n; i++)
         scale = fmax(scale, fabs(plain[i]));
     for (int i = 0; i < n; i++) {
@@ -518,7 +519,7 @@ static void check_whole_step(Case *c, Random *random)
     evaluate_oracle(c, NULL, 0, &noise);
     Iterate iterate = {.E = E, .u = c->u, .x = c->x, .g = g, .p = c->p};
     incremental_potential_gradient(&E, c->u, c->x, g);
-    incremental_potential_product(&iterate, PROJECTION_NONE, c->q, Hq);
+    incremental_potential_apply_hessian(&iterate, PROJECTION_NONE, c->q, Hq);
     compare("E's gradient", dot(c, g, c->p), part.p, noise.p + 1e-13L * size.p);
     compare("E's Hessian", dot(c, Hq, c->p), part.pq,
             noise.pq + dot_noise(c, Hq, c->p) + 1e-13L * size.pq);
