@@ -121,8 +121,8 @@ Status player_work(Player *player);
 Status player_seek(Player *player, long step, AfterWork after);
 
 /* Edits a pane, or each one.  player_work then makes the shown step, or the
- * step that failed, once more.  The active pane keeps the shown step as a ghost,
- * unless the step failed or the edit begins a new run. */
+ * step that failed, once more.  The active pane keeps the shown step as a
+ * ghost, unless the step failed or the edit begins a new run. */
 Status player_repeat_step(Player *player, const Command *change, int pane);
 
 /* Removes the ghosts, and shows the end of the step, no line of Algorithm 3. */
