@@ -227,7 +227,6 @@ void descent_find_direction(Simulation *simulation)
 Status step_descent(Simulation *simulation)
 {
     Descent *descent = &simulation->descent;
-    choose_stopping_test(simulation);
     NewtonRecord record = {
         .step_number = simulation->steps + 1,
         .iteration = (int)simulation->steps,
