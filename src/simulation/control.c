@@ -131,8 +131,6 @@ static Status update_run_options(Simulation *simulation, int r,
         time_integrator_free(&old);
         return status;
     }
-    if (options->stiffness != before->stiffness)
-        run->memory_h = 0;
     run->h = options->timestep;
     if (run->newton)
         options_fill_newton_settings(options, &run->newton->settings);
@@ -221,6 +219,9 @@ Status control_apply(Simulation *simulation, const Control *control)
                 stop_node(&simulation->run[r], i);
     }
     memcpy(system->pinned, control->pinned, (size_t)system->nodes);
+    for (int r = 0; r < simulation->runs; r++)
+        if (!simulation->run[r].newton)
+            simulation->run[r].memory_h = 0; /* Verlet's a_n is another now */
     if (!status)
         status = apply_hand(simulation, control);
     apply_push(simulation, control);

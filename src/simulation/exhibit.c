@@ -97,6 +97,7 @@ void exhibit_flip_switch(Simulation *simulation, int number)
             if (exhibit_spring_kind(simulation, s) == number)
                 system->k[s] = k;
         system_mark_changed(system, false);
+        simulation->run[0].memory_h = 0; /* forces have changed */
         simulation->ledger[0].work +=
             simulation_energies(simulation, 0).total - before;
         return;

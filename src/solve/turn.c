@@ -9,8 +9,11 @@ bool turns_may_follow(const Newton *newton)
 {
     const Iterate *at = &newton->iterate;
     double torque = 0;
-    for (int i = 0; i < 2 * newton->system->nodes; i++)
-        torque += fabs(at->p[i] * at->g[i]);
+    for (int i = 0; i < newton->system->nodes; i++) {
+        const double *p = at->p + 2 * i, *g = at->g + 2 * i;
+        torque +=
+            sqrt(p[0] * p[0] + p[1] * p[1]) * sqrt(g[0] * g[0] + g[1] * g[1]);
+    }
     return torque > newton->tolerance * newton->settings.h *
                         newton->rounding.min_mass *
                         newton->rounding.shortest_spring;
