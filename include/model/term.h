@@ -75,9 +75,9 @@ struct TermKind {
     } rank;
 
     /* Kind of the elements, if the term is a sum over elements (elements.h).
-     * The functions from value to line_remainder, without extend_pattern, are
-     * then those of elements.c.  Only
-     * such a term may not exist at some x (elements_are_feasible). */
+     * The functions from value to line_remainder, without extend_pattern and
+     * line_polynomial, are then those of elements.c.  Only such a term may not
+     * exist at some x (elements_are_feasible). */
     const ElementKind *element;
 
     /* Returns P(x) >= 0, J, not multiplied by weight.  NULL: the term has no
@@ -88,8 +88,9 @@ struct TermKind {
      * weight -1 and u NULL to collect forces. */
     void (*gradient)(const EvalPoint *at, double *g);
 
-    /* Appends the triplets of the Hessian, by add_block_triplets.  In a step
-     * only extend_pattern adds triplets.  NULL: the Hessian is 0. */
+    /* Appends the triplets of the Hessian, by add_block_triplets or
+     * add_diagonal_triplets.  In a step only extend_pattern adds triplets.
+     * NULL: the Hessian is 0. */
     void (*add_triplets)(const EvalPoint *at, Triplets *triplets);
 
     /* Appends the triplets that the Hessian at x needs and the pattern lacks,

@@ -14,8 +14,8 @@
  * An entry has the state after its step, and the control with which the next
  * step is made (control_apply).  A branch begins with a new control at a state
  * of the branch below.  Where several branches begin at one step, the control
- * of the topmost one counts.  A drag of a point or node sets a new state, which
- * its branch stores.
+ * of the topmost one counts.  A start, a drag of a point or node, and a switch
+ * set a new state, which its branch stores.
  *
  * To show a step, each pane loads the nearest stored state up to that step, and
  * makes the steps from there once more (past_do_work).  A short step of
@@ -41,7 +41,7 @@ enum { PAST_ALL = -1 }; /* past_edit edits each pane */
 typedef struct State {
     int ref_count;          /* number of entries that share the state */
     size_t size;            /* bytes of memory, with this struct */
-    bool is_set;            /* set by a start or a drag, not made by a step */
+    bool is_set;            /* set by the user, not made by a step */
     const Control *control; /* control under which the state was saved */
     unsigned char bytes[];  /* the state (state_save) */
 } State;

@@ -82,7 +82,8 @@ void step_trace_clear(StepTrace *trace);
 void step_trace_free(StepTrace *trace);
 
 /* Finds the next position (way 1) or the position before (-1).
- *   unit  in, UNIT_UPDATE stops at ends of updates, UNIT_LINE at each position
+ *   unit  in, UNIT_UPDATE stops at the start and at ends of updates,
+ *         UNIT_LINE at each position
  * Returns the index of this position, or `position` if the walk ends there. */
 int step_trace_walk(const StepTrace *trace, TimeUnit unit, int position,
                     int way);

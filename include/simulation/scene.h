@@ -69,7 +69,8 @@ typedef struct Scene {
     PictureKind picture;
     unsigned parts;   /* bits of ScenePart: what the scene has */
     const char *args; /* options with other values than on the slides */
-    /* Fills simulation->system, the mesh and the start. */
+    /* Fills simulation->system and the mesh, and starts each run
+     * (simulation_start_run). */
     Status (*create)(struct Simulation *simulation);
     double speed;   /* steps a frame at first; 0: 1, or 1/32 without time */
     double view[4]; /* m, left, bottom, right, top of the view; 0: automatic */

@@ -81,7 +81,7 @@ typedef struct NewtonCounters {
 void newton_counters_add(const NewtonCounters *counters, NewtonCounters *sum);
 
 /* The Hessian and its factor, and vectors of [2n] (direction.c).  Pattern,
- * slots and symbolic analysis are made once.
+ * slots and symbolic analysis are kept until the pattern changes.
  *
  * Where h^2 k outweighs the masses by more than the 16 digits of a double, H
  * has no Cholesky factor in floating point.  Then H + shift I is factored, and
@@ -133,8 +133,9 @@ typedef struct Newton {
     double *memory;  /* block of all arrays */
     Iterate iterate; /* E, u, x, g, p */
     double *u_tilde; /* [2n] m, x_tilde - x_n, written by the integrator */
-    double *u_trial, *x_trial; /* [2n] m, end of a trial step; after an update
-                                  the iterate before the update */
+    /* [2n] m, end of a trial step; after an update that an observer sees, the
+     * iterate before the update */
+    double *u_trial, *x_trial;
     SearchDirection direction; /* the Hessian and its factor */
     bool has_gradient;         /* has the gradient at x in iterate.g */
     bool passes_test;          /* p of the last iteration passes the test */

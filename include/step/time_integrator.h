@@ -21,8 +21,9 @@ typedef struct IntegratorMethod {
     bool only_by_name; /* is chosen by name only, and skipped by key M */
     int memory_arrays; /* arrays [2n] kept between steps */
     int stages;        /* minimisations of a step; explicit: 0 */
-    /* Fills newton->u_tilde and weight for the present stage.  Gravity is added
-     * to u_tilde by completing the square:
+    /* Fills newton->u_tilde, without gravity, and the weight of the integrator
+     * for the present stage.  The caller then adds gravity to u_tilde by
+     * completing the square:
      *   |u - u_tilde|_M^2/2 - weight m g.u
      *       = |u - (u_tilde + weight g)|_M^2/2 + constant. */
     void (*set_target)(TimeIntegrator *);

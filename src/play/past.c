@@ -160,7 +160,7 @@ static void drop_branches(Past *past, int from)
 /* ---- states -------------------------------------------------------------- */
 
 /* Whether an entry keeps its state when its pane leaves the step.  In a thinned
- * branch entry 0 keeps only a state of a start or a drag. */
+ * branch entry 0 keeps only a state that the user set. */
 static bool branch_keeps_state(const Branch *branch, const Entry *entry)
 {
     long i = (entry - branch->entry) / branch->panes;

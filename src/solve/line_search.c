@@ -21,9 +21,9 @@ typedef struct SearchContext {
 } SearchContext;
 
 /* Returns E(x + alpha p) - E(x), or 0 without a line search; NaN where a term
- * does not allow the point, or where E, evaluated at both points, changes by
- * more than this difference plus rounding.  Where E does not rise, u_trial
- * and x_trial get the point. */
+ * does not allow the point, or where E, evaluated at both points, rises by more
+ * than this difference plus rounding.  Unless a line search sees E rise,
+ * u_trial and x_trial get the point. */
 static double step_energy_difference(const void *function, double alpha)
 {
     const SearchContext *search = function;

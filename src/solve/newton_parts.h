@@ -58,7 +58,7 @@ void swap_iterates(Newton *newton);
 /* Whether the next direction may turn the nodes by more than the tolerance,
  * although p passes the test.  At x the forces g resist a turn.  At x + p most
  * of these forces are gone, and only the masses resist the remaining torque,
- * which is at most sum |p_i| |g_i|. */
+ * which is at most sum |p_i| |g_i|, with the lengths at node i. */
 bool turns_may_follow(const Newton *newton);
 
 /* Turns all nodes to the angle at which E is lowest, if P stays the same in a
