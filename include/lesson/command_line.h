@@ -28,4 +28,4 @@ Status options_set(Options *options, const OptionRow *row, const char *text,
                    double value, Message message);
 
 /* Writes the text of --help, 80 columns wide. */
-void options_help(FILE *help);
+void options_print_help(FILE *help);

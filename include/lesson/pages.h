@@ -9,7 +9,7 @@
 #include "simulation/options.h"
 
 /* Length of line_highlight: lines 1 to 8 of Algorithm 3; [0] is unused. */
-enum { PAGE_CODE_LINES = 9 };
+enum { PAGE_MAX_CODE_LINES = 9 };
 
 /* A page.  Texts are texts of live_values.h: live numbers stand in braces. */
 typedef struct LecturePage {
@@ -34,7 +34,7 @@ typedef struct LecturePage {
     const char *function;    /* functions shown by K, separated by ',' */
     const char *const *code; /* code lines of `function`, then NULL */
     const char *highlight;   /* code lines with this text are highlighted */
-    /* [PAGE_CODE_LINES] text of the code lines that are highlighted at each
+    /* [PAGE_MAX_CODE_LINES] text of the code lines that are highlighted at each
      * line of Algorithm 3; NULL: `highlight` */
     const char *const *line_highlight;
     const char *claim;     /* statement that a test checks */
@@ -53,11 +53,11 @@ typedef struct LecturePage {
 extern const LecturePage lecture_pages[];
 
 /* A letter of the pages, in markup, and its meaning.  NULL ends the table. */
-typedef struct Letter {
+typedef struct SlideLetter {
     const char *letter, *meaning;
-} Letter;
+} SlideLetter;
 
-extern const Letter lecture_letters[];
+extern const SlideLetter lecture_letters[];
 
 /* Returns the number of pages. */
 int lecture_count_pages(void);

@@ -39,11 +39,11 @@ enum { PAST_ALL = -1 }; /* past_edit edits each pane */
 
 /* A stored state, which entries of several branches can share. */
 typedef struct State {
-    int ref_count;          /* number of entries that share the state */
-    size_t size;            /* bytes of memory, with this struct */
-    bool is_set;            /* set by the user, not made by a step */
-    const Control *control; /* control under which the state was saved */
-    unsigned char bytes[];  /* the state (state_save) */
+    int ref_count;              /* number of entries that share the state */
+    size_t size;                /* bytes of memory, with this struct */
+    bool is_set;                /* set by the user, not made by a step */
+    const UserControl *control; /* control under which the state was saved */
+    unsigned char bytes[];      /* the state (state_save) */
 } State;
 
 /* A point of the plots over time. */
@@ -63,10 +63,10 @@ typedef struct StepOutcome {
 
 /* A step that a pane has made. */
 typedef struct Entry {
-    const Control *control; /* control with which the next step is made; NULL:
-                               this entry's step is still being made */
-    State *state;           /* state after the step; NULL: not stored */
-    EnergySample *sample;   /* energies of the state under `control`, or NULL */
+    const UserControl *control; /* control with which the next step is made;
+                               NULL: this entry's step is still being made */
+    State *state;               /* state after the step; NULL: not stored */
+    EnergySample *sample; /* energies of the state under `control`, or NULL */
     int substeps; /* steps of the simulation in this step; 0: the scene is over,
                      or the pane has ended with the status of the outcome */
     StepOutcome outcome;
@@ -90,12 +90,12 @@ typedef struct Branch {
 /* The simulation of a pane, and its position in the present branch. */
 typedef struct PastPane {
     Simulation simulation;
-    const Control *start_control; /* control at step 0, or NULL */
-    const Control *control;       /* control of the simulation */
-    bool has_state;               /* the simulation has the state of `step` */
-    long step;                    /* last step that the pane has finished */
-    bool is_iterating;            /* a step of the simulation has begun */
-    int substeps;                 /* steps of the simulation since `step` */
+    const UserControl *start_control; /* control at step 0, or NULL */
+    const UserControl *control;       /* control of the simulation */
+    bool has_state;      /* the simulation has the state of `step` */
+    long step;           /* last step that the pane has finished */
+    bool is_iterating;   /* a step of the simulation has begun */
+    int substeps;        /* steps of the simulation since `step` */
     long start_steps;    /* steps of the simulation before this substep */
     StepOutcome outcome; /* outcome of this step, else of the last step */
     bool has_failed;     /* the step after `step` could not be made */
@@ -194,10 +194,10 @@ long past_newest(const Past *past);
 const Entry *past_entry(const Past *past, int pane, long step);
 
 /* Returns the control that follows the shown step. */
-const Control *past_control(const Past *past, int pane);
+const UserControl *past_control(const Past *past, int pane);
 
 /* Returns the control with which the run was started. */
-const Control *past_start_control(const Past *past, int pane);
+const UserControl *past_start_control(const Past *past, int pane);
 
 /* Returns the last step up to `step` that a pane has made: an earlier one if a
  * failure has ended the pane before. */

@@ -78,9 +78,9 @@ enum { MAX_QUEUED = 16 };
  * the parts of a command, and drags while a step is made. */
 typedef struct CommandQueue {
     Command command[MAX_QUEUED];
-    int count;           /* number of commands */
-    bool is_from_page;   /* the commands belong to a page */
-    const Control *pins; /* pins to be set at the end of the queue, or NULL */
+    int count;                /* number of commands */
+    bool is_from_page;        /* the commands belong to a page */
+    const UserControl *pins;  /* pins set at the end of the queue, or NULL */
     char note[SENTENCE_SIZE]; /* message when the queue is empty, or "" */
 } CommandQueue;
 
@@ -103,8 +103,8 @@ typedef struct Tour {
     char verdict[VALUE_SIZE];   /* verdict on the guess at the page, or "" */
     int guesses, right_guesses; /* numbers of guesses so far */
     bool is_page_running;       /* a page's commands are running */
-    Options page_options[OPTIONS_MAX_DRAWN]; /* page's options of each pane */
-    int page_panes;                          /* page's number of panes */
+    Options page_options[OPTIONS_MAX_DRAWN_PANES]; /* options of each pane */
+    int page_panes;                                /* page's number of panes */
 } Tour;
 
 enum { LABEL_SIZE = 64 }; /* bytes */

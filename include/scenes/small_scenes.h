@@ -21,7 +21,7 @@
 
 /* Stores a user's guess that the next step, or the longest step of the dial,
  * leads to (x, y), m.  No effect without a single point, or after the end. */
-void scene_predict(Simulation *simulation, double x, double y);
+void scene_store_guess(Simulation *simulation, double x, double y);
 
 /* ---- one mass, one spring ------------------------------------------------ */
 
@@ -34,11 +34,11 @@ Status create_small_system(System *system, int pins, double length,
 
 /* Create `circle` and `arrows`, with runs 0, 1, 2 by forward, symplectic and
  * backward Euler, or a single run if an integrator is chosen. */
-Status create_circle(Simulation *simulation);
-Status create_arrows(Simulation *simulation);
+Status create_circle_scene(Simulation *simulation);
+Status create_arrows_scene(Simulation *simulation);
 
 /* Creates `spring`: node 0 is free, node 1 is pinned at the origin. */
-Status create_spring(Simulation *simulation);
+Status create_spring_scene(Simulation *simulation);
 
 /* A step of the scene arrows, with omega2 = 1/s^2.
  *   forward     x' = x + h v     v' = v + h a(x)
@@ -56,7 +56,7 @@ typedef struct MassStep {
 bool mass_find_next_step(const Simulation *simulation, int run, MassStep *step);
 
 /* Exact solution x(t), m, out; t seconds since the start or the last drag. */
-void mass_find_exact(const Simulation *simulation, double t, double x[2]);
+void mass_find_exact_x(const Simulation *simulation, double t, double x[2]);
 
 /* Length, energies and forces of a spring from its pinned end to d. */
 typedef struct SpringValues {
@@ -78,9 +78,9 @@ SpringValues spring_evaluate(const double d[2], double l2, double k);
 
 /* Create the scenes of a descent.  In overshoot and tangent the unknown is x of
  * node 0.  In landscape node 0 is free, and nodes 1 and 2 are pinned. */
-Status create_overshoot(Simulation *simulation);
-Status create_tangent(Simulation *simulation);
-Status create_landscape(Simulation *simulation);
+Status create_overshoot_scene(Simulation *simulation);
+Status create_tangent_scene(Simulation *simulation);
+Status create_landscape_scene(Simulation *simulation);
 
 /* Makes one Newton update (Algorithm 1), with the projection (Algorithm 3, line
  * 3) and line search (Algorithm 2) of the options.  Convergence is tested by
@@ -88,7 +88,7 @@ Status create_landscape(Simulation *simulation);
 Status step_descent(Simulation *simulation);
 
 /* Computes the direction at the present iterate with the present options. */
-void descent_find_direction(Simulation *simulation);
+void descent_update_direction(Simulation *simulation);
 
 /* Begins the search again at the present iterate. */
 void descent_restart(Simulation *simulation);
@@ -108,7 +108,7 @@ double descent_direction(const Simulation *simulation, Projection projection,
  * positive, as at a minimum, and Newton's direction is downhill; 1 if its
  * determinant is not, as at a saddle; 2 if all are negative, as at a maximum.
  * With one unknown: 2 if H < 0, else 0. */
-int descent_hessian_index(const Simulation *simulation, double x, double y);
+int descent_classify_hessian(const Simulation *simulation, double x, double y);
 
 /* Returns the value of some parts of E at (x, y), J s^2.
  *   parts  enum LandscapePart */
@@ -117,7 +117,7 @@ double landscape_evaluate_parts(const Simulation *simulation, unsigned parts,
 
 /* Creates `dial`: a step makes h 10^(1/10) times longer, up to 10 s; node 0 is
  * at the minimiser. */
-Status create_dial(Simulation *simulation);
+Status create_dial_scene(Simulation *simulation);
 Status step_dial(Simulation *simulation);
 void dial_restart(Simulation *simulation);
 
@@ -138,7 +138,7 @@ Status race_measure_method(Simulation *simulation,
                            long steps, TimeIntegrator *run, RacePoint *point);
 
 /* Makes run[0], the start of the measured runs, and run[1], the exact end. */
-Status create_race(Simulation *simulation);
+Status create_race_scene(Simulation *simulation);
 
 /* Makes the next run.  The methods take turns, with ever shorter time steps. */
 Status step_race(Simulation *simulation);
@@ -156,7 +156,7 @@ double envelope_stiffness(int row);
 
 /* Creates `envelope`: run 0 is that of the map's shown cell, at the start the
  * one nearest to h and k of the options. */
-Status create_envelope(Simulation *simulation);
+Status create_envelope_scene(Simulation *simulation);
 
 /* Runs the cells of the next row, from the softest springs to the stiffest. */
 Status step_envelope(Simulation *simulation);

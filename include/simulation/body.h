@@ -12,23 +12,23 @@ SquareMesh body_make_mesh(const Options *options);
  *   pinned  [nodes] in/out: 1 for each node that is named; NULL: the text is
  *           only checked
  * Returns the part of the text that names no node; NULL: there is none. */
-const char *pins_read(const char *text, const SquareMesh *shape,
-                      unsigned char *pinned);
+const char *pins_parse(const char *text, const SquareMesh *shape,
+                       unsigned char *pinned);
 
 /* Returns the table of PINS_WORDS. */
-NameTable pins_words(void);
+NameTable pins_get_words(void);
 
 /* Returns what the scene adds to the heights of a run's body and grounds, m. */
-double body_find_lift(const Options *options, int run);
+double body_find_added_height(const Options *options, int run);
 
 /* Gives gravity, terms and springs of a run the numbers of the present options.
  * Returns OK, OUT_OF_MEMORY. */
-Status body_update(Simulation *simulation, int run);
+Status body_apply_options(Simulation *simulation, int run);
 
 /* Creates the mesh, and for each run of the scene the system with all its terms
  * and the start.  The centre of a scene's ball is the last node.
  * Returns OK, INVALID_INPUT, TOO_LARGE, OUT_OF_MEMORY. */
-Status create_square(Simulation *simulation);
+Status create_square_scene(Simulation *simulation);
 
 /* Checks that the integrator works with all terms of the body.  Most terms need
  * backward Euler.  Returns OK, or INVALID_INPUT with a message. */

@@ -7,7 +7,7 @@
 #include "simulation/simulation.h"
 
 /* Decisions of a user about a run.  A control that steps share is constant. */
-typedef struct Control {
+typedef struct UserControl {
     int ref_count; /* reference count; the last user frees the control */
     Options options;
     int held_node;          /* node that the mouse holds; -1: none */
@@ -15,36 +15,37 @@ typedef struct Control {
     double target[2];       /* m, place to which the hand pulls or pushes */
     int nodes;              /* number of nodes */
     unsigned char pinned[]; /* [nodes] 1: pinned, 0: free */
-} Control;
+} UserControl;
 
 /* Return a control for a simulation with nothing held, or a copy.  The caller
  * may change it until control_retain adds a second user.  NULL: no memory. */
-Control *control_from_simulation(const Simulation *simulation);
-Control *control_copy(const Control *from);
+UserControl *control_from_simulation(const Simulation *simulation);
+UserControl *control_copy(const UserControl *from);
 
 /* Whether the mouse holds a node or an obstacle. */
-bool control_hand_holds(const Control *control);
+bool control_is_holding(const UserControl *control);
 
-/* Finds the place of an obstacle in a run before its lift (body_find_lift).
+/* Finds the place of an obstacle in a run without the height
+ * that the scene adds (body_find_added_height).
  *   at  [2] out, m */
-void simulation_find_obstacle(const Simulation *simulation, int run, int number,
-                              double at[2]);
+void simulation_locate_obstacle(const Simulation *simulation, int run,
+                                int number, double at[2]);
 
 /* Copies an obstacle's place to the options, if all runs have the same. */
-void control_store_obstacle(Control *control, int number,
+void control_store_obstacle(UserControl *control, int number,
                             const Simulation *simulation);
 
 /* Adds a user, and returns the control; NULL is accepted. */
-const Control *control_retain(const Control *control);
+const UserControl *control_retain(const UserControl *control);
 
 /* Removes a user, and frees the control with the last one; NULL is accepted. */
-void control_release(const Control *control);
+void control_release(const UserControl *control);
 
 /* Gives a simulation a control from the next step on.  Scene, mesh and start of
  * the control must be those of the simulation.  The change of the energy is
  * booked as work.  Returns as simulation_create; after a failure only
  * simulation_free may follow. */
-Status control_apply(Simulation *simulation, const Control *control);
+Status control_apply(Simulation *simulation, const UserControl *control);
 
 /* Puts a node at rest at (x, y), m; the change of the energy is booked as work.
  *   moves  false: only checks whether the node can be there

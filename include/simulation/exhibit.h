@@ -67,9 +67,9 @@ typedef struct DialCurve {
 enum { RACE_SHOWN_ROW = 1, RACE_METHODS = 4, RACE_STEP_SIZES = 7 };
 
 /* An explicit run counts as stable if RACE_EXTRA_STEPS further steps, which are
- * not measured, leave the energy below RACE_MAX_ENERGY times that of the start.
- * With too long a time step an accurate run may explode later. */
-enum { RACE_EXTRA_STEPS = 2048, RACE_MAX_ENERGY = 2 };
+ * not measured, leave the energy below RACE_MAX_ENERGY_RATIO times that of the
+ * start. With too long a time step an accurate run may explode later. */
+enum { RACE_EXTRA_STEPS = 2048, RACE_MAX_ENERGY_RATIO = 2 };
 
 /* A run of the race: a method with a time step. */
 typedef struct RacePoint {
@@ -121,13 +121,13 @@ int exhibit_list_handles(const struct Simulation *simulation,
 
 /* Lists the switches and whether each is on.  Returns how many there are. */
 int exhibit_list_switches(const struct Simulation *simulation,
-                          Switch out[SCENE_MAX_SWITCHES]);
+                          SceneSwitch out[SCENE_MAX_SWITCHES]);
 
 /* Returns the switches that were turned since the start, bit s for switch s. */
-unsigned exhibit_find_flips(const struct Simulation *simulation);
+unsigned exhibit_get_flip_bits(const struct Simulation *simulation);
 
 /* Returns the kind of a spring: 0 horizontal, 1 vertical, 2, 3 diagonal. */
-int exhibit_spring_kind(const struct Simulation *simulation, int spring);
+int exhibit_find_spring_kind(const struct Simulation *simulation, int spring);
 
 /* Moves a point to (x, y), m, if finite; begins the scene again from there. */
 void exhibit_drag_handle(struct Simulation *simulation, int handle, double x,

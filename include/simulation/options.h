@@ -28,15 +28,15 @@ typedef enum PictureLayer {
 
 /* Effect of the key N. */
 typedef enum NextAction {
-    NEXT_STEP,    /* makes a step */
-    NEXT_SHORTEN, /* makes the spring shorter by a fifth */
-    NEXT_SPRING,  /* makes a step, which adds a spring to the shown Hessian */
+    NEXT_MAKES_STEP,      /* makes a step */
+    NEXT_SHORTENS_SPRING, /* makes the spring shorter by a fifth */
+    NEXT_ADDS_SPRING,     /* makes a step, which adds a spring to the Hessian */
 } NextAction;
 
 enum { OPTIONS_MAX_GROUNDS = 8, OPTIONS_MAX_BALLS = 8 };
 
 /* Numbers of --body: centre X, Y; turn; velocity X, Y; stretch X, Y. */
-enum { BODY_NUMBERS = 7 };
+enum { BODY_OPTION_NUMBERS = 7 };
 
 /* Words that --pin accepts besides node numbers. */
 #define PINS_WORDS "top-corners, top, bottom, left, right, all"
@@ -44,7 +44,7 @@ enum { BODY_NUMBERS = 7 };
 static const double DEGREE = 0.017453292519943295; /* pi/180 */
 
 /* Capacity of Options.number, which a static assertion below checks. */
-enum { OPTIONS_NUMBERS = 256 };
+enum { OPTIONS_MAX_NUMBERS = 256 };
 
 /* The value of every option.  Numbers, whole numbers, switches (0 or 1) and
  * names (their index in the row's list) are doubles; the union makes them an
@@ -62,7 +62,7 @@ typedef struct Options {
             double balls; /* number of rows of ball that are used */
             double ball[OPTIONS_MAX_BALLS][3];
             double bodies; /* number of rows of body that are used */
-            double body[SQUARE_MESH_MAX_BODIES][BODY_NUMBERS];
+            double body[SQUARE_MESH_MAX_BODIES][BODY_OPTION_NUMBERS];
             /* height m, velocity m/s, lowest height m; no ceiling if the
              * velocity is 0 */
             double ceiling[3]; /* values of --ceiling */
@@ -85,7 +85,7 @@ typedef struct Options {
             double paused, fullscreen, headless, quiet, big;
             double help, version, list; /* print a text and exit */
         };
-        double number[OPTIONS_NUMBERS]; /* numbers of all options */
+        double number[OPTIONS_MAX_NUMBERS]; /* numbers of all options */
     };
     const struct Scene *scene;
     const struct LecturePage *page; /* page of the tour, or NULL */
@@ -104,20 +104,20 @@ typedef struct Options {
 /* Slot of a number in Options.number: OPTION_SLOT(timestep). */
 #define OPTION_SLOT(field) ((int)(offsetof(Options, field) / sizeof(double)))
 
-_Static_assert(OPTION_SLOT(scene) == OPTIONS_NUMBERS, "each number has a slot");
+_Static_assert(OPTION_SLOT(scene) == OPTIONS_MAX_NUMBERS, "numbers have slots");
 
 /* Largest number of panes, with pictures and without. */
-enum { OPTIONS_MAX_DRAWN = 6, OPTIONS_MAX_PANES = 64 };
+enum { OPTIONS_MAX_DRAWN_PANES = 6, OPTIONS_MAX_PANES = 64 };
 
 /* ---- the table ---------------------------------------------------------- */
 
 typedef enum OptionKind {
-    OPTION_SWITCH, /* no value: 0, or 1 if the option is given */
-    OPTION_NUMBER, /* numbers, `count` of them */
-    OPTION_WHOLE,  /* whole numbers, `count` of them */
-    OPTION_NAME,   /* index of one of the row's names */
-    OPTION_TEXT,   /* file, folder or list of nodes, not empty */
-    OPTION_PAGE,   /* page of the tour; the value may be left out */
+    OPTION_SWITCH,       /* no value: 0, or 1 if the option is given */
+    OPTION_NUMBER,       /* numbers, `count` of them */
+    OPTION_WHOLE_NUMBER, /* whole numbers, `count` of them */
+    OPTION_NAME,         /* index of one of the row's names */
+    OPTION_TEXT,         /* file, folder or list of nodes, not empty */
+    OPTION_PAGE,         /* page of the tour; the value may be left out */
 } OptionKind;
 
 /* The names of a table whose rows begin with a name; NULL ends the table. */
@@ -205,10 +205,10 @@ int option_count_values(const char *text, char separator);
  *   count   expected numbers; a value may have fewer if the row says so
  *   number  [count] out; the index of a name
  * Returns whether the text is such a value. */
-bool option_read(const OptionRow *row, int count, const char *text,
-                 double *number);
+bool option_parse(const OptionRow *row, int count, const char *text,
+                  double *number);
 
-/* Writes a number so that option_read reads the same number.
+/* Writes a number so that option_parse reads the same number.
  *   row   option with this number, which may stand for a name; NULL: none
  *   text  [size] out */
 void option_write(const OptionRow *row, double value, char *text, size_t size);
@@ -228,15 +228,15 @@ bool option_is_equal(const OptionRow *row, const Options *a, const Options *b);
 void option_copy(const OptionRow *row, const Options *from, Options *to);
 
 /* Returns what the window and the page call an option: "h" for timestep. */
-const char *option_label(const OptionRow *row);
+const char *option_get_label(const OptionRow *row);
 
 /* Writes the unit of an option as the window shows it, "J/m\u00b2", or "".
  *   text  [size] out */
 void option_write_unit(const OptionRow *row, char *text, size_t size);
 
 /* Lists the options of the window's row of numbers.  Returns how many. */
-int options_list_visible(const Options *options,
-                         const OptionRow *found[OPTIONS_MAX_ROWS]);
+int options_list_visible_rows(const Options *options,
+                              const OptionRow *found[OPTIONS_MAX_ROWS]);
 
 /* Returns the value of an option after notches of the wheel: up, or down if the
  * number of notches is negative.  A notch adds the row's increment.  Without an
@@ -254,4 +254,4 @@ double *options_obstacle_at(Options *options, int number);
 const IntegratorMethod *options_method(const Options *options);
 
 /* Returns the name of a solver on the command line. */
-const char *solver_name(int solver);
+const char *get_solver_name(int solver);

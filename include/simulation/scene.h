@@ -1,8 +1,8 @@
 /* scene.h - what a scene is: a row of the table in scene.c.
  *
- * A new scene is a row in scene.c, whose function, such as create_square, fills
- * the system and the start.  Files, options, --list and, for the first nine
- * rows, the keys 1 to 9 read the row. */
+ * A new scene is a row in scene.c, whose function, such as create_square_scene,
+ * fills the system and the start.  Files, options, --list and, for the first
+ * nine rows, the keys 1 to 9 read the row. */
 #pragma once
 
 #include "base/status.h"
@@ -42,10 +42,10 @@ enum ScenePart {
 enum { SCENE_MAX_HANDLES = 4, SCENE_MAX_SWITCHES = 4 };
 
 /* A part of the picture that can be switched off. */
-typedef struct Switch {
+typedef struct SceneSwitch {
     const char *label; /* text beside the switch */
     bool is_on;        /* the switch is on */
-} Switch;
+} SceneSwitch;
 
 /* Properties of a scene's body for which there is no option. */
 typedef struct SceneBody {

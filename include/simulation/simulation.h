@@ -65,14 +65,14 @@ typedef struct Energy {
  * (springs buckle, contacts turn, as in squeeze and rub) `dissipated` may fall:
  * the method has made energy.  The mean of the forces at both ends would have a
  * smaller error where a body is pressed, but `dissipated` would fall more. */
-enum { ENERGY_ROWS = 2 * SYSTEM_MAX_TERMS + 5 };
+enum { MAX_ENERGIES = 2 * SYSTEM_MAX_TERMS + 5 };
 
 typedef struct Energies {
     double kinetic, gravity, total; /* J */
     double work;                    /* work of walls, pins and hand */
     double dissipated; /* energy that the integrator took out; < 0: added */
     int rows;          /* number of energies */
-    Energy row[ENERGY_ROWS]; /* energies in the order of the plots' legend */
+    Energy row[MAX_ENERGIES]; /* energies in the order of the plots' legend */
 } Energies;
 
 /* Creates the simulation of options->scene; free it in any case.
@@ -110,13 +110,13 @@ Status simulation_advance(Simulation *simulation);
 double simulation_time(const Simulation *simulation);
 
 /* Computes the energies of a run. */
-Energies simulation_energies(const Simulation *simulation, int run);
+Energies simulation_get_energies(const Simulation *simulation, int run);
 
 /* Whether run 0 is at rest: nodes hardly move, and forces nearly vanish. */
 bool simulation_is_at_rest(const Simulation *simulation);
 
 /* Returns Newton's counters, summed over the runs; explicit methods have 0. */
-NewtonCounters simulation_sum_counters(const Simulation *simulation);
+NewtonCounters simulation_sum_newton_counters(const Simulation *simulation);
 
 /* Returns when a changed option takes effect, row->effect with two exceptions.
  * In a scene without time it is EFFECT_NEW_RUN, but options that need HAS_START
@@ -133,9 +133,9 @@ Status simulation_check_clearance(const Simulation *simulation,
  * if there is room at the end, else the part up to the first body.
  *   number  of the obstacle: grounds first, then balls
  *   to      [2] m, in, the point */
-double simulation_find_free_part(const Simulation *simulation,
-                                 const Options *options, int number,
-                                 const double to[2]);
+double simulation_find_free_fraction(const Simulation *simulation,
+                                     const Options *options, int number,
+                                     const double to[2]);
 
 /* Whether the mouse can drag the nodes. */
 bool simulation_is_draggable(const Simulation *simulation);

@@ -71,12 +71,12 @@ static const TimedMotion motions[] = {
     {"stiff", 1e9, 1.1, 0, 0.02, {16, 32, 0}},
     {"spinning", 1e9, 1, 10, 0.1, {16, 0}},
 };
-enum { MOTIONS = sizeof motions / sizeof *motions };
+enum { MOTION_COUNT = sizeof motions / sizeof *motions };
 
-enum { FIRST_STEPS = 8, TARGET_COUNT = 5 };
+enum { COARSEST_STEPS = 8, ERROR_TARGETS = 5 };
 
 /* m, errors for which the fastest methods are named */
-static const double targets[TARGET_COUNT] = {1e-2, 1e-3, 1e-4, 1e-5, 1e-6};
+static const double targets[ERROR_TARGETS] = {1e-2, 1e-3, 1e-4, 1e-5, 1e-6};
 
 /* m, expected error of the first run */
 static const double first_error = 1e-2;
@@ -116,13 +116,13 @@ static Status create_motion(const TimedMotion *motion, int segments,
 static Status measure_method(bool quick, const TimedMotion *motion,
                              Simulation *simulation,
                              const IntegratorMethod *method,
-                             FastestRun best[TARGET_COUNT])
+                             FastestRun best[ERROR_TARGETS])
 {
     int segments = simulation->options.segments;
     double longest = quick ? 0.01 : segments / 64.0 + 0.25;
     double enough = quick ? 1e-5 : 1e-8, expected = first_error;
     RacePoint now = {.error = INFINITY};
-    for (long steps = FIRST_STEPS; !(now.error < enough); steps *= 2) {
+    for (long steps = COARSEST_STEPS; !(now.error < enough); steps *= 2) {
         TimeIntegrator run = {0};
         simulation->options.tolerance = 2 * expected / (steps * motion->time);
         Status status = race_measure_method(simulation, method, motion->time,
@@ -138,7 +138,7 @@ static Status measure_method(bool quick, const TimedMotion *motion,
                fmin(now.error, 1e300), failed);
         if (failed)
             now.error = INFINITY;
-        for (int t = 0; t < TARGET_COUNT; t++)
+        for (int t = 0; t < ERROR_TARGETS; t++)
             if (now.error <= targets[t] && ms < best[t].ms)
                 best[t] = (FastestRun){method->name, ms};
         if (2 * now.seconds > longest)
@@ -153,9 +153,10 @@ static Status measure_method(bool quick, const TimedMotion *motion,
 static Status measure_motion(bool quick, const TimedMotion *motion,
                              Simulation *simulation)
 {
-    FastestRun best[2][TARGET_COUNT];
-    for (int i = 0; i < 2 * TARGET_COUNT; i++)
-        best[i / TARGET_COUNT][i % TARGET_COUNT] = (FastestRun){NULL, INFINITY};
+    FastestRun best[2][ERROR_TARGETS];
+    for (int i = 0; i < 2 * ERROR_TARGETS; i++)
+        best[i / ERROR_TARGETS][i % ERROR_TARGETS] =
+            (FastestRun){NULL, INFINITY};
     for (const IntegratorMethod *method = integrator_methods; method->name;
          method++) {
         Status status = measure_method(quick, motion, simulation, method,
@@ -166,7 +167,7 @@ static Status measure_motion(bool quick, const TimedMotion *motion,
     printf("# %s, %g segments\n#  error m  best explicit             ms  best "
            "implicit        ms  implicit/explicit\n",
            motion->name, simulation->options.segments);
-    for (int t = 0; t < TARGET_COUNT; t++) {
+    for (int t = 0; t < ERROR_TARGETS; t++) {
         const FastestRun *one = &best[0][t], *other = &best[1][t];
         if (one->name && other->name)
             printf("#  %7.0e  %-16s %11.3f  %-14s %8.3f  %8.3g: implicit %s\n",
@@ -176,10 +177,10 @@ static Status measure_motion(bool quick, const TimedMotion *motion,
     return STATUS_OK;
 }
 
-static Status measure_work(bool quick)
+static Status measure_errors(bool quick)
 {
     Status status = STATUS_OK;
-    for (int m = 0; m < MOTIONS; m++)
+    for (int m = 0; m < MOTION_COUNT; m++)
         for (int i = 0; motions[m].segments[i] && !status; i++) {
             const TimedMotion *motion = &motions[m];
             Simulation simulation;
@@ -198,7 +199,7 @@ static Status measure_work(bool quick)
 
 /* The last bits decide which fold a buckling step takes.  Every program
  * therefore runs from nine starts, whose stretches differ by 1e-9. */
-enum { STARTS = 9, STEPS = 10, SOLVERS = 3 };
+enum { STARTS = 9, STEPS_PER_START = 10, SOLVERS = 3 };
 
 typedef enum BenchSolver { LECTURE, NEWTON, MULTIGRID } BenchSolver;
 
@@ -221,8 +222,8 @@ typedef struct ProgramResults {
 /* Makes a step by step_forward of lecture.c, with the springs and masses of a
  * system.  Returns OK, OUT_OF_MEMORY, or LINE_SEARCH_LIMIT where lecture.c ends
  * the program; x is then the last iterate. */
-static Status lecture_step(const System *system, double h, double tol,
-                           double *x, double *v)
+static Status make_lecture_step(const System *system, double h, double tol,
+                                double *x, double *v)
 {
     Spring *e = malloc((size_t)system->springs * sizeof *e);
     if (!e)
@@ -250,13 +251,13 @@ static Status measure_run_from_start(BenchSolver program, int segments,
     options.stretch += 1e-9 * start;
     options.solver = program == MULTIGRID ? SOLVER_MULTIGRID : SOLVER_NEWTON;
     Status status = simulation_create(&options, NULL, NULL, &simulation);
-    double energy = status ? 1 : simulation_energies(&simulation, 0).total;
+    double energy = status ? 1 : simulation_get_energies(&simulation, 0).total;
     double began = clock_processor_time();
     for (int i = 0; i < steps && !status; i++) {
         status = program == LECTURE
-                     ? lecture_step(&simulation.system, options.timestep,
-                                    options.tolerance, simulation.run[0].x,
-                                    simulation.run[0].v)
+                     ? make_lecture_step(&simulation.system, options.timestep,
+                                         options.tolerance, simulation.run[0].x,
+                                         simulation.run[0].v)
                      : simulation_step(&simulation);
         if (status_is_unconverged(status)) {
             runs->unconverged++;
@@ -265,10 +266,10 @@ static Status measure_run_from_start(BenchSolver program, int segments,
     }
     runs->ms[start] = 1e3 * (clock_processor_time() - began) / steps;
     runs->newton_updates[start] =
-        (double)simulation_sum_counters(&simulation).updates / steps;
+        (double)simulation_sum_newton_counters(&simulation).updates / steps;
     if (!status)
         runs->energy[start] =
-            100 * simulation_energies(&simulation, 0).total / energy;
+            100 * simulation_get_energies(&simulation, 0).total / energy;
     simulation_free(&simulation);
     return status;
 }
@@ -278,7 +279,7 @@ static Status measure_run_from_start(BenchSolver program, int segments,
 static Status measure_solvers(bool quick, int segments, double ms[SOLVERS])
 {
     ProgramResults runs[SOLVERS] = {{.unconverged = 0}};
-    int starts = quick ? 1 : STARTS, steps = quick ? 3 : STEPS;
+    int starts = quick ? 1 : STARTS, steps = quick ? 3 : STEPS_PER_START;
     int count = 0;
     double began = clock_now();
     Status status = STATUS_OK;
@@ -301,7 +302,7 @@ static Status measure_solvers(bool quick, int segments, double ms[SOLVERS])
     return status;
 }
 
-static Status measure_steps(bool quick)
+static Status measure_step_times(bool quick)
 {
     Status status = STATUS_OK;
     for (int n = 4; n <= (quick ? 32 : 512) && !status; n *= 2) {
@@ -328,11 +329,11 @@ static const struct {
     Status (*run)(bool quick);
     const char *columns; /* heading of the table */
 } tables[] = {
-    {"work", "error against run time of all methods", measure_work,
+    {"work", "error against run time of all methods", measure_errors,
      "case,segments,integrator,solver,order,steps,tolerance_m_s,run_time_s,"
      "error_m,failed"},
     {"steps", "milliseconds a step: the slides' program, newton, multigrid",
-     measure_steps,
+     measure_step_times,
      "segments,solver,starts,median_ms,least_ms,most_ms,updates,"
      "energy_end_percent,unconverged"},
 };

@@ -17,18 +17,18 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-typedef void Function(void);
-extern Function *const student[];
+typedef void TaskFunction(void);
+extern TaskFunction *const student[];
 
-/* FUNCTIONS is F(name) for each function of tasks.txt, in order (check.sh). */
+/* TASK_FUNCTIONS is F(name) for each function of tasks.txt (check.sh). */
 #define F(name) TASK_##name,
-enum { FUNCTIONS };
+enum { TASK_FUNCTIONS };
 #undef F
 
 /* A function of lecture.c with a frequent mistake, a row of mistakes.txt. */
 typedef struct Mistake {
     int task; /* number of the function */
-    Function *function;
+    TaskFunction *function;
     const char *sentence; /* sentence for the student; NULL ends the table */
 } Mistake;
 
@@ -45,27 +45,27 @@ int main(int argc, char **argv);
 #undef exit
 
 enum {
-    MAX_TEXT = 400,    /* limit of the bytes of a sentence */
-    MAX_NUMBERS = 400, /* limit of the numbers of a result */
-    MAX_NODES = 9,     /* number of nodes of the largest case */
+    MAX_SENTENCE = 400,       /* limit of the bytes of a sentence */
+    MAX_RESULT_NUMBERS = 400, /* limit of the numbers of a result */
+    MAX_NODES = 9,            /* number of nodes of the largest case */
     MAX_UNKNOWNS = 2 * MAX_NODES
 };
 
 /* Memory that the process of a check shares with its parent. */
 typedef struct SharedMemory {
-    char case_name[MAX_TEXT]; /* name of the case for messages, or "" */
-    char fault[MAX_TEXT];     /* description of the fault, or "" */
-    bool finished;            /* the check came to its end */
-    bool must_fail;           /* lecture.c calls FAIL in this case */
+    char case_name[MAX_SENTENCE]; /* name of the case for messages, or "" */
+    char fault[MAX_SENTENCE];     /* description of the fault, or "" */
+    bool finished;                /* the check came to its end */
+    bool must_fail;               /* lecture.c calls FAIL in this case */
 } SharedMemory;
 static SharedMemory *shared;
 
 /* Writes the description of a fault. */
-static void report(const char *format, ...)
+static void set_fault(const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(shared->fault, MAX_TEXT, format, arguments);
+    vsnprintf(shared->fault, MAX_SENTENCE, format, arguments);
     va_end(arguments);
 }
 
@@ -74,7 +74,7 @@ static void report(const char *format, ...)
 static unsigned long long random_state;
 
 /* Returns the next random number from -1 to 1. */
-static double random_number(void)
+static double make_random_number(void)
 {
     random_state = random_state * 6364136223846793005u + 1442695040888963407u;
     return (double)(random_state >> 33) / (1u << 30) - 1;
@@ -85,7 +85,7 @@ static Vec2 *make_random_points(int n, double size)
 {
     Vec2 *x = allocate(n, sizeof(Vec2));
     for (int i = 0; i < n; i++)
-        x[i] = (Vec2){size * random_number(), size * random_number()};
+        x[i] = (Vec2){size * make_random_number(), size * make_random_number()};
     return x;
 }
 
@@ -95,7 +95,7 @@ typedef enum ResultKind { NUMBER, POINTS, MATRIX, SEARCH, STATE } ResultKind;
 typedef struct Task {
     int index; /* TASK_..., index in student[] */
     const char *name;
-    Function *truth;
+    TaskFunction *truth;
     ResultKind kind;           /* kind of the result */
     const char *case_names[5]; /* name of each case for messages, then NULL */
     int steps; /* number of calls of step_forward; only the first has a table */
@@ -103,7 +103,7 @@ typedef struct Task {
 } Task;
 
 /* The arguments of the functions in a case. */
-typedef struct Case {
+typedef struct TaskCase {
     Solid solid;
     Vec2 *x_tilde, *p;
     Vec2 x[MAX_NODES], x_new[MAX_NODES]; /* x is a copy of solid.x */
@@ -113,7 +113,7 @@ typedef struct Case {
     double value[40 * MAX_UNKNOWNS];
     cholmod_triplet H; /* Hessian, in the arrays row, column and value */
     double h, tol;
-} Case;
+} TaskCase;
 
 /* Makes a square, or in case 1 a single short spring, out of shape.  Each node
  * and each spring has different numbers. */
@@ -128,30 +128,30 @@ static void make_random_solid(int case_number, Solid *solid)
     for (int i = 0; i < solid->nodes; i++) {
         solid->x[i] = add(solid->x[i], mul(0.2, make_random_points(1, 1)[0]));
         solid->v[i] = make_random_points(1, 0.5)[0];
-        solid->m[i] *= 1.5 + 0.5 * random_number();
+        solid->m[i] *= 1.5 + 0.5 * make_random_number();
     }
     for (int s = 0; s < solid->springs; s++) {
-        solid->e[s].k *= 1.5 + 0.5 * random_number();
-        solid->e[s].l2 *= 1.2 + 0.2 * random_number();
+        solid->e[s].k *= 1.5 + 0.5 * make_random_number();
+        solid->e[s].l2 *= 1.2 + 0.2 * make_random_number();
     }
 }
 
 /* Makes the start of a step: as in the lecture, or in case 1 with alpha < 1. */
-static void make_step_start(int case_number, Case *c)
+static void make_step_start(int case_number, TaskCase *c)
 {
     c->solid = square(1, 2, 1000, 1e5);
     c->h = case_number ? 0.05 : 0.004;
     c->tol = case_number ? 1e-4 : 1e-2;
     for (int i = 0; i < c->solid.nodes; i++) {
         c->solid.x[i].x *= case_number ? 0.4 : 1.4;
-        c->solid.x[i].y += case_number ? 0.05 * random_number() : 0;
+        c->solid.x[i].y += case_number ? 0.05 * make_random_number() : 0;
         c->solid.v[i] = make_random_points(1, 1)[0];
     }
 }
 
 /* Makes a line search along Newton's direction, along a direction that is far
  * too long, along p = 0, and from E = 0, where every step raises E. */
-static void make_search_case(int case_number, Case *c)
+static void make_search_case(int case_number, TaskCase *c)
 {
     static const double length[] = {1, 50, 0, 0};
     search_dir(&c->solid, c->solid.x, c->x_tilde, c->h, c->p);
@@ -165,7 +165,7 @@ static void make_search_case(int case_number, Case *c)
 }
 
 /* Makes the arguments of a task's function. */
-static void make_arguments(const Task *task, int case_number, Case *c)
+static void make_arguments(const Task *task, int case_number, TaskCase *c)
 {
     static const double shift[] = {0, -300, 1000, 0}, scale[] = {1, 1e-3, 1, 0};
     bool searches = task->index == TASK_line_search;
@@ -173,7 +173,7 @@ static void make_arguments(const Task *task, int case_number, Case *c)
         for (int k = 0; k <= r; k++)
             c->block[r][k] = c->block[k][r] =
                 scale[case_number] *
-                (300 * random_number() + (r == k) * shift[case_number]);
+                (300 * make_random_number() + (r == k) * shift[case_number]);
     c->h = 0.02;
     if (task->index == TASK_step_forward)
         make_step_start(case_number, c);
@@ -198,15 +198,16 @@ static void make_arguments(const Task *task, int case_number, Case *c)
 
 /* Stores the matrix that a function added to H, in rows of MAX_UNKNOWNS
  * numbers. */
-static void store_matrix(const Case *c, double *result)
+static void store_matrix(const TaskCase *c, double *result)
 {
     int n = (int)c->H.nrow;
     for (size_t t = 0; t < c->H.nnz; t++) {
         int row = c->row[t], column = c->column[t];
         if (row < 0 || row > column || column >= n) {
-            report("an entry has row %d, column %d, outside the upper triangle "
-                   "of a matrix with %d rows; add_entry takes care of that",
-                   row, column, n);
+            set_fault(
+                "an entry has row %d, column %d, outside the upper triangle "
+                "of a matrix with %d rows; add_entry takes care of that",
+                row, column, n);
             return;
         }
         result[row * MAX_UNKNOWNS + column] += c->value[t];
@@ -216,7 +217,7 @@ static void store_matrix(const Case *c, double *result)
 }
 
 /* Stores the numbers that a function has changed in its case. */
-static void store_result(const Task *task, const Case *c, FILE *table,
+static void store_result(const Task *task, const TaskCase *c, FILE *table,
                          double *result)
 {
     size_t bytes = (size_t)c->solid.nodes * sizeof(Vec2);
@@ -229,27 +230,27 @@ static void store_result(const Task *task, const Case *c, FILE *table,
     if (task->kind == SEARCH)
         memcpy(result + 1, c->x_new, bytes);
     if (task->kind == SEARCH && memcmp(c->x, c->solid.x, bytes) != 0)
-        report("the function changes x; write to x_new only");
+        set_fault("the function changes x; write to x_new only");
     if (task->kind != STATE)
         return;
     memcpy(result, c->solid.x, bytes);
     memcpy(result + MAX_UNKNOWNS, c->solid.v, bytes);
     rewind(table);
-    for (double *to = result + 2 * MAX_UNKNOWNS; to + 4 <= result + MAX_NUMBERS;
-         to += 4)
+    for (double *to = result + 2 * MAX_UNKNOWNS;
+         to + 4 <= result + MAX_RESULT_NUMBERS; to += 4)
         if (fscanf(table, "%lf,%lf,%lf,%lf", to, to + 1, to + 2, to + 3) != 4)
             break;
 }
 
 /* Calls a function with a case.
- *   result  [MAX_NUMBERS] in/out, zeros, then the numbers of the function */
-static void call_function(const Task *task, int case_number, Function *function,
-                          double *result)
+ *   result  [MAX_RESULT_NUMBERS] in/out, zeros, then the result */
+static void call_function(const Task *task, int case_number,
+                          TaskFunction *function, double *result)
 {
 #define AS(name) ((__typeof__(&name))function)
-    static Case c;
+    static TaskCase c;
     FILE *table = tmpfile();
-    c = (Case){.h = 0};
+    c = (TaskCase){.h = 0};
     make_arguments(task, case_number, &c);
     strcpy(shared->case_name, task->case_names[case_number]);
     Solid *solid = &c.solid;
@@ -287,7 +288,7 @@ static void call_function(const Task *task, int case_number, Function *function,
 /* ---- the tasks ---------------------------------------------------- */
 
 #define BIT(name)  (1u << TASK_##name)
-#define TASK(name) TASK_##name, #name, (Function *)name
+#define TASK(name) TASK_##name, #name, (TaskFunction *)name
 
 static const Task tasks[] = {
     {TASK(inertia_val), NUMBER, {""}},
@@ -314,7 +315,7 @@ static const Task tasks[] = {
      .needed_tasks = BIT(spring_grad)},
     {TASK_step_forward,
      "twenty steps",
-     (Function *)step_forward,
+     (TaskFunction *)step_forward,
      STATE,
      {""},
      20,
@@ -343,24 +344,24 @@ static const char *describe_number(ResultKind kind, int i)
 }
 
 /* Returns the index of the first number that differs by more than rounding;
- * MAX_NUMBERS: no number does. */
-static int find_difference(const double *a, const double *b)
+ * MAX_RESULT_NUMBERS: no number does. */
+static int find_first_difference(const double *a, const double *b)
 {
     double largest = 0;
     int i = 0;
-    for (int k = 0; k < MAX_NUMBERS; k++)
+    for (int k = 0; k < MAX_RESULT_NUMBERS; k++)
         largest = fmax(largest, fabs(b[k]));
-    while (i < MAX_NUMBERS && fabs(a[i] - b[i]) <= 1e-9 * largest)
+    while (i < MAX_RESULT_NUMBERS && fabs(a[i] - b[i]) <= 1e-9 * largest)
         i++;
     return i;
 }
 
 /* Runs a function in a case.  Returns false if it ended the program. */
-static bool run_function(const Task *task, int case_number, Function *function,
-                         double *result)
+static bool run_function(const Task *task, int case_number,
+                         TaskFunction *function, double *result)
 {
     random_state = 15362 + (unsigned)case_number;
-    memset(result, 0, MAX_NUMBERS * sizeof *result);
+    memset(result, 0, MAX_RESULT_NUMBERS * sizeof *result);
     if (setjmp(program_ended))
         return false;
     call_function(task, case_number, function, result);
@@ -371,17 +372,17 @@ static bool run_function(const Task *task, int case_number, Function *function,
 static const char *find_mistake(const Task *task, int case_number,
                                 const double *yours)
 {
-    double other[MAX_NUMBERS];
+    double other[MAX_RESULT_NUMBERS];
     for (const Mistake *mistake = mistakes; mistake->sentence; mistake++)
         if (mistake->task == task->index &&
             run_function(task, case_number, mistake->function, other) &&
-            find_difference(yours, other) == MAX_NUMBERS)
+            find_first_difference(yours, other) == MAX_RESULT_NUMBERS)
             return mistake->sentence;
     return NULL;
 }
 
 /* Returns a sentence if numbers are multiples of the right ones, or NULL. */
-static const char *find_multiple(const double *yours, const double *truth)
+static const char *describe_multiple(const double *yours, const double *truth)
 {
     static const struct {
         double factor; /* factor on the right result */
@@ -391,11 +392,11 @@ static const char *find_multiple(const double *yours, const double *truth)
         {-1, "the sign is wrong"},
         {2, "the result is twice as large as it should be"},
         {0.5, "the result is half of what it should be"}};
-    double other[MAX_NUMBERS];
+    double other[MAX_RESULT_NUMBERS];
     for (size_t m = 0; m < sizeof multiples / sizeof *multiples; m++) {
-        for (int i = 0; i < MAX_NUMBERS; i++)
+        for (int i = 0; i < MAX_RESULT_NUMBERS; i++)
             other[i] = multiples[m].factor * truth[i];
-        if (find_difference(yours, other) == MAX_NUMBERS)
+        if (find_first_difference(yours, other) == MAX_RESULT_NUMBERS)
             return multiples[m].sentence;
     }
     return NULL;
@@ -405,30 +406,31 @@ static const char *find_multiple(const double *yours, const double *truth)
 static void explain_difference(const Task *task, int case_number,
                                const double *yours, const double *truth)
 {
-    int first = find_difference(yours, truth);
-    for (int i = 0; i < MAX_NUMBERS; i++)
+    int first = find_first_difference(yours, truth);
+    for (int i = 0; i < MAX_RESULT_NUMBERS; i++)
         if (!(fabs(yours[i]) < 1e100)) {
-            report("%s is %g: is a variable used before it has a value, or "
-                   "does something divide by zero?",
-                   describe_number(task->kind, i), yours[i]);
+            set_fault("%s is %g: is a variable used before it has a value, or "
+                      "does something divide by zero?",
+                      describe_number(task->kind, i), yours[i]);
             return;
         }
-    if (first == MAX_NUMBERS)
+    if (first == MAX_RESULT_NUMBERS)
         return;
     const char *words = find_mistake(task, case_number, yours);
-    words = words ? words : find_multiple(yours, truth);
+    words = words ? words : describe_multiple(yours, truth);
     if (words)
-        report("%s", words);
+        set_fault("%s", words);
     else
-        report("%s is %.9g, and should be %.9g",
-               describe_number(task->kind, first), yours[first], truth[first]);
+        set_fault("%s is %.9g, and should be %.9g",
+                  describe_number(task->kind, first), yours[first],
+                  truth[first]);
 }
 
 /* Runs the cases of a task up to the first fault.
  *   errors  file descriptor for the standard error of the student's function */
 static void check_task(const Task *task, int errors)
 {
-    double yours[MAX_NUMBERS], truth[MAX_NUMBERS];
+    double yours[MAX_RESULT_NUMBERS], truth[MAX_RESULT_NUMBERS];
     int nowhere = open("/dev/null", O_WRONLY);
     dup2(nowhere, STDOUT_FILENO);
     for (int t = 0; task->case_names[t] && !*shared->fault; t++) {
@@ -437,7 +439,8 @@ static void check_task(const Task *task, int errors)
         dup2(errors, STDERR_FILENO);
         run_function(task, t, student[task->index], yours);
         if (shared->must_fail)
-            report("the search goes on: call FAIL(1, ...) after 64 halvings");
+            set_fault(
+                "the search goes on: call FAIL(1, ...) after 64 halvings");
         if (!*shared->fault)
             explain_difference(task, t, yours, truth);
     }
@@ -445,7 +448,7 @@ static void check_task(const Task *task, int errors)
 
 /* Reports what the process wrote to its standard error: the first fault of a
  * sanitizer, with the line in the student's file, or the message of FAIL. */
-static void read_reason(FILE *errors)
+static void report_error_output(FILE *errors)
 {
     char line[1000], reason[200] = "", *at;
     int number = 0;
@@ -467,9 +470,9 @@ static void read_reason(FILE *errors)
     if (!*reason)
         snprintf(reason, sizeof reason, "ends the program");
     if (number)
-        report("%s, line %d", reason, number);
+        set_fault("%s, line %d", reason, number);
     else
-        report("%s", reason);
+        set_fault("%s", reason);
 }
 
 enum { MAX_SECONDS = 4 }; /* a function that runs longer counts as endless */
@@ -491,12 +494,12 @@ static void run_check(const Task *task)
     }
     waitpid(child, &status, 0);
     if (WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM)
-        report("the function does not end");
+        set_fault("the function does not end");
     else if (shared->must_fail && !*shared->fault && WIFEXITED(status) &&
              WEXITSTATUS(status) == 1)
         shared->finished = true;
     else if (status != 0 || !shared->finished)
-        read_reason(errors);
+        report_error_output(errors);
     fclose(errors);
 }
 
@@ -504,7 +507,7 @@ int main(int argc, char **argv)
 {
     unsigned failed = 0;
     int right = 0;
-    char first[3 * MAX_TEXT] = "";
+    char first[3 * MAX_SENTENCE] = "";
     FILE *out = fdopen(3, "w");
     if (argc < 2 || !out)
         FAIL(2, "check.sh runs this\n");
@@ -516,8 +519,8 @@ int main(int argc, char **argv)
         unsigned missing = tasks[t].needed_tasks & failed;
         if (missing) { /* the lowest bit is that of the first task */
             shared->case_name[0] = '\0';
-            report("not checked: it calls %s, which is not right",
-                   tasks[__builtin_ctz(missing)].name);
+            set_fault("not checked: it calls %s, which is not right",
+                      tasks[__builtin_ctz(missing)].name);
         } else
             run_check(&tasks[t]);
         bool bad = *shared->fault != '\0';

@@ -30,7 +30,7 @@ write_mistakes() {
             s/$name(/${name}_$number(/
             p
             }" "$here/../lecture.c"
-        rows="$rows{TASK_$name, (Function *)${name}_$number, \"${row##* | }\"},
+        rows="$rows{TASK_$name, (TaskFunction *)${name}_$number, \"${row##* | }\"},
 "
     done <"$here/mistakes.txt"
     echo "static const Mistake mistakes[] = {${rows}{0, NULL, NULL}};"
@@ -38,7 +38,7 @@ write_mistakes() {
 write_mistakes >"$work/mistakes.h"
 # shellcheck disable=SC2086
 ${CC:-cc} -std=gnu11 -w -O1 -I"$here/.." \
-    -DMISTAKES="\"$work/mistakes.h\"" -DFUNCTIONS="$functions" $DEP_CFLAGS \
+    -DMISTAKES="\"$work/mistakes.h\"" -DTASK_FUNCTIONS="$functions" $DEP_CFLAGS \
     -c "$here/check.c" -o "$work/check.o" || exit 1
 
 # check FILE OBJECT [NAME]: checks one file; NAME: as a line of the table.  The
@@ -51,7 +51,7 @@ check() {
         problem='there is no such file'
     elif LC_ALL=C ${CC:-cc} -std=gnu11 -Wuninitialized -Wmaybe-uninitialized \
         -Werror=return-type -g1 -Og $pattern -DHOMEWORK="\"$name\"" \
-        -DFUNCTIONS="$functions" \
+        -DTASK_FUNCTIONS="$functions" \
         -fsanitize=address,undefined -fno-sanitize-recover=all $DEP_CFLAGS \
         -c "$here/student.c" -o "$object.o" 2>"$object.log" &&
         ${CC:-cc} -fsanitize=address,undefined "$work/check.o" "$object.o" \

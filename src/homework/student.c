@@ -1,10 +1,10 @@
 /* student.c - lists the eleven functions of the student's file, HOMEWORK.
- * FUNCTIONS is F(name) for each function of tasks.txt, in order (check.sh). */
+ * TASK_FUNCTIONS is F(name) for each function of tasks.txt (check.sh). */
 #define main student_main
 int main(int argc, char **argv);
 #include HOMEWORK
 #undef main
 
-typedef void Function(void);
-#define F(name) (Function *)name,
-Function *const student[] = {FUNCTIONS};
+typedef void TaskFunction(void);
+#define F(name) (TaskFunction *)name,
+TaskFunction *const student[] = {TASK_FUNCTIONS};

@@ -17,7 +17,7 @@ typedef struct ArgWord {
     const OptionRow *row;  /* option; NULL: the word is a scene */
     const char *text;      /* value, or name of the scene */
     const char *list_text; /* "1,2,3", if `text` is one of several values */
-    char list_item[64];    /* copy of the text, if the text is part of `list` */
+    char list_item[64];    /* copy of the text, if it is part of `list_text` */
 } ArgWord;
 
 enum { MAX_WORDS = 256 };
@@ -32,7 +32,7 @@ typedef struct ArgLine {
 } ArgLine;
 
 /* Returns the last word that sets an option; NULL: no word sets it. */
-static ArgWord *find_arg(ArgLine *line, const char *option)
+static ArgWord *find_word(ArgLine *line, const char *option)
 {
     for (int i = line->words - 1; i >= 0; i--)
         if (line->word[i].row && !strcmp(line->word[i].row->name, option))
@@ -62,7 +62,7 @@ static Status refuse_value(const ArgLine *line, const ArgWord *word, int count)
                       instead);
     if (row->kind == OPTION_NAME)
         return refuse(line->message, "--%s: '%.60s' is none of: %s%s",
-                      row->name, text, list_names(row->names).text,
+                      row->name, text, join_names(row->names).text,
                       suggest_name(text, "", row->names).text);
     if (word->list_text || option_count_values(text, ',') > count)
         append(hint.text, sizeof hint.text,
@@ -78,18 +78,18 @@ static Status refuse_value(const ArgLine *line, const ArgWord *word, int count)
 }
 
 /* Stores a name or numbers.  With one coordinate the start may be x alone. */
-static Status apply_numbers(const ArgLine *line, const ArgWord *word)
+static Status apply_option_numbers(const ArgLine *line, const ArgWord *word)
 {
     const OptionRow *row = word->row;
     Options *options = line->options;
-    double number[BODY_NUMBERS] = {0};
+    double number[BODY_OPTION_NUMBERS] = {0};
     double *times = &options->number[row->count_slot];
     int most = row->count ? row->count : 1, used = 0;
     bool x_alone = row->needed_parts == HAS_START &&
                    (options->scene->parts & HAS_ONE_COORDINATE);
     int count = x_alone ? 1 : most;
     if ((x_alone && strchr(word->text, ',')) ||
-        !option_read(row, count, word->text, number))
+        !option_parse(row, count, word->text, number))
         return refuse_value(line, word, count);
     if (row->max_times && *times >= row->max_times)
         return refuse(line->message,
@@ -137,13 +137,13 @@ static Status apply_option_word(const ArgLine *line, const ArgWord *word)
         options->page = lecture_find_page(word->text[0] ? word->text : "1");
         return options->page ? STATUS_OK : refuse_value(line, word, 1);
     default:
-        return apply_numbers(line, word);
+        return apply_option_numbers(line, word);
     }
 }
 
 /* Checks that the scene has what the option needs. */
-static Status check_scene(const Options *options, const OptionRow *row,
-                          Message message)
+static Status check_needed_parts(const Options *options, const OptionRow *row,
+                                 Message message)
 {
     const Scene *scene = options->scene;
     const char *missing = row->needed_parts & HAS_MESH    ? "square"
@@ -164,7 +164,7 @@ Status options_set(Options *options, const OptionRow *row, const char *text,
 {
     const ArgLine line = {.options = options, .message = message};
     char number[32] = "";
-    if (check_scene(options, row, message))
+    if (check_needed_parts(options, row, message))
         return STATUS_INVALID_INPUT;
     if (!text[0] && !isnan(value))
         option_write(row, value, number, sizeof number);
@@ -201,8 +201,8 @@ static Phrase hint_at_split_value(const ArgWord *before, const char *text)
 /* Refuses the part of a word before its '='.
  *   hint   in
  *   where  end of the message if there is no hint: where to look */
-static Status refuse_name(const ArgLine *line, const char *what,
-                          const char *word, Phrase hint, const char *where)
+static Status refuse_unknown(const ArgLine *line, const char *what,
+                             const char *word, Phrase hint, const char *where)
 {
     int length = (int)fmin(strcspn(word, "="), 60);
     return refuse(line->message, "%s '%.*s'%s", what, length, word,
@@ -211,7 +211,7 @@ static Status refuse_name(const ArgLine *line, const char *what,
 
 /* Returns the row of "--name", "--name=value", or of a letter, "-h" or "-H";
  * NULL: the word is refused. */
-static const OptionRow *read_option(const ArgLine *line, const char *word)
+static const OptionRow *find_named_option(const ArgLine *line, const char *word)
 {
     char name[64];
     int dashes = (int)strspn(word, "-"), length = (int)strcspn(word, "=");
@@ -225,18 +225,18 @@ static const OptionRow *read_option(const ArgLine *line, const char *word)
     if (instead)
         refuse(line->message, "--%s is gone: %s", name, instead);
     else if (!found)
-        refuse_name(line, "there is no option", word,
-                    isdigit((unsigned char)name[0])
-                        ? hint_at_split_value(before, name)
-                    : scene_find(name) || strcmp(name, "scene") == 0
-                        ? (Phrase){"; a scene has no dashes: elasto drop"}
-                        : suggest_name(name, "--", NAMES_OF(option_rows)),
-                    "; see elasto --help");
+        refuse_unknown(line, "there is no option", word,
+                       isdigit((unsigned char)name[0])
+                           ? hint_at_split_value(before, name)
+                       : scene_find(name) || strcmp(name, "scene") == 0
+                           ? (Phrase){"; a scene has no dashes: elasto drop"}
+                           : suggest_name(name, "--", NAMES_OF(option_rows)),
+                       "; see elasto --help");
     return found;
 }
 
 /* Splits arguments into words; a value is behind '=' or the next argument. */
-static Status read_words(int argc, char **argv, ArgLine *line)
+static Status read_argument_words(int argc, char **argv, ArgLine *line)
 {
     for (int i = 1; i < argc;) {
         const char *text = argv[i++], *equals = strchr(text, '=');
@@ -246,7 +246,7 @@ static Status read_words(int argc, char **argv, ArgLine *line)
             return refuse(line->message, "'%.60s': more than %d words", text,
                           MAX_WORDS);
         if (text[0] == '-' && text[1]) {
-            const OptionRow *row = word.row = read_option(line, text);
+            const OptionRow *row = word.row = find_named_option(line, text);
             if (!row)
                 return STATUS_INVALID_INPUT;
             bool is_switch = row->kind == OPTION_SWITCH;
@@ -268,7 +268,7 @@ static Status read_words(int argc, char **argv, ArgLine *line)
 }
 
 /* Reads the words of a text without quotes, separated by blanks. */
-static Status split_words(const char *text, ArgLine *line)
+static Status read_text_words(const char *text, ArgLine *line)
 {
     enum { MAX_SPLIT_WORDS = 48 };
     char *argv[MAX_SPLIT_WORDS] = {""}, *rest;
@@ -277,12 +277,12 @@ static Status split_words(const char *text, ArgLine *line)
     for (char *word = strtok_r(line->copy, " ", &rest);
          word && argc < MAX_SPLIT_WORDS; word = strtok_r(NULL, " ", &rest))
         argv[argc++] = word;
-    return read_words(argc, argv, line);
+    return read_argument_words(argc, argv, line);
 }
 
 /* Refuses a word that is no scene.  The word may be an option without its
  * dashes, or with the dashes of an editor, or a part of a value. */
-static Status refuse_scene(const ArgLine *line, const ArgWord *word)
+static Status refuse_unknown_scene(const ArgLine *line, const ArgWord *word)
 {
     const char *text = word->text;
     char name[64];
@@ -294,19 +294,19 @@ static Status refuse_scene(const ArgLine *line, const ArgWord *word)
         hint = (Phrase){"; an option begins with two signs '-'"};
     else if (!hint.text[0])
         hint = hint_at_split_value(word > line->word ? word - 1 : NULL, text);
-    return refuse_name(line, "there is no scene", text, hint,
-                       "; see elasto --list");
+    return refuse_unknown(line, "there is no scene", text, hint,
+                          "; see elasto --list");
 }
 
 /* Finds the scene or the page of a line.  Refuses a second scene, a scene
  * beside a page, and a second file for one option. */
-static Status check_words(ArgLine *line)
+static Status find_scene(ArgLine *line)
 {
     Options *options = line->options;
     for (int i = 0; i < line->words; i++) {
         const ArgWord *word = &line->word[i];
         const OptionRow *row = word->row;
-        const ArgWord *last = row ? find_arg(line, row->name) : NULL;
+        const ArgWord *last = row ? find_word(line, row->name) : NULL;
         if (row && row->kind == OPTION_TEXT && last != word)
             return refuse(line->message,
                           "--%s: '%.60s' and '%.60s': only one can be given",
@@ -320,7 +320,7 @@ static Status check_words(ArgLine *line)
                           word->text, options->scene->name,
                           hint_at_split_value(word - 1, word->text).text);
         if (!row && !(options->scene = scene_find(word->text)))
-            return refuse_scene(line, word);
+            return refuse_unknown_scene(line, word);
     }
     if (options->scene && options->page)
         return refuse(line->message,
@@ -341,14 +341,14 @@ static Status set_defaults(ArgLine *line)
     for (const OptionRow *row = option_rows; row->name; row++)
         if (row->default_value != 0)
             options->number[row->slot] = row->default_value;
-    Status status = split_words(options->scene->args, &own);
+    Status status = read_text_words(options->scene->args, &own);
     for (int i = 0; i < own.words && !status; i++)
         status = apply_option_word(&own, &own.word[i]);
     /* --body replaces the scene's body, and with the body its pins */
-    if (!find_arg(line, "body"))
+    if (!find_word(line, "body"))
         options->pin = options->scene->pin;
     for (const OptionRow *row = option_rows; row->name; row++)
-        if (row->max_times && find_arg(line, row->name))
+        if (row->max_times && find_word(line, row->name))
             options->number[row->count_slot] = 0;
     return status;
 }
@@ -356,12 +356,12 @@ static Status set_defaults(ArgLine *line)
 /* Picks this pane's value from each list; the last list changes fastest. */
 static Status select_values(ArgLine *line, int pane)
 {
-    bool is_drawn = !find_arg(line, "headless") || find_arg(line, "frames") ||
-                    find_arg(line, "film");
-    int most = is_drawn ? OPTIONS_MAX_DRAWN : OPTIONS_MAX_PANES;
+    bool is_drawn = !find_word(line, "headless") || find_word(line, "frames") ||
+                    find_word(line, "film");
+    int most = is_drawn ? OPTIONS_MAX_DRAWN_PANES : OPTIONS_MAX_PANES;
     for (int i = names_count(NAMES_OF(option_rows)) - 1; i >= 0; i--) {
         const OptionRow *row = &option_rows[i];
-        ArgWord *word = row->label ? find_arg(line, row->name) : NULL;
+        ArgWord *word = row->label ? find_word(line, row->name) : NULL;
         const char *text = word ? word->text : "";
         int count = option_count_values(text, ',');
         if (count == 1)
@@ -386,11 +386,11 @@ static Status select_values(ArgLine *line, int pane)
 }
 
 /* Checks the nodes of --pin. */
-static Status check_pins(const Options *options, Message message)
+static Status check_pinned_nodes(const Options *options, Message message)
 {
     const SquareMesh shape = body_make_mesh(options);
     const char *bad =
-        options->pin ? pins_read(options->pin, &shape, NULL) : NULL;
+        options->pin ? pins_parse(options->pin, &shape, NULL) : NULL;
     if (!bad)
         return STATUS_OK;
     char name[64];
@@ -402,19 +402,19 @@ static Status check_pins(const Options *options, Message message)
         "--pin: '%s' is no node from 0 to %d, and none of: " PINS_WORDS "%s",
         name, shape.nodes - 1,
         body > shape.bodies ? "; there are not so many bodies"
-                            : suggest_name(name, "", pins_words()).text);
+                            : suggest_name(name, "", pins_get_words()).text);
 }
 
 /* Checks that the body can start.  Triangles do not turn over anyway, so with
  * triangles the term cells is left out.  With cells, triangles or self-contact
  * the default projection is on-demand. */
-static Status check_body(ArgLine *line)
+static Status check_body_options(ArgLine *line)
 {
     Options *options = line->options;
     bool is_solid = options->material != 0;
     if (!(options->scene->parts & HAS_BODY))
         return STATUS_OK;
-    if (check_pins(options, line->message) ||
+    if (check_pinned_nodes(options, line->message) ||
         body_check_method(options, line->message))
         return STATUS_INVALID_INPUT;
     if (is_solid &&
@@ -426,7 +426,7 @@ static Status check_body(ArgLine *line)
     if (is_solid)
         options->cells = 0;
     if ((options->cells || is_solid || options->self_contact) &&
-        !find_arg(line, "projection"))
+        !find_word(line, "projection"))
         options->projection = PROJECTION_ON_DEMAND;
     return body_check(options, line->message);
 }
@@ -437,7 +437,7 @@ static Status apply_argument_line(ArgLine *line, int pane)
 {
     Options *options = line->options;
     *options = (Options){.panes = 1};
-    if (check_words(line) || set_defaults(line) || select_values(line, pane))
+    if (find_scene(line) || set_defaults(line) || select_values(line, pane))
         return STATUS_INVALID_INPUT;
     for (int i = 0; i < line->words; i++) {
         const OptionRow *row = line->word[i].row;
@@ -446,11 +446,11 @@ static Status apply_argument_line(ArgLine *line, int pane)
                           "--%s: a page of --lecture has its own value; change "
                           "it in the window, or leave --lecture out",
                           row->name);
-        if (row && (check_scene(options, row, line->message) ||
+        if (row && (check_needed_parts(options, row, line->message) ||
                     apply_option_word(line, &line->word[i])))
             return STATUS_INVALID_INPUT;
     }
-    if (options->bodies > 1 && !find_arg(line, "self-contact"))
+    if (options->bodies > 1 && !find_word(line, "self-contact"))
         options->self_contact = 1; /* bodies touch each other */
     for (int i = 0; i < line->words; i++) {
         const OptionRow *row = line->word[i].row;
@@ -459,20 +459,20 @@ static Status apply_argument_line(ArgLine *line, int pane)
         if (reason)
             return refuse(line->message, "--%s: %s", row->name, reason);
     }
-    return check_body(line);
+    return check_body_options(line);
 }
 
 Status options_parse(int argc, char **argv, int pane, Options *options,
                      Message message)
 {
     ArgLine line = {.options = options, .message = message};
-    Status status = read_words(argc, argv, &line);
+    Status status = read_argument_words(argc, argv, &line);
     return status ? status : apply_argument_line(&line, pane);
 }
 
 Status options_parse_line(const char *line, Options *options, Message message)
 {
     ArgLine words = {.options = options, .message = message};
-    Status status = split_words(line, &words);
+    Status status = read_text_words(line, &words);
     return status ? status : apply_argument_line(&words, 0);
 }

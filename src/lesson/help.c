@@ -40,8 +40,8 @@ static void describe_option(const OptionRow *row, char *words, size_t size)
                                      : "",
              row->unit);
     if (is_name)
-        append(words, size, " %s", list_names(row->names).text);
-    else if (row->kind == OPTION_WHOLE && row->high <= 4096)
+        append(words, size, " %s", join_names(row->names).text);
+    else if (row->kind == OPTION_WHOLE_NUMBER && row->high <= 4096)
         append(words, size, " %g ... %g", row->low, row->high);
     if (is_name && row->default_value >= 0)
         append(words, size, " [%s]",
@@ -51,7 +51,7 @@ static void describe_option(const OptionRow *row, char *words, size_t size)
         append(words, size, " [%g]", row->default_value);
 }
 
-void options_help(FILE *help)
+void options_print_help(FILE *help)
 {
     fprintf(help, "usage: elasto [SCENE] [options]; SCENE is a name or a "
                   "number, else square\nscenes:\n");

@@ -8,7 +8,7 @@
 
 #include "simulation/message.h"
 
-Phrase list_names(NameTable names)
+Phrase join_names(NameTable names)
 {
     Phrase list = {""};
     const char *name;
@@ -27,14 +27,14 @@ static bool letters_match(char typed, char letter)
 }
 
 enum {
-    NAME_LETTERS = 24, /* largest number of letters that are compared */
-    SHORT_TEXT = 4     /* most letters if the first one must be right */
+    NAME_LETTERS = 24,     /* largest number of letters that are compared */
+    SHORT_NAME_LETTERS = 4 /* most letters if the first one must be right */
 };
 
 /* Number of typing mistakes (Damerau 1964) between a text, of at most
  * NAME_LETTERS, and a name or its beginning, so that "seg" fits segments.  A
  * mistake is a letter too many, too few, another one, or two exchanged. */
-static int count_mistakes(const char *text, const char *name)
+static int count_typing_errors(const char *text, const char *name)
 {
     /* [i][j]: mistakes between i letters of the text and j of the name */
     int least[NAME_LETTERS + 1][NAME_LETTERS + 1];
@@ -107,9 +107,9 @@ Phrase suggest_name(const char *text, const char *dashes, NameTable names)
     int fewest = letters > 2 ? (letters + 1) / 3 + 1 : 1;
     bool is_comparable = letters > 1 && letters <= NAME_LETTERS;
     for (int i = 0; is_comparable && (name = names_get(names, i)); i++) {
-        int mistakes = count_mistakes(text, name);
+        int mistakes = count_typing_errors(text, name);
         if (name[0] && mistakes < fewest &&
-            (letters > SHORT_TEXT || letters_match(text[0], name[0]))) {
+            (letters > SHORT_NAME_LETTERS || letters_match(text[0], name[0]))) {
             fewest = mistakes;
             meant = name;
         }

@@ -9,7 +9,7 @@ typedef struct Phrase {
 } Phrase;
 
 /* Returns the names of a list: "clamp, none". */
-Phrase list_names(NameTable names);
+Phrase join_names(NameTable names);
 
 /* Returns a hint such as "; did you mean --timestep?": the name that other
  * programs or books have for the text, else the nearest name.  "": no name is

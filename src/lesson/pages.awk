@@ -58,13 +58,13 @@ function put_word(    part)
     else if (word == "layers")
         print ".layers = " layers_of(text) ","
     else if (word == "next" && text in of_next)
-        print ".next_action = NEXT_" toupper(text) ","
+        print ".next_action = NEXT_" of_next[text] ","
     else if (word == "code" && split(text, part, " ") >= 3)
         print ".file = " quoted(part[1]) ", .function = " quoted(part[2]) \
               ", .highlight = " quoted(substr(text, length(part[1] part[2]) + 3)) \
               ", .code = (const char *const[]){" \
               code_of(part[1], part[2]) "NULL}," \
-              (part[2] in walk ? ".line_highlight = (const char *const[PAGE_CODE_LINES]){" \
+              (part[2] in walk ? ".line_highlight = (const char *const[PAGE_MAX_CODE_LINES]){" \
                                  walk[part[2]] "}," : "")
     else if (word != "" && word != "minutes") # minutes are for readers only
         fail(begins, "'" word " " text "' is nothing that a page has")
@@ -105,8 +105,9 @@ BEGIN {
     numbers["speed"] = "speed"
     numbers["flips"] = "switch_flips"
     numbers["pause"] = "pause_step"
-    of_next["shorten"] of_next["spring"]
-    split("numbers forces modes kinds cuts downhill curves first_step velocity",
+    of_next["shorten"] = "SHORTENS_SPRING"
+    of_next["spring"] = "ADDS_SPRING"
+    split("numbers forces modes kinds cuts downhill curves first_step",
           layer)
     for (i in layer)
         layers[layer[i]]
@@ -128,6 +129,6 @@ BEGIN {
 END {
     end_page()
     print "{.name = NULL}};"
-    print "const Letter lecture_letters[] = {\n" letters "{NULL, NULL}};"
+    print "const SlideLetter lecture_letters[] = {\n" letters "{NULL, NULL}};"
     exit failed
 }

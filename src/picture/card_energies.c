@@ -113,7 +113,7 @@ static double find_present_energy(const Curve *curve)
     if (point < 0)
         return NAN;
     if (!runs && now > history->time[last] * (1 + 1e-12) &&
-        !isfinite(simulation_energies(curve->simulation, 0).total))
+        !isfinite(simulation_get_energies(curve->simulation, 0).total))
         return INFINITY; /* the history leaves out infinite energies */
     double value = history->value[curve->series][point];
     for (int s = 0; s < history->series && !runs; s++) {
@@ -302,7 +302,7 @@ void energy_budget_draw(const Plot *card)
     static const double NAME = 7, VALUE = 5.2; /* ems, widths of columns */
     Paper *paper = card->paper;
     const Box *box = &card->box;
-    Energies energies = simulation_energies(card->simulation, 0);
+    Energies energies = simulation_get_energies(card->simulation, 0);
     Energy all = {"start + work", 0};
     const Energy *shown[HISTORY_SERIES + 1] = {&all};
     int rows = 1, air = paper_pixels(paper, 0.1);

@@ -62,7 +62,7 @@ static void draw_pattern(const Plot *card, Box square, bool natural,
     const Pick *hover = &card->content->view->hovered;
     unsigned char *block = compute_matrix_pattern(system, natural, springs);
     Canvas *canvas = &card->paper->canvas;
-    bool writes = card->simulation->options.next_action == NEXT_SPRING;
+    bool writes = card->simulation->options.next_action == NEXT_ADDS_SPRING;
     int n = system->nodes, least = paper_pixels(card->paper, 0.35);
     int lit = hover->kind == PICK_SPRING    ? hover->index
               : card->content->lecture.page ? springs - 1
@@ -98,7 +98,7 @@ void hessian_pattern_draw(const Plot *card)
 {
     Paper *paper = card->paper;
     const System *system = &card->simulation->system;
-    bool writes = card->simulation->options.next_action == NEXT_SPRING;
+    bool writes = card->simulation->options.next_action == NEXT_ADDS_SPRING;
     const double list_height = 28; /* ems */
     Plot triplets = *card;
     Box inside = card->box;

@@ -259,7 +259,7 @@ void law_add_values(const Simulation *simulation, LiveValues *values)
         values_add(values, "law y", law_value_at(law, &now));
     if (flows)
         values_add(values, "s_p", now.spring.ep);
-    Energies energies = simulation_energies(simulation, 0);
+    Energies energies = simulation_get_energies(simulation, 0);
     for (int i = 0; i < energies.rows; i++)
         values_add(values, energies.row[i].name, energies.row[i].value);
     if (law_find_slip(simulation, simulation->mesh.bodies - 1, way))

@@ -159,7 +159,7 @@ static void mark_stationary_points(const Plot *plot)
         bool saddle = i == 2;
         if ((i == 1 && point_distance(at[0], at[1]) < 1e-6) ||
             !(vector_length(p) <= 1e-9) ||
-            descent_hessian_index(simulation, at[i][0], at[i][1]) != saddle)
+            descent_classify_hessian(simulation, at[i][0], at[i][1]) != saddle)
             continue;
         plot_hollow_disc(plot, at[i], 4, 2, COLOUR_TEXT);
         plot_label(plot, 1, at[i], COLOUR_TEXT, saddle ? "saddle" : "minimum");

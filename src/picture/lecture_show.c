@@ -4,7 +4,7 @@
 
 #include "picture/cards.h"
 
-_Static_assert((int)LINE_COUNT == PAGE_CODE_LINES,
+_Static_assert((int)LINE_COUNT == PAGE_MAX_CODE_LINES,
                "walk has a text for each line");
 
 const char *lecture_find_lit_text(const FrameContent *content)
@@ -37,7 +37,8 @@ static void list_pages(const LecturePage *marked, FrameContent *content)
 static void list_formula_letters(FrameContent *content)
 {
     ListRow *row = content->list.row;
-    for (const Letter *letter = lecture_letters; letter->letter; letter++) {
+    for (const SlideLetter *letter = lecture_letters; letter->letter;
+         letter++) {
         snprintf(row->key, VALUE_SIZE, "%s", letter->letter);
         snprintf((row++)->text, SENTENCE_SIZE, "%s", letter->meaning);
     }

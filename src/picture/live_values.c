@@ -109,7 +109,7 @@ static void add_setting_values(const Simulation *simulation, LiveValues *values)
     if (simulation->is_over && scene->step == step_descent &&
         descent->residual <= options->tolerance) { /* x is stationary */
         const double *x = descent->iterate;
-        int down = descent_hessian_index(simulation, x[0], x[1]);
+        int down = descent_classify_hessian(simulation, x[0], x[1]);
         values_add_flag(values, "saddle", down == 1);
         values_add_flag(values, "maximum", down == 2);
     }

@@ -368,8 +368,8 @@ void mass_draw(Plot *stage)
     const Simulation *simulation = stage->simulation;
     const TimeIntegrator *run = simulation->run;
     double start[2], across[2]; /* conjugate half axes of the exact path */
-    mass_find_exact(simulation, 0, start);
-    mass_find_exact(simulation, 0.25 * TWO_PI, across);
+    mass_find_exact_x(simulation, 0, start);
+    mass_find_exact_x(simulation, 0.25 * TWO_PI, across);
     plot_ellipse(stage, origin, start, across, 4, false, COLOUR_GRID);
     for (int r = 0; r < simulation->runs; r++)
         plot_line(stage, origin, run[r].x, 1.4, COLOUR_REST);

@@ -123,7 +123,7 @@ static void find_pane_bounds(const FrameContent *content, const Layout *layout,
 }
 
 /* Lists the switches on the stage; a document has them beside the picture. */
-static int list_switches(const Plot *stage, Switch out[SCENE_MAX_SWITCHES])
+static int list_switches(const Plot *stage, SceneSwitch out[SCENE_MAX_SWITCHES])
 {
     return stage->has_text && !stage->content->has_document
                ? exhibit_list_switches(stage->simulation, out)
@@ -140,7 +140,7 @@ Plot stage_create(Paper *paper, const FrameContent *content,
     stage.has_text = !content->is_bare;
     bool stretched = picture_of_scene(stage.simulation->scene)->is_stretched;
     Box room = find_picture_room(content, layout, pane);
-    Switch switches[SCENE_MAX_SWITCHES];
+    SceneSwitch switches[SCENE_MAX_SWITCHES];
     find_pane_bounds(content, layout, pane, bounds);
     stage.camera = camera_create(room, bounds, stretched, lens);
     if (list_switches(&stage, switches) == 0)
@@ -197,7 +197,7 @@ static Box box_of_switch(const Plot *stage, int i, int count)
 static void draw_switches(const Plot *stage)
 {
     Paper *paper = stage->paper;
-    Switch switches[SCENE_MAX_SWITCHES];
+    SceneSwitch switches[SCENE_MAX_SWITCHES];
     int count = list_switches(stage, switches);
     for (int i = 0; i < count; i++) {
         Box box = box_of_switch(stage, i, count),
@@ -254,7 +254,7 @@ Pick frame_pick(const FrameContent *content, const Layout *layout, double x,
     Plot stage = stage_create(NULL, content, layout, hit.index);
     const Picture *picture = picture_of_scene(stage.simulation->scene);
     double at[SCENE_MAX_HANDLES][2];
-    Switch switches[SCENE_MAX_SWITCHES];
+    SceneSwitch switches[SCENE_MAX_SWITCHES];
     camera_to_world(&stage.camera, x, y, pick.point);
     pick.kind = picture->takes_clicks ? PICK_POINT : PICK_NONE;
     if (!picture->draws_handles) {

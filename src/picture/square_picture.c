@@ -269,7 +269,7 @@ static void mark_under_mouse(const SquarePen *pen)
     bool holds = hand->is_held && stage->pane == active_pane(content);
     const Pick *hover = &content->view->hovered;
     bool over = hover->pane == plot_pane_index(stage);
-    bool writes = pen->simulation->options.next_action == NEXT_SPRING;
+    bool writes = pen->simulation->options.next_action == NEXT_ADDS_SPRING;
     int lit = hover->kind == PICK_SPRING ? hover->index
               : writes                   ? find_newest_spring(pen->simulation)
                                          : -1;
@@ -451,11 +451,11 @@ static void draw_page_arrows(const SquarePen *pen)
 static void draw_springs_by_kind(const SquarePen *pen)
 {
     const System *system = pen->system;
-    int newest = exhibit_spring_kind(pen->simulation,
-                                     find_newest_spring(pen->simulation));
+    int newest = exhibit_find_spring_kind(pen->simulation,
+                                          find_newest_spring(pen->simulation));
     bool wide = pen->simulation->options.layers & LAYER_KINDS;
     for (int s = 0; s < system->springs; s++) {
-        int kind = exhibit_spring_kind(pen->simulation, s);
+        int kind = exhibit_find_spring_kind(pen->simulation, s);
         if (system->k[s] > 0)
             square_draw_spring(pen, s, wide && kind == newest ? 3.5 : 2,
                                colour_of_spring_kind(kind));
@@ -584,7 +584,7 @@ void square_draw(Plot *stage)
     add_warnings(pen, folded);
     if (stage->revealed && layers & LAYER_NUMBERS &&
         (simulation->steps == 0 ||
-         simulation->options.next_action == NEXT_SPRING) &&
+         simulation->options.next_action == NEXT_ADDS_SPRING) &&
         system->nodes <= MAX_NUMBERED)
         draw_node_numbers(pen);
     if (pen->colour_range > 0)
@@ -663,7 +663,7 @@ void square_add_values(const Simulation *simulation, LiveValues *values)
     values_add(values, "k", options->stiffness);
     values_add(values, "stretch", options->stretch);
     values_add(values, "h", options->timestep);
-    if (options->next_action == NEXT_SPRING)
+    if (options->next_action == NEXT_ADDS_SPRING)
         add_block_values(simulation, values);
     law_add_values(simulation, values);
     if (options->layers & LAYER_MODES && nodes <= SIMULATION_MODE_NODES) {
@@ -678,7 +678,7 @@ void square_add_values(const Simulation *simulation, LiveValues *values)
 /* Samples all energies of the first run, J. */
 int square_sample_energies(const Simulation *simulation, Energy *row)
 {
-    Energies energies = simulation_energies(simulation, 0);
+    Energies energies = simulation_get_energies(simulation, 0);
     int rows = energies.rows < HISTORY_SERIES ? energies.rows : HISTORY_SERIES;
     memcpy(row, energies.row, (size_t)rows * sizeof *row);
     return rows;

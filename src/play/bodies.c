@@ -29,7 +29,7 @@ Status obey_hold(Player *player, const Command *command)
     if (pulls)
         memcpy(place, simulation->run[0].x + 2 * command->number, sizeof place);
     else
-        simulation_find_obstacle(simulation, 0, (int)command->number, place);
+        simulation_locate_obstacle(simulation, 0, (int)command->number, place);
     const Command change = {.kind = command->kind,
                             .number = command->number,
                             .x = place[0],
@@ -73,7 +73,7 @@ Status obey_obstacle(Player *player, const Command *command)
 
 Status obey_drag(Player *player, const Command *command)
 {
-    if (!control_hand_holds(past_control(&player->past, player->active)))
+    if (!control_is_holding(past_control(&player->past, player->active)))
         return player_refuse(player, "the hand holds nothing");
     player->hands.is_holding = command->kind == COMMAND_DRAG;
     player->hands.pulled_step = player->past.step;

@@ -133,7 +133,7 @@ static bool read_argument(const char *word, char kind, Command *command)
         one = row->count <= 1 && row->max_times == 0 &&
               row->kind != OPTION_TEXT && row->kind != OPTION_SWITCH &&
               row->kind != OPTION_PAGE;
-        if (one && option_read(row, 1, word, &command->x))
+        if (one && option_parse(row, 1, word, &command->x))
             return true;
         break;
     default:

@@ -77,7 +77,7 @@ static void build_settings_row(const Player *player, Frame *frame)
         const OptionRow *row = frame->option[i];
         Setting *setting = &content->settings.item[content->settings.count++];
         char now[COMMAND_TEXT_SIZE], start[COMMAND_TEXT_SIZE];
-        setting->name = option_label(row);
+        setting->name = option_get_label(row);
         setting->min_letters = row->display.max_letters;
         player_format_value(row, options, player_simulation(player),
                             setting->value, VALUE_SIZE);
@@ -145,7 +145,7 @@ static void build_chip_row(const Player *player, Frame *frame)
     const Simulation *simulation = player_simulation(player);
     const Options *options = player_active_options(player);
     bool time = simulation->scene->parts & HAS_TIME;
-    bool nears = options->next_action == NEXT_SHORTEN;
+    bool nears = options->next_action == NEXT_SHORTENS_SPRING;
     bool newton = simulation_has_updates(simulation) && !nears;
     bool ended = simulation->is_over || player->play.mode > MODE_END;
     bool stands = player_is_stopped(player);
@@ -186,7 +186,7 @@ static void build_chip_row(const Player *player, Frame *frame)
 
 /* ---- the picture --------------------------------------------------------- */
 
-_Static_assert((int)OPTIONS_MAX_DRAWN == (int)LAYOUT_MAX_PANES,
+_Static_assert((int)OPTIONS_MAX_DRAWN_PANES == (int)LAYOUT_MAX_PANES,
                "all are drawn");
 
 /* Writes the value that an option has in a pane at the step that is shown. */
@@ -289,7 +289,7 @@ static void build_time_line(const Player *player, FrameContent *content)
         longest = fmax(longest, h);
     }
     content->time_line.is_paused = player_is_stopped(player);
-    if (player_active_options(player)->next_action == NEXT_SPRING) {
+    if (player_active_options(player)->next_action == NEXT_ADDS_SPRING) {
         long last = player_simulation(player)->system.springs - 1;
         snprintf(text, SENTENCE_SIZE, "spring %ld",
                  past->step < last ? past->step : last);
@@ -338,7 +338,7 @@ static void write_page_heading(const Player *player, LectureContent *lecture)
             value[comma] = '\0'; /* y of the start is unused */
         append(text, sizeof text,
                value[comma] ? "%s%s = (%.*s)%s" : "%s%s = %.*s%s", before,
-               option_label(row[i]), (int)strcspn(value, " "), value,
+               option_get_label(row[i]), (int)strcspn(value, " "), value,
                value + strcspn(value, " "));
         before = ", ";
     }
@@ -368,8 +368,8 @@ static void build_frame_content(const Player *player, Frame *frame)
     build_time_line(player, content);
     build_settings_row(player, frame);
     build_chip_row(player, frame);
-    const Control *control = past_control(past, active);
-    if (control_hand_holds(control) &&
+    const UserControl *control = past_control(past, active);
+    if (control_is_holding(control) &&
         player->view_of_pane[active].trace_index < 0)
         content->hand = (HandGrip){true,
                                    control->held_node,

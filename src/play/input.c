@@ -114,7 +114,7 @@ static Status enter_text(Player *player)
     if (row) {
         Command made = make_set_command(row, 0);
         if (row->count > 1 ||
-            !option_read(row, 1, player->hands.typed, &made.x))
+            !option_parse(row, 1, player->hands.typed, &made.x))
             memcpy(made.text, player->hands.typed, sizeof player->hands.typed);
         status = player_obey(player, &made);
     } else {
@@ -192,8 +192,8 @@ static Status begin_press(Player *player, const MouseTarget *target)
     switch (target->pick.kind) {
     case PICK_OBSTACLE:
         mouse->drag_command = COMMAND_OBSTACLE;
-        simulation_find_obstacle(player_simulation(player), 0,
-                                 mouse->dragged_id, point);
+        simulation_locate_obstacle(player_simulation(player), 0,
+                                   mouse->dragged_id, point);
         mouse->grip_offset[0] = point[0] - target->point[0];
         mouse->grip_offset[1] = point[1] - target->point[1];
         return STATUS_OK;
@@ -261,10 +261,10 @@ static Status drag_obstacle(Player *player, const double at[2])
     }
     for (int p = 0; p < past_panes(past); p++) {
         const Options *options = &past_control(past, p)->options;
-        part = fmin(part, simulation_find_free_part(&past->pane[p].simulation,
-                                                    options, number, at));
+        part = fmin(part, simulation_find_free_fraction(
+                              &past->pane[p].simulation, options, number, at));
     }
-    simulation_find_obstacle(player_simulation(player), 0, number, from);
+    simulation_locate_obstacle(player_simulation(player), 0, number, from);
     if (part == 0)
         return player_refuse(player, "no room: the square is in its way");
     const double to[2] = {from[0] + part * (at[0] - from[0]),

@@ -16,7 +16,7 @@ long player_count_targets(const Player *player, int pane, CommandKind kind)
     const Simulation *simulation = &player->past.pane[pane].simulation;
     const Scene *scene = simulation->scene;
     double at[SCENE_MAX_HANDLES][2];
-    Switch part[SCENE_MAX_SWITCHES];
+    SceneSwitch part[SCENE_MAX_SWITCHES];
     bool cells = scene->picture == PICTURE_ENVELOPE;
     switch (kind) {
     case COMMAND_PIN:
@@ -65,7 +65,7 @@ static Command resolve_key_command(const Player *player, const Command *asked)
     if (asked->kind == COMMAND_TOGGLE_PAUSE)
         meant.kind = player_is_stopped(player) ? COMMAND_PLAY : COMMAND_PAUSE;
     if (asked->kind == COMMAND_NEXT && !player_hides_answer(player) &&
-        player_active_options(player)->next_action == NEXT_SHORTEN)
+        player_active_options(player)->next_action == NEXT_SHORTENS_SPRING)
         meant =
             (Command){.kind = COMMAND_HANDLE, .x = 0.8 * x[0], .y = 0.8 * x[1]};
     return meant;
@@ -77,7 +77,7 @@ static void store_page_option(Player *player, const Command *command)
     Options *own = &player->tour.page_options[player->active];
     player->tour.page_panes = past_panes(&player->past);
     if (command->kind == COMMAND_FLIP)
-        own->flips = exhibit_find_flips(player_simulation(player));
+        own->flips = exhibit_get_flip_bits(player_simulation(player));
     if (command->kind == COMMAND_SET)
         option_copy(&option_rows[command->number],
                     player_active_options(player), own);

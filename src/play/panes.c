@@ -41,7 +41,7 @@ Status obey_method(Player *player, const Command *command)
 Status obey_add_pane(Player *player, const Command *command)
 {
     int panes = past_panes(&player->past);
-    if (panes >= OPTIONS_MAX_DRAWN)
+    if (panes >= OPTIONS_MAX_DRAWN_PANES)
         return player_refuse(player, "six are side by side: no room for more");
     if (player_simulation(player)->runs > 1)
         return player_refuse(player, "several runs are in this picture "

@@ -55,12 +55,12 @@ const Entry *past_entry(const Past *past, int pane, long step)
     return step > past_newest(past) ? NULL : find_entry(past, pane, step);
 }
 
-const Control *past_control(const Past *past, int pane)
+const UserControl *past_control(const Past *past, int pane)
 {
     return find_entry(past, pane, past->step)->control;
 }
 
-const Control *past_start_control(const Past *past, int pane)
+const UserControl *past_start_control(const Past *past, int pane)
 {
     const Branch *branch = present_branch(past);
     for (; !branch->from_options; branch--)
@@ -359,7 +359,7 @@ static Status pane_create(PastPane *pane, const Options *options)
     return simulation_create(options, observe_newton, pane, &pane->simulation);
 }
 
-static Status pane_use_control(PastPane *pane, const Control *control)
+static Status pane_use_control(PastPane *pane, const UserControl *control)
 {
     if (pane->control == control)
         return STATUS_OK;
@@ -414,7 +414,7 @@ static Status pane_load_state(PastPane *pane, const State *state)
 static Status pane_seek(Past *past, int p, long goal)
 {
     PastPane *pane = &past->pane[p];
-    const Control *start = past_start_control(past, p);
+    const UserControl *start = past_start_control(past, p);
     long from = goal;
     while (past->stores_states && from > 0 && !find_entry(past, p, from)->state)
         from--;
@@ -740,7 +740,7 @@ Status past_begin_runs(Past *past, const Options *options, int panes,
     for (int p = 0; p < panes && !status; p++) {
         PastPane *pane = &past->pane[p];
         status = pane_create(pane, &options[p]);
-        Control *control =
+        UserControl *control =
             status ? NULL : control_from_simulation(&pane->simulation);
         if (!control) {
             status = status ? status : STATUS_OUT_OF_MEMORY;
@@ -787,12 +787,12 @@ static bool edit_changes_state(const Command *edit)
 
 /* Returns the control after an edit, or NULL if memory is missing.
  *   simulation  in, at the step that is edited */
-static const Control *make_edited_control(const Control *from,
-                                          const Command *edit,
-                                          const Simulation *simulation)
+static const UserControl *make_edited_control(const UserControl *from,
+                                              const Command *edit,
+                                              const Simulation *simulation)
 {
     char message[256];
-    Control *control = control_copy(from);
+    UserControl *control = control_copy(from);
     if (!control)
         return NULL;
     if (edit->kind == COMMAND_SET)
@@ -825,7 +825,7 @@ static Status apply_pane_edit(Past *past, int pane, const Command *edit,
 {
     Simulation *simulation = &past->pane[pane].simulation;
     if (!edit_sets_state(edit)) {
-        const Control *control =
+        const UserControl *control =
             make_edited_control(entry->control, edit, simulation);
         if (!control)
             return STATUS_OUT_OF_MEMORY;

@@ -140,7 +140,7 @@ Status player_restart_runs(Player *player, const Options *options, int panes,
 /* Pins and frees nodes as in an earlier control, if scene, page and mesh are
  * still the same; releases the earlier control.
  *   before  in, or NULL */
-Status player_restore_pins(Player *player, const Control *before);
+Status player_restore_pins(Player *player, const UserControl *before);
 
 /* Puts the opening commands of the page into the queue. */
 Status player_enqueue_page(Player *player);

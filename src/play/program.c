@@ -42,7 +42,7 @@ static int print_help_or_list(const Options *options)
 {
     errno = 0;
     if (options->help)
-        options_help(stdout);
+        options_print_help(stdout);
     else if (options->version)
         puts("elasto " ELASTO_VERSION);
     else if (!options->list)
@@ -109,7 +109,7 @@ static int report_failure(const Player *player, Status status)
 static void print_newton_counters(FILE *file, const Simulation *simulation)
 {
     const Newton *newton = simulation->run[0].newton;
-    NewtonCounters sum = simulation_sum_counters(simulation);
+    NewtonCounters sum = simulation_sum_newton_counters(simulation);
     unsigned needs = simulation->scene->parts;
     const struct {
         const char *name;
@@ -125,7 +125,7 @@ static void print_newton_counters(FILE *file, const Simulation *simulation)
     };
     if (newton && needs & HAS_SPRINGS)
         print_quantity(file, "solver", "%s%s%s",
-                       solver_name(newton->active_solver),
+                       get_solver_name(newton->active_solver),
                        newton->refusal_reason ? "; no multigrid: " : "",
                        newton->refusal_reason ? newton->refusal_reason : "");
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
@@ -172,7 +172,7 @@ static void print_summary(FILE *file, const Player *player)
             print_quantity(file, "energy at start", "%.9g J",
                            simulation->ledger[0].start + 0.0); /* no -0 */
             print_quantity(file, "energy at end", "%.9g J",
-                           simulation_energies(simulation, 0).total);
+                           simulation_get_energies(simulation, 0).total);
             print_energy_gain(file, simulation);
         }
         fprintf(file, "steps not converged %ld", simulation->unconverged_steps);

@@ -57,7 +57,7 @@ static void add_springs(Table *table, const RunAtStep *at)
 static void add_energies(Table *table, const RunAtStep *at)
 {
     const Energies energies =
-        simulation_energies(at->simulation, at->run_index);
+        simulation_get_energies(at->simulation, at->run_index);
     double row[TABLE_MAX_COLUMNS] = {at->step, at->time};
     for (int c = 2; c < table->columns; c++)
         for (int r = 0; r < energies.rows; r++)
@@ -72,7 +72,7 @@ static const char *name_log_code(const char *column, int number)
 {
     static const char *const kinds[] = {"value", "estimate"};
     return strcmp(column, "status") == 0   ? status_name((Status)number)
-           : strcmp(column, "solver") == 0 ? solver_name(number)
+           : strcmp(column, "solver") == 0 ? get_solver_name(number)
                                            : kinds[number];
 }
 

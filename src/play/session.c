@@ -39,7 +39,7 @@ int player_copy_options(const Player *player,
     const Past *past = &player->past;
     for (int p = 0; p < past_panes(past); p++) {
         options[p] = past_control(past, p)->options;
-        options[p].flips = exhibit_find_flips(&past->pane[p].simulation);
+        options[p].flips = exhibit_get_flip_bits(&past->pane[p].simulation);
     }
     return past_panes(past);
 }
@@ -54,7 +54,7 @@ int player_list_options(const Player *player, bool all,
                         const OptionRow *found[OPTIONS_MAX_ROWS])
 {
     const Options options = player_shown_options(player);
-    int own = all ? 0 : options_list_visible(&options, found), count = own;
+    int own = all ? 0 : options_list_visible_rows(&options, found), count = own;
     for (const OptionRow *row = option_rows; row->name; row++) {
         bool more = all || player->hands.added_rows >> (row - option_rows) & 1;
         more = more && player_has_number(player, row);
@@ -88,7 +88,7 @@ bool player_has_changed_page(const Player *player)
     if (!page || page != own->page || !player->setup.asks_guess)
         return false;
     bool is_changed =
-        exhibit_find_flips(&past->pane[0].simulation) != own->flips;
+        exhibit_get_flip_bits(&past->pane[0].simulation) != own->flips;
     for (int b = past->current; !past->branch[b].from_options; b--)
         is_changed |= past->branch[b].edit.kind == COMMAND_HANDLE;
     int rows = player_list_options(player, true, row);
@@ -210,7 +210,7 @@ void player_format_value(const OptionRow *row, const Options *options,
              simulation->run[0].newton &&
              simulation->run[0].newton->active_solver != options->solver)
         snprintf(text, size, "%.12s: %s", value,
-                 solver_name(simulation->run[0].newton->active_solver));
+                 get_solver_name(simulation->run[0].newton->active_solver));
     else
         snprintf(text, size, "%.20s%s%s", value, unit[0] ? " " : "", unit);
 }

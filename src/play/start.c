@@ -58,11 +58,11 @@ static Status clear_obstacles_at_start(Player *player, int pane,
     return body_check(options, message);
 }
 
-Status player_restore_pins(Player *player, const Control *before)
+Status player_restore_pins(Player *player, const UserControl *before)
 {
     if (!before)
         return STATUS_OK;
-    const Control *now = past_control(&player->past, 0);
+    const UserControl *now = past_control(&player->past, 0);
     bool same = now->options.scene == before->options.scene &&
                 now->options.page == before->options.page &&
                 now->nodes == before->nodes;
@@ -81,7 +81,7 @@ Status player_restore_pins(Player *player, const Control *before)
 Status player_restart_runs(Player *player, const Options *options, int panes,
                            const Command *edit)
 {
-    const Control *before = control_retain(past_control(&player->past, 0));
+    const UserControl *before = control_retain(past_control(&player->past, 0));
     const LecturePage *page = options->page;
     Options own; /* opening commands need the page's own nodes */
     bool opens = edit->kind == COMMAND_RESTART && page && page->on_open &&
@@ -137,7 +137,7 @@ Status player_enqueue_page(Player *player)
 
 void player_store_page_options(Player *player, const Options *options)
 {
-    for (int p = 0; p < OPTIONS_MAX_DRAWN; p++)
+    for (int p = 0; p < OPTIONS_MAX_DRAWN_PANES; p++)
         player->tour.page_options[p] = *options;
     player->tour.page_panes = 1;
 }
@@ -158,7 +158,7 @@ Status player_reveal_answer(Player *player, const char *typed)
     FrameContent *content = &player->screen.frame.content;
     double truth = frame_find_number(content, page->answer ? page->answer : "");
     double guess = truth;
-    if (typed && (!option_read(&any, 1, typed, &guess) || !isfinite(guess)))
+    if (typed && (!option_parse(&any, 1, typed, &guess) || !isfinite(guess)))
         return player_refuse(player, "a number is wanted: 0.25 or 1/4");
     bool right = fabs(guess - truth) <= 0.025 * fabs(truth);
     bool judged = typed && page->answer && !isnan(truth);
@@ -232,7 +232,7 @@ Status obey_predict(Player *player, const Command *command)
     if (simulation->is_over || simulation_find_point(simulation, at) == 0)
         return player_refuse(player, "nothing to predict here");
     player_pause(player);
-    scene_predict(simulation, command->x, command->y);
+    scene_store_guess(simulation, command->x, command->y);
     const Prediction *guess = &simulation->prediction;
     if (!player_hides_answer(player))
         return STATUS_OK;

@@ -228,7 +228,7 @@ static void stop_run_if_over(Player *player)
     int going = 0;
     const Options *options = player_active_options(player);
     if (player->setup.options[0].steps >= 0 || !player->setup.is_attended ||
-        (options->next_action == NEXT_SPRING && /* springs are left to add */
+        (options->next_action == NEXT_ADDS_SPRING && /* a spring is left */
          past->step < player_simulation(player)->system.springs))
         return;
     for (int p = 0; p < past_panes(past); p++) {
@@ -239,7 +239,7 @@ static void stop_run_if_over(Player *player)
         going++;
         ended = ended && (simulation->is_over || pane->has_failed);
         rests = rests && (simulation->scene->parts & HAS_TIME) &&
-                simulation->runs == 1 && !control_hand_holds(pane->control) &&
+                simulation->runs == 1 && !control_is_holding(pane->control) &&
                 simulation_is_at_rest(simulation);
         bad = past_panes(past) == 1 && pane->outcome.status;
     }
@@ -448,7 +448,7 @@ static Status release_old_hand(Player *player)
 {
     const Command release = {.kind = COMMAND_RELEASE};
     int gesture = player->commands.gesture;
-    if (!control_hand_holds(past_control(&player->past, 0)) ||
+    if (!control_is_holding(past_control(&player->past, 0)) ||
         player->hands.is_holding)
         return STATUS_OK;
     player->commands.gesture = ++player->commands.gestures;
@@ -536,7 +536,7 @@ Status obey_walk_unit(Player *player, const Command *command)
 {
     static const char *const paces[] = {
         "whole steps", "updates of Newton's method", "lines of Algorithm 3"};
-    if (player_active_options(player)->next_action == NEXT_SHORTEN ||
+    if (player_active_options(player)->next_action == NEXT_SHORTENS_SPRING ||
         (!panes_use_newton(player) && player->play.walk_unit == UNIT_STEP))
         return player_refuse(player, "a step here has no finer ones");
     player->play.walk_unit = (player->play.walk_unit + 1) % UNITS;

@@ -67,7 +67,7 @@ static void queue_input(const Input *input)
         inputs[(first_input + input_count++) % INPUT_QUEUE_SIZE] = *input;
 }
 
-EMSCRIPTEN_KEEPALIVE void web_key(const char *key, int repeats)
+EMSCRIPTEN_KEEPALIVE void web_queue_key(const char *key, int repeats)
 {
     Input input = {.kind = INPUT_KEY, .is_repeat = repeats != 0};
     snprintf(input.key, sizeof input.key, "%s", key);
@@ -75,8 +75,8 @@ EMSCRIPTEN_KEEPALIVE void web_key(const char *key, int repeats)
 }
 
 /* Queues an input of any InputKind but INPUT_KEY. */
-EMSCRIPTEN_KEEPALIVE void web_mouse(int kind, double x, double y, int button,
-                                    int clicks, double amount)
+EMSCRIPTEN_KEEPALIVE void web_queue_mouse(int kind, double x, double y,
+                                          int button, int clicks, double amount)
 {
     const Input input = {(InputKind)kind, "", false, button,
                          clicks,          x,  y,     amount};

@@ -106,7 +106,7 @@ double landscape_evaluate_parts(const Simulation *simulation, unsigned parts,
     return evaluate_landscape(simulation, parts, PROJECTION_NONE, x, y).energy;
 }
 
-int descent_hessian_index(const Simulation *simulation, double x, double y)
+int descent_classify_hessian(const Simulation *simulation, double x, double y)
 {
     LocalModel E = descent_evaluate(simulation, PROJECTION_NONE, x, y);
     if (simulation->descent.scalar)
@@ -166,7 +166,7 @@ static LocalModel evaluate_local_model(const Simulation *simulation)
     const double *at = simulation->descent.iterate;
     Projection projection = (Projection)simulation->options.projection;
     if (projection == PROJECTION_ON_DEMAND)
-        projection = descent_hessian_index(simulation, at[0], at[1])
+        projection = descent_classify_hessian(simulation, at[0], at[1])
                          ? PROJECTION_CLAMP
                          : PROJECTION_NONE;
     return descent_evaluate(simulation, projection, at[0], at[1]);
@@ -213,7 +213,7 @@ static void choose_stopping_test(Simulation *simulation)
     descent->tests_g = plain;
 }
 
-void descent_find_direction(Simulation *simulation)
+void descent_update_direction(Simulation *simulation)
 {
     Descent *descent = &simulation->descent;
     choose_stopping_test(simulation);
@@ -268,7 +268,7 @@ void descent_restart(Simulation *simulation)
 {
     simulation->descent.count = 0;
     simulation->steps = simulation->unconverged_steps = 0;
-    descent_find_direction(simulation);
+    descent_update_direction(simulation);
 }
 
 /* ---- the scenes ---------------------------------------------------------- */
@@ -293,17 +293,17 @@ static Status begin_descent(Simulation *simulation)
                                  &simulation->system, x, v);
     if (status)
         return status;
-    descent_find_direction(simulation);
+    descent_update_direction(simulation);
     return STATUS_OK;
 }
 
-Status create_overshoot(Simulation *simulation)
+Status create_overshoot_scene(Simulation *simulation)
 {
     simulation->descent.scalar = log_two_cosh;
     return begin_descent(simulation);
 }
 
-Status create_tangent(Simulation *simulation)
+Status create_tangent_scene(Simulation *simulation)
 {
     simulation->exhibit.x_tilde[0] = LINE_TARGET;
     simulation->descent.scalar = evaluate_tangent_energy;
@@ -312,7 +312,7 @@ Status create_tangent(Simulation *simulation)
 
 /* The springs are too long to lie flat between the pins; as in a buckling
  * column node 0 moves up or down. */
-Status create_landscape(Simulation *simulation)
+Status create_landscape_scene(Simulation *simulation)
 {
     memcpy(simulation->exhibit.x_tilde, LANDSCAPE_TARGET,
            sizeof LANDSCAPE_TARGET);
@@ -366,9 +366,9 @@ void dial_restart(Simulation *simulation)
         simulation->descent.iterate[1]);
 }
 
-Status create_dial(Simulation *simulation)
+Status create_dial_scene(Simulation *simulation)
 {
-    Status status = create_landscape(simulation);
+    Status status = create_landscape_scene(simulation);
     if (status)
         return status;
     simulation->run[0].newton->settings.observer = NULL; /* shows no updates */

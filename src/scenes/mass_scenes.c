@@ -50,13 +50,13 @@ static Status create_orbit(Simulation *simulation, double omega2,
     return status;
 }
 
-Status create_circle(Simulation *simulation)
+Status create_circle_scene(Simulation *simulation)
 {
     const double x[2] = {1, 0}, v[2] = {0, CIRCLE_OMEGA};
     return create_orbit(simulation, CIRCLE_OMEGA * CIRCLE_OMEGA, x, v);
 }
 
-Status create_arrows(Simulation *simulation)
+Status create_arrows_scene(Simulation *simulation)
 {
     const double v[2] = {0, 1};
     return create_orbit(simulation, MASS_OMEGA2, simulation->options.start, v);
@@ -86,7 +86,7 @@ bool mass_find_next_step(const Simulation *simulation, int run, MassStep *step)
     return forward || symplectic || backward;
 }
 
-void mass_find_exact(const Simulation *simulation, double t, double x[2])
+void mass_find_exact_x(const Simulation *simulation, double t, double x[2])
 {
     const double *start = simulation->exhibit.exact_start,
                  omega = sqrt(MASS_OMEGA2);
@@ -114,7 +114,7 @@ SpringValues spring_evaluate(const double d[2], double l2, double k)
     };
 }
 
-Status create_spring(Simulation *simulation)
+Status create_spring_scene(Simulation *simulation)
 {
     const Options *options = &simulation->options;
     System *system = &simulation->system;

@@ -67,14 +67,14 @@ static double find_frequency_bound(const System *system, const double *x)
 static Status advance_exactly(TimeIntegrator *run, double H, double *from,
                               double *to)
 {
-    enum { EXTRAPOLATIONS = 6 };
+    enum { EXTRAPOLATION_LEVELS = 6 };
     size_t both = 2 * run->x_length, bytes = both * sizeof *to;
     Status status = STATUS_OK;
     memcpy(from, run->x, bytes); /* x and v are one array */
     memcpy(to, run->x, bytes);
-    for (int j = 1; j <= EXTRAPOLATIONS && !status; j++) {
+    for (int j = 1; j <= EXTRAPOLATION_LEVELS && !status; j++) {
         double weight = 1;
-        for (int i = 1; i <= EXTRAPOLATIONS; i++)
+        for (int i = 1; i <= EXTRAPOLATION_LEVELS; i++)
             weight *= i == j ? 1 : (double)(j * j) / (j * j - i * i);
         memcpy(run->x, from, bytes);
         run->memory_h = 0;
@@ -110,9 +110,9 @@ Status race_make_reference(Simulation *simulation, double time)
     return status;
 }
 
-Status create_race(Simulation *simulation)
+Status create_race_scene(Simulation *simulation)
 {
-    Status status = create_square(simulation);
+    Status status = create_square_scene(simulation);
     if (!status)
         status = race_make_reference(simulation, RACE_TIME);
     if (status == STATUS_NOT_FINITE) { /* without a reference the race ends */
@@ -124,7 +124,7 @@ Status create_race(Simulation *simulation)
 }
 
 /* Returns the energy of a run, J. */
-static double find_energy(const TimeIntegrator *run)
+static double find_run_energy(const TimeIntegrator *run)
 {
     return system_potential(run->system, run->x) +
            system_kinetic_energy(run->system, run->v);
@@ -137,8 +137,8 @@ static bool run_is_stable(const Simulation *simulation, TimeIntegrator *run)
         if (time_integrator_step(run))
             return false;
     return run->method->is_implicit ||
-           find_energy(run) <=
-               RACE_MAX_ENERGY * find_energy(&simulation->run[0]);
+           find_run_energy(run) <=
+               RACE_MAX_ENERGY_RATIO * find_run_energy(&simulation->run[0]);
 }
 
 /* Measures the processor time of a run.  The run is repeated until a clock that
@@ -264,10 +264,10 @@ Status envelope_run_cell(Simulation *simulation, int column, int row)
 
 /* Makes run[1], the state from which the run of each cell begins.  run[0] is
  * the run of the shown cell. */
-Status create_envelope(Simulation *simulation)
+Status create_envelope_scene(Simulation *simulation)
 {
     const Options *options = &simulation->options;
-    Status status = create_square(simulation);
+    Status status = create_square_scene(simulation);
     simulation->run[1] = simulation->run[0];
     simulation->run[0] = (TimeIntegrator){0};
     if (status)

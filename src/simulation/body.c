@@ -28,13 +28,13 @@ static const struct PinWord {
                  {"all", 0, 0},
                  {NULL, 0, 0}};
 
-NameTable pins_words(void)
+NameTable pins_get_words(void)
 {
     return NAMES_OF(pin_words);
 }
 
-const char *pins_read(const char *text, const SquareMesh *shape,
-                      unsigned char *pinned)
+const char *pins_parse(const char *text, const SquareMesh *shape,
+                       unsigned char *pinned)
 {
     for (;; text++) {
         char name[16] = "", digits[10] = ""; /* "top" and "2" of "top:2" */
@@ -87,7 +87,7 @@ static int find_ball_node(const Options *options)
 /* Creates masses, springs, gravity and pins (slide simulator.py).  Each node
  * has an equal part of the body's mass, and the scene's ball has the mass of a
  * node; l2 = |d|^2 in the rest positions. */
-static Status create_system(const Options *options, System *system)
+static Status create_body_system(const Options *options, System *system)
 {
     const SquareMesh shape = body_make_mesh(options);
     int nodes = shape.nodes / shape.bodies, ball = find_ball_node(options);
@@ -119,7 +119,7 @@ static Status create_system(const Options *options, System *system)
         system->segments = shape.segments;
     system->gravity[1] = -options->gravity;
     square_mesh_order_nodes(&shape, system->elimination_order);
-    if (options->pin && pins_read(options->pin, &shape, system->pinned))
+    if (options->pin && pins_parse(options->pin, &shape, system->pinned))
         return STATUS_INVALID_INPUT;
     for (int i = 0; i < shape.nodes && numbers; i++) {
         double rest[2];
@@ -230,7 +230,7 @@ static Status set_self_contact(const Options *options, const SquareMesh *mesh,
 
 /* Adds, changes and removes terms as the options say.  Obstacles, self-contact
  * and cells depend on several options; each other term belongs to one row. */
-static Status set_terms(const Options *options, System *system)
+static Status set_energy_terms(const Options *options, System *system)
 {
     const SquareMesh shape = body_make_mesh(options);
     double part = options->scene->body.cell_stiffness;
@@ -258,7 +258,7 @@ static Status place_body(const Options *options, int run, double *x, double *v,
 {
     const SquareMesh shape = body_make_mesh(options);
     const double *at = options->at, *speed = options->velocity;
-    const double single[BODY_NUMBERS] = {
+    const double single[BODY_OPTION_NUMBERS] = {
         at[0], at[1], options->turn, speed[0], speed[1], options->stretch, 1};
     int ball = find_ball_node(options);
     if (options->state)
@@ -285,7 +285,7 @@ static Status place_body(const Options *options, int run, double *x, double *v,
     return STATUS_OK;
 }
 
-double body_find_lift(const Options *options, int run)
+double body_find_added_height(const Options *options, int run)
 {
     return options->scene->body.lift * options->side * (1 - run);
 }
@@ -296,22 +296,22 @@ static Options make_run_options(const Options *options, int run)
     const double factor = options->scene->body.friction_factor[run];
     Options own = *options;
     own.friction *= factor > 0 ? factor : 1;
-    own.at[1] += body_find_lift(options, run);
+    own.at[1] += body_find_added_height(options, run);
     for (int i = 0; i < own.grounds; i++)
-        own.ground[i][3] += body_find_lift(options, run);
+        own.ground[i][3] += body_find_added_height(options, run);
     return own;
 }
 
 /* Creates the system of the options with all its terms, and its start.
  *   system  out; free it in any case
  *   x       out, [2 nodes] m, followed by v [2 nodes] m/s; NULL: no memory */
-static Status build_body(const Options *options, int run, System *system,
-                         double **x, Message message)
+static Status build_run_system(const Options *options, int run, System *system,
+                               double **x, Message message)
 {
-    Status status = create_system(options, system);
+    Status status = create_body_system(options, system);
     size_t size = 2 * (size_t)system->nodes;
     if (!status)
-        status = set_terms(options, system);
+        status = set_energy_terms(options, system);
     *x = status ? NULL : malloc(2 * size * sizeof **x);
     if (status || !*x)
         return status ? status : STATUS_OUT_OF_MEMORY;
@@ -338,12 +338,12 @@ static void cut_notch(const Options *options, const SquareMesh *mesh,
 }
 
 /* Creates one run.  Pinned nodes start with velocity 0. */
-static Status create_body(Simulation *simulation, int run)
+static Status create_body_run(Simulation *simulation, int run)
 {
     const Options options = make_run_options(&simulation->options, run);
     System *system = run ? &simulation->run_system[run] : &simulation->system;
     double *x;
-    Status status = build_body(&options, run, system, &x, (Message){0});
+    Status status = build_run_system(&options, run, system, &x, (Message){0});
     simulation->mesh = body_make_mesh(&options);
     if (!status) {
         double *v = x + 2 * (size_t)system->nodes;
@@ -357,7 +357,7 @@ static Status create_body(Simulation *simulation, int run)
     return status;
 }
 
-Status body_update(Simulation *simulation, int run)
+Status body_apply_options(Simulation *simulation, int run)
 {
     System *system = simulation->run[run].system;
     Options options = make_run_options(&simulation->options, run);
@@ -366,15 +366,15 @@ Status body_update(Simulation *simulation, int run)
         if (!spring_is_broken(system, s))
             system->k[s] = options.stiffness;
     system_mark_changed(system, false);
-    return set_terms(&options, system);
+    return set_energy_terms(&options, system);
 }
 
-Status create_square(Simulation *simulation)
+Status create_square_scene(Simulation *simulation)
 {
     Status status = STATUS_OK;
     simulation->runs = (int)fmax(simulation->scene->body.runs, 1);
     for (int run = 0; run < simulation->runs && !status; run++)
-        status = create_body(simulation, run);
+        status = create_body_run(simulation, run);
     return status;
 }
 
@@ -529,9 +529,9 @@ Status simulation_check_clearance(const Simulation *simulation,
     return check_clearance(simulation, options, 0, -1, message);
 }
 
-double simulation_find_free_part(const Simulation *simulation,
-                                 const Options *options, int number,
-                                 const double to[2])
+double simulation_find_free_fraction(const Simulation *simulation,
+                                     const Options *options, int number,
+                                     const double to[2])
 {
     enum { MAX_HALVINGS = 20 };
     static const double MIN_GAP = 0.999;     /* gap to a body over d_hat */
@@ -631,7 +631,7 @@ Status body_check(const Options *options, Message message)
         return status;
     System system = {0};
     double *x = NULL;
-    status = build_body(options, 0, &system, &x, message);
+    status = build_run_system(options, 0, &system, &x, message);
     if (!status)
         status = check_crossing_outlines(options, x, message);
     if (!status)

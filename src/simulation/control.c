@@ -12,25 +12,25 @@
 #include "model/pull_energy.h"
 #include "simulation/body.h"
 
-Control *control_from_simulation(const Simulation *simulation)
+UserControl *control_from_simulation(const Simulation *simulation)
 {
     const System *system = &simulation->system;
-    Control *control = malloc(sizeof *control + (size_t)system->nodes);
+    UserControl *control = malloc(sizeof *control + (size_t)system->nodes);
     if (!control)
         return NULL;
-    *control = (Control){.ref_count = 1,
-                         .options = simulation->options,
-                         .held_node = -1,
-                         .held_obstacle = -1,
-                         .nodes = system->nodes};
+    *control = (UserControl){.ref_count = 1,
+                             .options = simulation->options,
+                             .held_node = -1,
+                             .held_obstacle = -1,
+                             .nodes = system->nodes};
     memcpy(control->pinned, system->pinned, (size_t)system->nodes);
     return control;
 }
 
-Control *control_copy(const Control *from)
+UserControl *control_copy(const UserControl *from)
 {
     size_t size = sizeof *from + (size_t)from->nodes;
-    Control *control = malloc(size);
+    UserControl *control = malloc(size);
     if (!control)
         return NULL;
     memcpy(control, from, size);
@@ -38,7 +38,7 @@ Control *control_copy(const Control *from)
     return control;
 }
 
-bool control_hand_holds(const Control *control)
+bool control_is_holding(const UserControl *control)
 {
     return control->held_node >= 0 || control->held_obstacle >= 0;
 }
@@ -48,12 +48,12 @@ static double get_height_offset(const Simulation *simulation, int run,
                                 const Obstacle *obstacle)
 {
     return obstacle->kind == OBSTACLE_WALL
-               ? body_find_lift(&simulation->options, run)
+               ? body_find_added_height(&simulation->options, run)
                : 0;
 }
 
-void simulation_find_obstacle(const Simulation *simulation, int run, int number,
-                              double at[2])
+void simulation_locate_obstacle(const Simulation *simulation, int run,
+                                int number, double at[2])
 {
     const Contact *contact = get_contact(simulation->run[run].system);
     const Obstacle *obstacle = &contact->obstacle[number];
@@ -61,14 +61,14 @@ void simulation_find_obstacle(const Simulation *simulation, int run, int number,
     at[1] = obstacle->o[1] - get_height_offset(simulation, run, obstacle);
 }
 
-void control_store_obstacle(Control *control, int number,
+void control_store_obstacle(UserControl *control, int number,
                             const Simulation *simulation)
 {
     static const double SAME = 1e-9; /* tolerance, in sides of the square */
     double place[2], other[2];
-    simulation_find_obstacle(simulation, 0, number, place);
+    simulation_locate_obstacle(simulation, 0, number, place);
     for (int r = 1; r < simulation->runs; r++) {
-        simulation_find_obstacle(simulation, r, number, other);
+        simulation_locate_obstacle(simulation, r, number, other);
         double away = math_hypot(other[0] - place[0], other[1] - place[1]);
         if (!(away < SAME * simulation->options.side))
             return;
@@ -76,16 +76,16 @@ void control_store_obstacle(Control *control, int number,
     memcpy(options_obstacle_at(&control->options, number), place, sizeof place);
 }
 
-const Control *control_retain(const Control *control)
+const UserControl *control_retain(const UserControl *control)
 {
     if (control)
-        ((Control *)control)->ref_count++;
+        ((UserControl *)control)->ref_count++;
     return control;
 }
 
-void control_release(const Control *control)
+void control_release(const UserControl *control)
 {
-    Control *own = (Control *)control;
+    UserControl *own = (UserControl *)control;
     if (own && --own->ref_count == 0)
         free(own);
 }
@@ -95,7 +95,7 @@ void control_release(const Control *control)
 static void store_dissipated_energy(const Simulation *simulation, double *out)
 {
     for (int r = 0; r < simulation->runs; r++)
-        out[r] = simulation_energies(simulation, r).dissipated;
+        out[r] = simulation_get_energies(simulation, r).dissipated;
 }
 
 /* Books the energy that a changed stiffness or pin has added as work, so that
@@ -105,7 +105,7 @@ static void book_external_work(Simulation *simulation, const double *before)
 {
     for (int r = 0; r < simulation->runs; r++)
         simulation->ledger[r].work +=
-            before[r] - simulation_energies(simulation, r).dissipated;
+            before[r] - simulation_get_energies(simulation, r).dissipated;
 }
 
 /* Gives a run the changed options.  With another method a new integrator takes
@@ -117,7 +117,7 @@ static Status update_run_options(Simulation *simulation, int r,
     TimeIntegrator *run = &simulation->run[r], old = *run;
     Status status = STATUS_OK;
     if (simulation->scene->parts & HAS_BODY)
-        status = body_update(simulation, r);
+        status = body_apply_options(simulation, r);
     if (!status && options->integrator != before->integrator) {
         status = simulation_start_run(simulation, r, options_method(options),
                                       old.system, old.x, old.v);
@@ -160,7 +160,7 @@ static void stop_node(TimeIntegrator *run, int node)
 
 /* Pulls the node of the control to the mouse, by a spring far stiffer than the
  * body's springs: the node follows the mouse, and the body gives way. */
-static Status apply_hand(Simulation *simulation, const Control *control)
+static Status apply_pull(Simulation *simulation, const UserControl *control)
 {
     static const double STIFFER = 1000; /* hand's stiffness over the body's */
     System *system = &simulation->system;
@@ -185,7 +185,7 @@ static Status apply_hand(Simulation *simulation, const Control *control)
 }
 
 /* Pushes the obstacle that the mouse holds, if there is one, in each run. */
-static void apply_push(Simulation *simulation, const Control *control)
+static void apply_push(Simulation *simulation, const UserControl *control)
 {
     for (int r = 0; r < simulation->runs; r++) {
         Contact *contact = get_contact(simulation->run[r].system);
@@ -203,7 +203,7 @@ static void apply_push(Simulation *simulation, const Control *control)
     }
 }
 
-Status control_apply(Simulation *simulation, const Control *control)
+Status control_apply(Simulation *simulation, const UserControl *control)
 {
     System *system = &simulation->system;
     double dissipated[SIMULATION_MAX_RUNS];
@@ -223,7 +223,7 @@ Status control_apply(Simulation *simulation, const Control *control)
         if (!simulation->run[r].newton)
             simulation->run[r].memory_h = 0; /* Verlet's a_n is another now */
     if (!status)
-        status = apply_hand(simulation, control);
+        status = apply_pull(simulation, control);
     apply_push(simulation, control);
     if (!status)
         book_external_work(simulation, dissipated);

@@ -14,7 +14,7 @@ static void add_energy(Energies *energies, const char *name, double value)
     energies->row[i].value += value;
 }
 
-Energies simulation_energies(const Simulation *simulation, int run)
+Energies simulation_get_energies(const Simulation *simulation, int run)
 {
     const TimeIntegrator *integrator = &simulation->run[run];
     const System *system = integrator->system;

@@ -50,14 +50,14 @@ void exhibit_drag_handle(Simulation *simulation, int handle, double x, double y)
 
 /* The mesh lists its springs in this order: n (n + 1) horizontal springs, as
  * many vertical ones, and two diagonals for each cell. */
-int exhibit_spring_kind(const Simulation *simulation, int spring)
+int exhibit_find_spring_kind(const Simulation *simulation, int spring)
 {
     int n = simulation->system.segments, half = n * (n + 1);
     return spring < half ? 0 : spring < 2 * half ? 1 : 2 + spring % 2;
 }
 
 int exhibit_list_switches(const Simulation *simulation,
-                          Switch out[SCENE_MAX_SWITCHES])
+                          SceneSwitch out[SCENE_MAX_SWITCHES])
 {
     static const char *const kinds[SCENE_MAX_SWITCHES] = {
         "horizontal", "vertical", "diagonal /", "diagonal \\"};
@@ -65,18 +65,18 @@ int exhibit_list_switches(const Simulation *simulation,
     const char *const *label =
         has_kinds ? kinds : simulation->scene->switch_labels;
     const Options *options = &simulation->options;
-    /* On pages where the key N shortens a spring (NEXT_SHORTEN), switches are
-     * listed only if the page itself turns one over. */
-    bool none = options->next_action == NEXT_SHORTEN && !options->flips;
+    /* On pages where the key N shortens a spring (NEXT_SHORTENS_SPRING),
+     * switches are listed only if the page itself turns one over. */
+    bool none = options->next_action == NEXT_SHORTENS_SPRING && !options->flips;
     int count = 0;
     for (; !none && count < SCENE_MAX_SWITCHES && label[count]; count++)
         out[count] =
-            (Switch){label[count],
-                     (simulation->exhibit.switches >> count & 1) != has_kinds};
+            (SceneSwitch){label[count], (simulation->exhibit.switches >> count &
+                                         1) != has_kinds};
     return count;
 }
 
-unsigned exhibit_find_flips(const Simulation *simulation)
+unsigned exhibit_get_flip_bits(const Simulation *simulation)
 {
     unsigned at_start = simulation->scene->switch_labels[1] ? PART_BOTH : 0;
     return simulation->exhibit.switches ^ at_start;
@@ -91,15 +91,15 @@ void exhibit_flip_switch(Simulation *simulation, int number)
     unsigned switches = simulation->exhibit.switches ^ (1U << number);
     if (simulation->options.layers & LAYER_KINDS) {
         double k = switches >> number & 1 ? 0 : simulation->options.stiffness;
-        double before = simulation_energies(simulation, 0).total;
+        double before = simulation_get_energies(simulation, 0).total;
         simulation->exhibit.switches = switches;
         for (int s = 0; s < system->springs; s++)
-            if (exhibit_spring_kind(simulation, s) == number)
+            if (exhibit_find_spring_kind(simulation, s) == number)
                 system->k[s] = k;
         system_mark_changed(system, false);
         simulation->run[0].memory_h = 0; /* forces have changed */
         simulation->ledger[0].work +=
-            simulation_energies(simulation, 0).total - before;
+            simulation_get_energies(simulation, 0).total - before;
         return;
     }
     bool none = switches == 0 && scene->switch_labels[1];

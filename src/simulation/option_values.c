@@ -20,7 +20,7 @@ static const char *read_decimal(const char *text, double *number)
 }
 
 /* Whether a text is the row's unit, "J/m^2", "J/m\u00b2"; "deg" for angles. */
-static bool is_unit(const OptionRow *row, const char *text)
+static bool is_option_unit(const OptionRow *row, const char *text)
 {
     size_t length = strcspn(row->unit, " ");
     char shown[32];
@@ -32,7 +32,7 @@ static bool is_unit(const OptionRow *row, const char *text)
 
 /* Returns the number in the row's unit that a text such as "1/60", "140%" or
  * "5 ms" stands for; NaN: the text is no number. */
-static double parse_number(const OptionRow *row, const char *text)
+static double parse_option_number(const OptionRow *row, const char *text)
 {
     static const struct {
         const char *prefix;
@@ -53,7 +53,7 @@ static double parse_number(const OptionRow *row, const char *text)
     for (size_t i = 0; i < sizeof prefixes / sizeof *prefixes; i++) {
         size_t length = strlen(prefixes[i].prefix);
         if (strncmp(end, prefixes[i].prefix, length) == 0 &&
-            is_unit(row, end + length))
+            is_option_unit(row, end + length))
             return number / (divisor * prefixes[i].per_unit);
     }
     return NAN;
@@ -64,7 +64,7 @@ bool option_allows(const OptionRow *row, double number)
     if (row->kind == OPTION_NAME)
         return number >= 0 && number < names_count(row->names);
     return number >= row->low && number <= row->high &&
-           (row->kind != OPTION_WHOLE || number == floor(number));
+           (row->kind != OPTION_WHOLE_NUMBER || number == floor(number));
 }
 
 int option_count_values(const char *text, char separator)
@@ -75,8 +75,8 @@ int option_count_values(const char *text, char separator)
     return count;
 }
 
-bool option_read(const OptionRow *row, int count, const char *text,
-                 double *number)
+bool option_parse(const OptionRow *row, int count, const char *text,
+                  double *number)
 {
     const char separator[2] = {row->separator ? row->separator : ','};
     int given = option_count_values(text, separator[0]);
@@ -96,7 +96,7 @@ bool option_read(const OptionRow *row, int count, const char *text,
     }
     for (int i = 0; i < count; i++) {
         const char *part = strsep(&rest, separator);
-        number[i] = part ? parse_number(row, part) : NAN;
+        number[i] = part ? parse_option_number(row, part) : NAN;
         if (!option_allows(row, number[i]))
             return false;
     }
@@ -186,7 +186,7 @@ double option_find_value_after_wheel(const OptionRow *row,
         value = find_round_number(below + notches + (between && notches < 0));
     }
     value = fmax(value, row->low);
-    snprintf(text, sizeof text, row->kind == OPTION_WHOLE ? "%.0f" : "%.3g",
-             value);
+    snprintf(text, sizeof text,
+             row->kind == OPTION_WHOLE_NUMBER ? "%.0f" : "%.3g", value);
     return strtod(text, NULL);
 }

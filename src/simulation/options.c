@@ -26,13 +26,13 @@ static const char *const searches[] = {"backtrack", "none", NULL};
 static const char *const cells[] = {"off", "on", NULL};
 static const char *const materials[] = {"springs", "neo-hookean", NULL};
 
-const char *solver_name(int solver)
+const char *get_solver_name(int solver)
 {
     return solvers[solver];
 }
 
 /* Numbers of --body that may be left out: turn 0, velocity 0, stretch 1. */
-static const double body_omitted[BODY_NUMBERS] = {0, 0, 0, 0, 0, 1, 1};
+static const double body_omitted[BODY_OPTION_NUMBERS] = {0, 0, 0, 0, 0, 1, 1};
 
 /* Functions for OptionRow.idle_reason: each returns why an option has no
  * effect, or NULL if the condition `works` is true. */
@@ -91,7 +91,7 @@ REASON(why_nothing_drawn,
                                          .default_value = number, .low = from, \
                                          .high = to
 #define NUMBER(field, ...) RANGE(NUMBER, #field, field, __VA_ARGS__)
-#define WHOLE(field, ...)  RANGE(WHOLE, #field, field, __VA_ARGS__)
+#define WHOLE(field, ...)  RANGE(WHOLE_NUMBER, #field, field, __VA_ARGS__)
 #define NUMBERS(field, many, letters, text, u, from, to)                       \
     NUMBER(field, letters, text, u, 0, from, to), .count = many
 #define NAME(word, field, letters, text, number, all)                          \
@@ -155,7 +155,7 @@ const OptionRow option_rows[] = {
     {NUMBERS(velocity, 2, "VX,VY", "velocity of every node at the start", "m/s",
              -1e30, 1e30),
      NEEDS(BODY), IDLE(why_start_is_given)},
-    {NUMBERS(body, BODY_NUMBERS, "X,Y[,DEG[,VX,VY[,SX,SY]]]",
+    {NUMBERS(body, BODY_OPTION_NUMBERS, "X,Y[,DEG[,VX,VY[,SX,SY]]]",
              "a body with centre, angle, velocity, stretch; up to 16", "", -1e9,
              1e9),
      NEEDS(BODY), TIMES(SQUARE_MESH_MAX_BODIES, bodies),
@@ -169,7 +169,7 @@ const OptionRow option_rows[] = {
      NEEDS(BODY)},
     {TABLE(state, "start from the last step of a table that --states wrote"),
      NEEDS(BODY)},
-    {RANGE(WHOLE, "state-step", state_step, "N",
+    {RANGE(WHOLE_NUMBER, "state-step", state_step, "N",
            "start from this step of that table", "", -1, 0, 1e15),
      NEEDS(BODY), IDLE(why_no_table)},
     {VALUE(TEXT, "state-springs", "FILE",
@@ -258,7 +258,7 @@ const OptionRow option_rows[] = {
      SHOWN(10, 9, 0)},
 
     {SECTION("the run, its window and its files:")},
-    {RANGE(WHOLE, "steps", steps, "N",
+    {RANGE(WHOLE_NUMBER, "steps", steps, "N",
            "end after N steps; without a window after 100", "", -1, 0, 1e15)},
     {SWITCH(paused, "wait at the start until a key is pressed"),
      IDLE(why_no_key)},
@@ -378,15 +378,15 @@ void option_copy(const OptionRow *row, const Options *from, Options *to)
            find_numbers_size(row));
 }
 
-const char *option_label(const OptionRow *row)
+const char *option_get_label(const OptionRow *row)
 {
     return row->label ? row->label : row->name;
 }
 
 /* Lists the options of the row of numbers by their place.  A number that a
  * notch multiplies is left out while the number is 0. */
-int options_list_visible(const Options *options,
-                         const OptionRow *found[OPTIONS_MAX_ROWS])
+int options_list_visible_rows(const Options *options,
+                              const OptionRow *found[OPTIONS_MAX_ROWS])
 {
     int count = 0;
     for (int place = 1; place < OPTIONS_MAX_ROWS; place++)

@@ -46,7 +46,7 @@ Status simulation_create(const Options *options, NewtonObserver observer,
             exhibit_flip_switch(simulation, i);
     for (int r = 0; r < simulation->runs && !status; r++)
         simulation->ledger[r].start = simulation->ledger[r].last_balance =
-            -simulation_energies(simulation, r).dissipated; /* dissipated: 0 */
+            -simulation_get_energies(simulation, r).dissipated;
     return status;
 }
 
@@ -73,7 +73,7 @@ int simulation_find_point(const Simulation *simulation, double at[2])
 }
 
 /* Counts a step that was made.  A failed step is not counted. */
-static Status finish_step(Simulation *simulation, Status status)
+static Status finish_simulation_step(Simulation *simulation, Status status)
 {
     Prediction *guess = &simulation->prediction;
     simulation->status = status;
@@ -96,7 +96,7 @@ static void book_energy_gain(Simulation *simulation)
 {
     int run = simulation->step_run;
     Ledger *ledger = &simulation->ledger[run];
-    const Energies now = simulation_energies(simulation, run);
+    const Energies now = simulation_get_energies(simulation, run);
     double kept = now.total - now.work, gained = kept - ledger->last_balance;
     double abs_sum = fabs(now.work);
     bool backward_euler = simulation->run[run].method->supports_all_terms;
@@ -127,7 +127,7 @@ Status simulation_advance(Simulation *simulation)
         book_energy_gain(simulation);
         simulation->step_run++;
     }
-    return finish_step(simulation, simulation->bad_status);
+    return finish_simulation_step(simulation, simulation->bad_status);
 }
 
 Status simulation_begin_step(Simulation *simulation)
@@ -136,7 +136,7 @@ Status simulation_begin_step(Simulation *simulation)
     if (simulation->is_over)
         return STATUS_OK;
     if (scene->step)
-        return finish_step(simulation, scene->step(simulation));
+        return finish_simulation_step(simulation, scene->step(simulation));
     simulation->step_run = 0;
     simulation->bad_status = STATUS_OK;
     for (int r = 0; r < simulation->runs; r++)
@@ -229,7 +229,7 @@ bool simulation_is_at_rest(const Simulation *simulation)
     return forces_balance(simulation, l);
 }
 
-NewtonCounters simulation_sum_counters(const Simulation *simulation)
+NewtonCounters simulation_sum_newton_counters(const Simulation *simulation)
 {
     NewtonCounters sum = simulation->old_counters;
     for (int i = 0; i < simulation->runs; i++)
@@ -267,7 +267,7 @@ bool simulation_projects_springs(const Simulation *simulation)
 /* ---- the fastest small oscillation: M q'' = -H q ------------------------ */
 
 /* Iterations of the power method; capacity of arrays of a mode. */
-enum { MODE_ITERATIONS = 1200, MODE_COORDINATES = 2 * SIMULATION_MODE_NODES };
+enum { POWER_ITERATIONS = 1200, MODE_COORDINATES = 2 * SIMULATION_MODE_NODES };
 
 double simulation_find_fastest_mode(const Simulation *simulation,
                                     const double *x, double *mode)
@@ -281,7 +281,7 @@ double simulation_find_fastest_mode(const Simulation *simulation,
     /* A vector without symmetry contains every mode. */
     for (int i = 0; i < n; i++)
         mode[i] = sin(1 + i + 0.1 * i * i);
-    for (int k = 0; k < MODE_ITERATIONS; k++) {
+    for (int k = 0; k < POWER_ITERATIONS; k++) {
         double length2 = 0;
         for (int i = 0; i < n; i++)
             length2 += mode[i] * mode[i];
@@ -297,7 +297,7 @@ double simulation_find_fastest_mode(const Simulation *simulation,
         omega2 = 0;
         for (int i = 0; i < n; i++)
             omega2 += mode[i] * image[i];
-        for (int i = 0; i < n && k + 1 < MODE_ITERATIONS; i++)
+        for (int i = 0; i < n && k + 1 < POWER_ITERATIONS; i++)
             mode[i] = image[i];
     }
     return omega2 > 0 ? sqrt(omega2) : NAN;

@@ -69,7 +69,7 @@ static char *take_field(char **rest)
     return field;
 }
 
-static void read_names(TableReader *reader)
+static void read_column_names(TableReader *reader)
 {
     char shown[40];
     if (!read_next_line(reader)) {
@@ -124,8 +124,8 @@ static bool read_next_row(TableReader *reader, TableRow row)
 /* Reads the rows of one run at the step options->state_step; -1: at the last
  * step.  If the user went back, a step's newest rows are used.
  *   row  [reader->rows] out */
-static void read_rows(TableReader *reader, const Options *options,
-                      TableRow *row)
+static void read_run_rows(TableReader *reader, const Options *options,
+                          TableRow *row)
 {
     const double step = options->state_step;
     const char *element = reader->element_name;
@@ -172,8 +172,8 @@ static Status read_table(TableReader *reader, const Options *options,
     errno = reader->file ? 0 : errno;
     *row = malloc((size_t)reader->rows * sizeof **row);
     if (reader->file && *row) {
-        read_names(reader);
-        read_rows(reader, options, *row);
+        read_column_names(reader);
+        read_run_rows(reader, options, *row);
     }
     if (!reader->file || ferror(reader->file))
         explain(reader, "%s", strerror(errno));

@@ -9,14 +9,14 @@
 
 /* Position in the bytes of a state.  Saving, restoring and counting visit the
  * pieces of a state by the same functions. */
-typedef struct Cursor {
+typedef struct StateCursor {
     unsigned char *bytes; /* NULL: the pieces are only counted */
     bool is_restoring;    /* the pieces are read from the bytes */
     size_t used;          /* bytes visited so far */
-} Cursor;
+} StateCursor;
 
 /* Saves, restores or counts a piece of the state. */
-static void visit_piece(Cursor *cursor, void *piece, size_t size)
+static void transfer_piece(StateCursor *cursor, void *piece, size_t size)
 {
     unsigned char *at = cursor->bytes ? cursor->bytes + cursor->used : NULL;
     if (at && cursor->is_restoring)
@@ -26,28 +26,28 @@ static void visit_piece(Cursor *cursor, void *piece, size_t size)
     cursor->used += size;
 }
 
-#define VISIT(piece) visit_piece(cursor, &(piece), sizeof(piece))
+#define VISIT(piece) transfer_piece(cursor, &(piece), sizeof(piece))
 
 /* Visits all that steps change in a system: broken springs, plastic strains,
  * moving obstacles, and the energy that each term has lost. */
-static void save_or_restore_system(Cursor *cursor, System *system)
+static void transfer_system(StateCursor *cursor, System *system)
 {
     size_t springs = (size_t)system->springs * sizeof(double);
     Plasticity *plasticity = system_term_data(system, &plastic_energy);
     Contact *contact = get_contact(system);
     VISIT(system->losses);
     if (plasticity) {
-        visit_piece(cursor, plasticity->ep, springs);
-        visit_piece(cursor, plasticity->kappa, springs);
+        transfer_piece(cursor, plasticity->ep, springs);
+        transfer_piece(cursor, plasticity->kappa, springs);
     }
     if (system_find_term(system, &fracture))
-        visit_piece(cursor, system->k, springs);
+        transfer_piece(cursor, system->k, springs);
     if (contact)
-        visit_piece(cursor, contact->obstacle,
-                    (size_t)contact->obstacles * sizeof *contact->obstacle);
+        transfer_piece(cursor, contact->obstacle,
+                       (size_t)contact->obstacles * sizeof *contact->obstacle);
 }
 
-static void visit_exhibit(Cursor *cursor, Simulation *simulation)
+static void transfer_exhibit(StateCursor *cursor, Simulation *simulation)
 {
     const Scene *scene = simulation->scene;
     TimeIntegrator *run = &simulation->run[0];
@@ -55,8 +55,8 @@ static void visit_exhibit(Cursor *cursor, Simulation *simulation)
     if (kinds)
         VISIT(simulation->exhibit.switches);
     if (kinds || scene->step)
-        visit_piece(cursor, simulation->system.k,
-                    (size_t)simulation->system.springs * sizeof(double));
+        transfer_piece(cursor, simulation->system.k,
+                       (size_t)simulation->system.springs * sizeof(double));
     if (scene->step || scene->handle_kinds)
         VISIT(simulation->exhibit);
     if (!scene->step)
@@ -68,7 +68,7 @@ static void visit_exhibit(Cursor *cursor, Simulation *simulation)
         run->newton->settings.h = run->h;
 }
 
-static void visit_state(Cursor *cursor, Simulation *simulation)
+static void transfer_state(StateCursor *cursor, Simulation *simulation)
 {
     VISIT(simulation->steps);
     VISIT(simulation->unconverged_steps);
@@ -76,7 +76,7 @@ static void visit_state(Cursor *cursor, Simulation *simulation)
     VISIT(simulation->status_counts);
     VISIT(simulation->status);
     VISIT(simulation->is_over);
-    visit_exhibit(cursor, simulation);
+    transfer_exhibit(cursor, simulation);
     for (int r = 0; r < simulation->runs; r++) {
         TimeIntegrator *run = &simulation->run[r];
         size_t array = run->x_length * sizeof(double);
@@ -85,13 +85,13 @@ static void visit_state(Cursor *cursor, Simulation *simulation)
         VISIT(run->moved_part);
         VISIT(run->external_work);
         VISIT(run->status);
-        visit_piece(cursor, run->x, array);
-        visit_piece(cursor, run->v, array);
+        transfer_piece(cursor, run->x, array);
+        transfer_piece(cursor, run->v, array);
         VISIT(run->memory_h);
-        visit_piece(cursor, run->memory,
-                    (size_t)run->method->memory_arrays * array);
+        transfer_piece(cursor, run->memory,
+                       (size_t)run->method->memory_arrays * array);
         if (r == 0 || run->system != simulation->run[0].system)
-            save_or_restore_system(cursor, run->system);
+            transfer_system(cursor, run->system);
         if (cursor->is_restoring)
             system_mark_changed(run->system, false);
     }
@@ -99,16 +99,16 @@ static void visit_state(Cursor *cursor, Simulation *simulation)
 
 size_t state_save(const Simulation *simulation, void *bytes)
 {
-    Cursor cursor = {bytes, false, 0};
-    visit_state(&cursor, (Simulation *)simulation); /* saving only reads */
+    StateCursor cursor = {bytes, false, 0};
+    transfer_state(&cursor, (Simulation *)simulation); /* saving only reads */
     return cursor.used;
 }
 
 void state_restore(const void *bytes, Simulation *simulation)
 {
-    Cursor cursor = {(unsigned char *)bytes, true, 0};
+    StateCursor cursor = {(unsigned char *)bytes, true, 0};
     simulation->prediction = (Prediction){0}; /* a guess is not saved */
-    visit_state(&cursor, simulation);
+    transfer_state(&cursor, simulation);
 }
 
 /* FNV-1a hash of bytes. */

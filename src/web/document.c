@@ -67,7 +67,7 @@ static double find_luminance(Colour colour)
     return sum;
 }
 
-unsigned document_colour(Colour colour)
+unsigned document_darken(Colour colour)
 {
     const double contrast = 4.6; /* contrast with white; WCAG 2.1: 4.5 */
     Colour darker = colour & 0xffffff;
@@ -84,7 +84,7 @@ static void write_page_text(Writer *to, const LiveValues *values,
                             const char *word, const char *text)
 {
     for (TextLine line = text_begin(values, text); text_next_line(&line);)
-        print(to, "%s\t#%06x\t%d\t%s\n", word, document_colour(line.colour),
+        print(to, "%s\t#%06x\t%d\t%s\n", word, document_darken(line.colour),
               line.face == FACE_BOLD, line.text);
 }
 
@@ -136,7 +136,7 @@ static void write_algorithm_lines(Writer *to, const FrameContent *content,
 /* Writes the energies of the first run, "total 21700 J, elastic 18200 J". */
 static void write_energies(Writer *to, const Simulation *simulation)
 {
-    const Energies energies = simulation_energies(simulation, 0);
+    const Energies energies = simulation_get_energies(simulation, 0);
     for (int i = 0; i < energies.rows; i++)
         print(to, "%s%s %s J", i ? ", " : "", energies.row[i].name,
               format_number(energies.row[i].value).text);
@@ -161,7 +161,7 @@ static void write_live_values(Writer *to, const Pane *pane, const char *name)
 static void write_table_row(Writer *to, const char *word, int index,
                             const CardTableRow *row)
 {
-    print(to, "%s\t%d\t#%06x", word, index, document_colour(row->colour));
+    print(to, "%s\t%d\t#%06x", word, index, document_darken(row->colour));
     for (int c = 0; c < row->columns; c++)
         print(to, "\t%s", row->cell[c]);
     print(to, "\n");
@@ -212,7 +212,7 @@ static void write_card(Writer *to, const FrameContent *content, int index,
         TextLine line = text_begin(&pane->values, card->legend);
         while (text_next_line(&line))
             print(to, "legend\t%d\t#%06x\t%s\n", index,
-                  document_colour(line.colour), line.text);
+                  document_darken(line.colour), line.text);
     }
     if (graph && !card->make_row &&
         !text_has_known_line(&pane->values, card->words))
@@ -231,9 +231,9 @@ static void write_card(Writer *to, const FrameContent *content, int index,
 /* ---- what can be set ----------------------------------------------------- */
 
 /* Whether a sentence "Drag ..." of the text names the option. */
-static bool asks_to_drag(const char *text, const OptionRow *row)
+static bool text_asks_to_drag(const char *text, const OptionRow *row)
 {
-    const char *name = option_label(row);
+    const char *name = option_get_label(row);
     size_t length = strlen(name);
     for (; text && (text = strstr(text, "Drag ")); text++)
         for (const char *at = text; *at && !strchr(".;:", *at); at++)
@@ -260,21 +260,21 @@ static void write_settings(Writer *to, const Player *player)
         option_write_short(row[i], &now, value, sizeof value);
         option_write_unit(row[i], unit, sizeof unit);
         print(to, "number\t%s\t%s\t%s\t%s\t", row[i]->name,
-              option_label(row[i]), value, unit);
+              option_get_label(row[i]), value, unit);
         bool named = row[i]->kind == OPTION_NAME;
         for (int k = 0; named && names_get(row[i]->names, k); k++)
             print(to, "%s%s", k ? "|" : "", names_get(row[i]->names, k));
         print(to, "\t%s\t%s\t%s\n", row[i]->help, idle ? idle : "",
-              !shown                                              ? "others"
-              : !named && page && asks_to_drag(page->try, row[i]) ? "tried"
-                                                                  : "row");
+              !shown ? "others"
+              : !named && page && text_asks_to_drag(page->try, row[i]) ? "tried"
+                                                                       : "row");
     }
 }
 
 static void write_handles_and_switches(Writer *to, const Simulation *simulation)
 {
     double at[SCENE_MAX_HANDLES][2];
-    Switch part[SCENE_MAX_SWITCHES];
+    SceneSwitch part[SCENE_MAX_SWITCHES];
     int handles = exhibit_list_handles(simulation, at);
     int switches = exhibit_list_switches(simulation, part);
     for (int i = 0; i < handles; i++)
@@ -286,7 +286,7 @@ static void write_handles_and_switches(Writer *to, const Simulation *simulation)
 /* ---- what is seen, and what happened ------------------------------------- */
 
 /* Describes size and place of a body, or the place of a point. */
-static void write_shape(Writer *to, const Pane *pane)
+static void describe_shown_body(Writer *to, const Pane *pane)
 {
     const Simulation *simulation = pane->simulation;
     double box[4], at[2];
@@ -317,7 +317,7 @@ static void write_picture_fields(Writer *to, const Player *player)
             print(to, " Picture %d of %d:", p + 1, content->panes);
         if (method && pane->simulation->scene->parts & HAS_TIME)
             print(to, " %s.", method->label);
-        write_shape(to, pane);
+        describe_shown_body(to, pane);
     }
     print(to, " %s, %s.", content->time_line.label, content->title_bar.state);
     if (simulation->scene->parts & HAS_BODY) {
@@ -332,7 +332,7 @@ static void write_picture_fields(Writer *to, const Player *player)
 }
 
 /* Describes the last step: "step 12: 3 updates, E fell by 13.8". */
-static void write_event(Writer *to, const Player *player)
+static void describe_last_step(Writer *to, const Player *player)
 {
     const FrameContent *content = &player->screen.frame.content;
     const Trace *trace = active_pane(content)->shown_trace;
@@ -388,10 +388,10 @@ void document_write(const Player *player, char *text)
     write_settings(to, player);
     write_handles_and_switches(to, active_pane(content)->simulation);
     write_picture_fields(to, player);
-    write_event(to, player);
+    describe_last_step(to, player);
 }
 
-void document_write_lists(char *text)
+void document_write_contents(char *text)
 {
     Writer writer = {.text = text}, *to = &writer;
     text[0] = '\0';

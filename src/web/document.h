@@ -13,9 +13,9 @@ enum { DOCUMENT_SIZE = 48 << 10 };
 void document_write(const Player *player, char *text);
 
 /* Returns a colour, darkened until letters in it can be read on white. */
-unsigned document_colour(Colour colour);
+unsigned document_darken(Colour colour);
 
 /* Writes a line for each page of the lecture, each scene and each key:
  *     pages ADDRESS TOPIC, scenes ADDRESS TEXT, keys KEY MEANING
  *   text  [DOCUMENT_SIZE] out */
-void document_write_lists(char *text);
+void document_write_contents(char *text);

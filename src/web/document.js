@@ -20,7 +20,7 @@ const parseLines = (text) => {
   return lines;
 };
 const field = (word, i = 0) => now[word]?.[0][i] ?? '';
-const obey = (line) => wake(ask('web_obey', null, line));
+const obey = (line) => wake(ask('web_obey_lines', null, line));
 
 // Keeps a value in `store` and returns whether it differs from the value before.
 const isNew = (store, key, value) => store[key] !== (store[key] = JSON.stringify(value));
@@ -261,7 +261,7 @@ const showDocument = (time) => {
     return drawCards();
   }
   rendered = time;
-  now = parseLines(ask('web_document', 'string'));
+  now = parseLines(ask('web_get_document', 'string'));
   const number = Number(field('page'));
   const [warning, told] = now.told[0];
   const [step, newest, stands] = now.step[0];
@@ -309,7 +309,7 @@ for (const button of document.querySelectorAll('button[data-key]'))
 $('step').oninput = () => obey(`goto ${$('step').value}`);
 $('guess').onsubmit = (event) => {
   event.preventDefault();
-  if (field('asks') !== 'place') return wake(ask('web_answer', null, $('answer').value));
+  if (field('asks') !== 'place') return wake(ask('web_answer_question', null, $('answer').value));
   obey(`predict ${$('answer').value} ${$('answer2').value || 0}`);
   key('N');
 };
@@ -327,13 +327,13 @@ const makeSheet = ([, topic], index) => {
   };
   const texts = (lines = [], as) => lines.map((line) => paragraph(line, as));
   const picture = draw(Module._web_print_page, index, 900);
-  const told = parseLines(ask('web_document', 'string'));
+  const told = parseLines(ask('web_get_document', 'string'));
   const open = (told.card ?? []).filter(([, , , closed]) => closed === '0');
   const made = open.map(([card, , kind]) =>
     showBody(makeBody(isDrawn(kind) && draw(Module._web_draw_card, card, 720)), card, told),
   );
   Module._web_print_hide_answer();
-  const asked = parseLines(ask('web_document', 'string'));
+  const asked = parseLines(ask('web_get_document', 'string'));
   const covered = (asked.card ?? []).flatMap(([card, , kind]) => (kind === 'covered' ? card : []));
   const select = (late) => made.filter((card, i) => covered.includes(open[i][0]) === late);
   const pictures = group('pictures', picture, ...select(false));

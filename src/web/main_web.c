@@ -34,7 +34,7 @@ static bool plays;                      /* the page shows a session */
 
 /* Begins the program with the words of a command line, each on a line of its
  * own.  Returns EXIT_NONE, or the exit code if nothing new is shown. */
-EMSCRIPTEN_KEEPALIVE int web_begin(const char *words)
+EMSCRIPTEN_KEEPALIVE int web_begin_session(const char *words)
 {
     Session *next = &sessions[plays && session == &sessions[0]];
     int count = 1;
@@ -62,7 +62,7 @@ EMSCRIPTEN_KEEPALIVE int web_begin(const char *words)
 /* Returns the command line that leads to the shown scene, page and numbers,
  * each word on a line of its own; "" if no command line does.  The text is
  * valid until the next call. */
-EMSCRIPTEN_KEEPALIVE const char *web_address(void)
+EMSCRIPTEN_KEEPALIVE const char *web_get_address(void)
 {
     static char words[MOST_TEXT];
     Player *player = &session->player;
@@ -98,7 +98,7 @@ EMSCRIPTEN_KEEPALIVE const char *web_address(void)
 /* ---- the page beside the canvas ------------------------------------------ */
 
 /* Returns the texts of the last frame, valid until the next call. */
-EMSCRIPTEN_KEEPALIVE const char *web_document(void)
+EMSCRIPTEN_KEEPALIVE const char *web_get_document(void)
 {
     static char text[DOCUMENT_SIZE];
     if (plays)
@@ -110,16 +110,16 @@ EMSCRIPTEN_KEEPALIVE const char *web_document(void)
 EMSCRIPTEN_KEEPALIVE const char *web_list_contents(void)
 {
     static char text[DOCUMENT_SIZE];
-    document_write_lists(text);
+    document_write_contents(text);
     return text;
 }
 
 /* Returns the colour of a name in the markup as CSS writes it, "#d55e00". */
-EMSCRIPTEN_KEEPALIVE const char *web_colour(const char *name)
+EMSCRIPTEN_KEEPALIVE const char *web_get_colour(const char *name)
 {
     static char text[8];
     snprintf(text, sizeof text, "#%06x",
-             document_colour(colour_find_name(name, strlen(name))));
+             document_darken(colour_find_name(name, strlen(name))));
     return text;
 }
 
@@ -149,7 +149,7 @@ static void obey_or_refuse(Player *player, Status status)
 }
 
 /* Obeys commands of a script: "set timestep 0.004; flip 1". */
-EMSCRIPTEN_KEEPALIVE void web_obey(const char *lines)
+EMSCRIPTEN_KEEPALIVE void web_obey_lines(const char *lines)
 {
     Player *player = &session->player;
     if (!plays)
@@ -160,7 +160,7 @@ EMSCRIPTEN_KEEPALIVE void web_obey(const char *lines)
 }
 
 /* Judges a guess at the question of the page and shows the answer. */
-EMSCRIPTEN_KEEPALIVE void web_answer(const char *guess)
+EMSCRIPTEN_KEEPALIVE void web_answer_question(const char *guess)
 {
     Player *player = &session->player;
     if (plays && player_hides_answer(player))
@@ -170,7 +170,7 @@ EMSCRIPTEN_KEEPALIVE void web_answer(const char *guess)
 /* ---- the printed lecture ------------------------------------------------- */
 
 /* Runs a page of the lecture, counted from 0, up to the step that is printed,
- * in the other session, and shows its picture.  Then web_document and
+ * in the other session, and shows its picture.  Then web_get_document and
  * web_draw_card show this page.  Page -1 returns to the session before. */
 EMSCRIPTEN_KEEPALIVE void web_print_page(int page, int width, int height)
 {
@@ -232,7 +232,7 @@ EMSCRIPTEN_KEEPALIVE void web_print_hide_answer(void)
 /* Makes a frame; without a window as many frames as fit into a slice of time.
  * Returns the time until the next frame is due, ms; INT_MAX: no frame is due
  * before an input; < 0: the run has ended. */
-EMSCRIPTEN_KEEPALIVE int web_frame(void)
+EMSCRIPTEN_KEEPALIVE int web_make_frame(void)
 {
     Player *player = &session->player;
     double begin = clock_now();

@@ -150,7 +150,7 @@ const row = (parts) => {
 // ---- words ------------------------------------------------------------------
 
 const coloured = (element, name) => {
-  element.style.color = ask('web_colour', 'string', name);
+  element.style.color = ask('web_get_colour', 'string', name);
   return element;
 };
 const isLetter = ({ colour, of }) =>

@@ -97,7 +97,7 @@ const readAddress = () => {
 const updateAddress = () => {
   looking = 0;
   if (location.hash !== shown) return; // a new address was not read yet
-  const words = ask('web_address', 'string').split('\n').filter(Boolean);
+  const words = ask('web_get_address', 'string').split('\n').filter(Boolean);
   const text = words.map((word) => encodeURIComponent(word).replace(/%2C/g, ',')).join('+');
   const address = `#${text}${bare ? '&bare' : ''}`;
   if (!text || address === shown) return;
@@ -119,7 +119,7 @@ const frame = () => {
   asked = 0;
   if (document.hidden && !canvas.hidden) return;
   const start = performance.now();
-  const wait = Module._web_frame(); // ms until the next frame is due
+  const wait = Module._web_make_frame(); // ms until the next frame is due
   stats.frames++;
   download();
   if (wait < 0) {
@@ -142,7 +142,7 @@ const begin = (words) => {
   $('said').textContent = $('summary').textContent = '';
   const calm = matchMedia('(prefers-reduced-motion: reduce)').matches;
   const still = calm && !words.some((word) => /^--(paused|steps|script|headless)/.test(word));
-  const code = ask('web_begin', 'number', [...words, still ? '--paused' : ''].join('\n'));
+  const code = ask('web_begin_session', 'number', [...words, still ? '--paused' : ''].join('\n'));
   download();
   if (code > 0 && !line.length && words.join() !== '--lecture') {
     const why = $('said').textContent; // a wrong address shows the tour, and why
@@ -163,7 +163,7 @@ const begin = (words) => {
 
 // ---- keys -------------------------------------------------------------------
 
-const key = (name, repeats = false) => FS && wake(ask('web_key', null, name, repeats));
+const key = (name, repeats = false) => FS && wake(ask('web_queue_key', null, name, repeats));
 
 // Returns the name of a key in window.h, also on keyboards without Latin letters; ''
 // for a key without a name there, and for Escape, which does nothing in a page.
@@ -209,7 +209,7 @@ const tell = (kind, at, button = 0, clicks = 1, amount = 0) => {
   if (!FS) return;
   const { left, top } = canvas.getBoundingClientRect();
   const [x, y] = [at.clientX - left, at.clientY - top].map((n) => n * devicePixelRatio);
-  Module._web_mouse(kind, x, y, button, clicks, amount);
+  Module._web_queue_mouse(kind, x, y, button, clicks, amount);
   wake();
 };
 

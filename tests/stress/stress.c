@@ -136,7 +136,7 @@ static void run_envelope(Solver solver, VerdictTally *sum)
         double s = stretch[i / (K * H)];
         snprintf(line, sizeof line,
                  "--solver %s --stretch %g --stiffness %g --timestep %.17g",
-                 solver_name(solver), s, pow(10, i / H % K - 6),
+                 get_solver_name(solver), s, pow(10, i / H % K - 6),
                  pow(10, 0.5 * (i % H) - 9));
         begin_case(line);
         Verdict verdict = stress_run(line, 3, &tally, reason);
@@ -148,7 +148,7 @@ static void run_envelope(Solver solver, VerdictTally *sum)
     }
     print_row("envelope", &tally);
     printf("%s: %.2f %% converged where stretch >= 0.1, %d without an update\n",
-           solver_name(solver), 100.0 * converged / cells, idle);
+           get_solver_name(solver), 100.0 * converged / cells, idle);
     tally.wrong += converged < 0.99 * cells || idle > 0;
     add_tally(&tally, sum);
 }

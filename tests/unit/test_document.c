@@ -131,7 +131,7 @@ TEST(a_table_is_text_after_the_guess)
 
 TEST(lists_have_all_pages_and_scenes)
 {
-    document_write_lists(text);
+    document_write_contents(text);
     assert_int_equal(count_lines("pages"), lecture_count_pages());
     assert_true(count_lines("scenes") > 20 && count_lines("keys") > 20);
 }

@@ -291,14 +291,14 @@ TEST(the_ledger_adds_up)
         for (int n = 0; n < 110; n++)
             for (int r = 0; r < scene->runs; r++) {
                 TimeIntegrator *it = &scene->run[r];
-                Energies start = simulation_energies(scene, r);
+                Energies start = simulation_get_energies(scene, r);
                 Real P = exact_potential(it->system, it->x);
                 memcpy(x, it->x, it->x_length * sizeof *x);
                 memcpy(v, it->v, it->x_length * sizeof *v);
                 memcpy(k, it->system->k,
                        (size_t)it->system->springs * sizeof *k);
                 CHECK_OK(time_integrator_step(it));
-                Energies end = simulation_energies(scene, r);
+                Energies end = simulation_get_energies(scene, r);
                 double stored = ENERGY(&end, elastic) + ENERGY(&end, contact);
                 CHECK_NEAR(stored, exact_potential(it->system, it->x),
                            1e-12 * (most + stored + 1));
@@ -311,7 +311,7 @@ TEST(the_ledger_adds_up)
                                       fabs(end.work) + end.kinetic);
             }
         for (int r = 0; r < scene->runs; r++)
-            CHECK_NEAR(simulation_energies(scene, r).dissipated, sum[r],
+            CHECK_NEAR(simulation_get_energies(scene, r).dissipated, sum[r],
                        2e-6 * most);
     }
 }
@@ -325,9 +325,9 @@ TEST(damping_books_the_energy_that_it_takes)
             simulate("--damping 0.002 --stretch 1.2 --tolerance 1e-8 "
                      "--timestep %g",
                      fine ? 2.5e-5 : 1e-4);
-        double start = simulation_energies(square, 0).total;
+        double start = simulation_get_energies(square, 0).total;
         make_steps(square, fine ? 1600 : 400);
-        Energies end = simulation_energies(square, 0);
+        Energies end = simulation_get_energies(square, 0);
         CHECK(end.total < 0.6 * start && end.dissipated > 0);
         share[fine] = end.dissipated / (start - end.total);
     }
@@ -445,7 +445,7 @@ static bool next_variant(Variant *variant)
 static Simulation *start_variant(const Variant *variant, const char *line)
 {
     return simulate("%s --integrator %s --solver %s", line,
-                    variant->method->name, solver_name(variant->solver));
+                    variant->method->name, get_solver_name(variant->solver));
 }
 
 /* ---- orders ------------------------------------------------------------ */

@@ -158,7 +158,7 @@ TEST(the_words_of_pin_name_their_nodes)
         unsigned char pinned[9] = {0};
         const SquareMesh shape =
             square_mesh_create(cases[i].columns, cases[i].rows, 1, 1);
-        CHECK(!pins_read(cases[i].text, &shape, pinned));
+        CHECK(!pins_parse(cases[i].text, &shape, pinned));
         for (int node = 0; cases[i].pinned[node]; node++)
             CHECK(pinned[node] == (cases[i].pinned[node] == '1'));
     }

@@ -229,10 +229,10 @@ static bool check_energy_falls(void *unused, char *line)
             CHECK_AT_MOST(incremental_potential_value(&at->E, at->u, at->x),
                           start * (1 + 1e-9));
         }
-        double before = simulation_energies(simulation, 0).total;
+        double before = simulation_get_energies(simulation, 0).total;
         Status status = simulation_step(simulation);
         CHECK(!status || status_is_unconverged(status));
-        CHECK_AT_MOST(simulation_energies(simulation, 0).total,
+        CHECK_AT_MOST(simulation_get_energies(simulation, 0).total,
                       before * (1 + 1e-9));
     }
     return true;

@@ -53,7 +53,7 @@ TEST(numbers_have_ranges)
             CHECK_OK(set_option(&options, row->name, text, message));
             CHECK(options.number[row->slot] == border);
             option_write(row,
-                         row->kind == OPTION_WHOLE
+                         row->kind == OPTION_WHOLE_NUMBER
                              ? border + up
                              : nextafter(border, up * INFINITY),
                          beyond, sizeof beyond);
@@ -198,7 +198,7 @@ TEST(help_fits_a_terminal)
     CHECK_OK(options_parse(1, argv, false, &usual, MESSAGE(message)));
     const char *help = text;
     FILE *file = tmpfile();
-    options_help(file);
+    options_print_help(file);
     rewind(file);
     CHECK(fread(text, 1, sizeof text, file) < sizeof text);
     fclose(file);

@@ -41,10 +41,10 @@ TEST(the_fastest_motion_limits_h)
         simulation_find_fastest_mode(simulation, run->x, mode);
         for (size_t k = 0; k < run->x_length; k++)
             run->v[k] += 1e-6 * mode[k];
-        double start = simulation_energies(simulation, 0).total;
+        double start = simulation_get_energies(simulation, 0).total;
         for (int step = 0; step < 300; step++)
             simulation_step(simulation);
-        double now = simulation_energies(simulation, 0).total;
+        double now = simulation_get_energies(simulation, 0).total;
         CHECK((now < 1e3 * start) == (i == 0));
     }
     frame_create(open_page("explicit", "--stretch 1.2"), &content);
@@ -59,8 +59,8 @@ TEST(the_map_is_convex_for_short_steps)
         int bends = 0;
         simulation->run[0].h = convex ? 0.067 : 0.0675;
         for (int i = 0; i < 81 * 81; i++)
-            bends += descent_hessian_index(simulation, 0.05 * (i % 81 - 40),
-                                           0.05 * (i / 81 - 40)) > 0;
+            bends += descent_classify_hessian(simulation, 0.05 * (i % 81 - 40),
+                                              0.05 * (i / 81 - 40)) > 0;
         CHECK((bends == 0) == convex);
     }
 }

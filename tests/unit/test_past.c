@@ -258,7 +258,7 @@ static bool make_step_after_jerk(bool descends)
     const Simulation *simulation = &past.pane[0].simulation;
     const TimeIntegrator *go_to_steps = &simulation->run[0];
     int size = 2 * simulation->system.nodes;
-    Energies energies = simulation_energies(simulation, 0);
+    Energies energies = simulation_get_energies(simulation, 0);
     double v[MAX_SIZE * 3], high = energies.total - energies.work;
     long before = past.step;
     memcpy(v, go_to_steps->v, (size_t)size * sizeof *v);
@@ -275,7 +275,7 @@ static bool make_step_after_jerk(bool descends)
         CHECK(records->record[i].change <= 0);
     for (int k = 0; k < size; k++)
         CHECK(isfinite(go_to_steps->x[k]) && isfinite(go_to_steps->v[k]));
-    Energies now = simulation_energies(simulation, 0);
+    Energies now = simulation_get_energies(simulation, 0);
     if (!descends && !(now.total < 1e20))
         return false;
     CHECK(isfinite(now.total) && isfinite(now.work));

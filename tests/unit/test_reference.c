@@ -195,7 +195,7 @@ TEST(a_ceiling_comes_down_as_in_the_lesson)
         CHECK_NEAR(ceiling->o[1], y, 2e-6);
     }
     CHECK_NEAR(ceiling->o[1], 0.25 - 0.5 * 1.2, 1e-12);
-    CHECK(simulation_energies(scene, 0).work > 0);
+    CHECK(simulation_get_energies(scene, 0).work > 0);
     fclose(file);
 }
 

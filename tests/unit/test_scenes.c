@@ -68,7 +68,7 @@ static void check_path(const Simulation *simulation)
             record->change, 1e-12 * (1 + fabs(E)));
         if (on_demand)
             CHECK((record->projected > 0) ==
-                  (descent_hessian_index(simulation, from[0], from[1]) > 0));
+                  (descent_classify_hessian(simulation, from[0], from[1]) > 0));
     }
 }
 
@@ -84,7 +84,7 @@ TEST(landscape_is_downhill_from_everywhere)
             simulate("landscape --start %g,%g", at[0], at[1]);
         const double *x = simulation->run[0].x;
         CHECK(simulation->descent.slope < 0);
-        bool convex = !descent_hessian_index(simulation, at[0], at[1]);
+        bool convex = !descent_classify_hessian(simulation, at[0], at[1]);
         simulation_set(simulation, OPTION_SLOT(projection), PROJECTION_NONE);
         uphill += simulation->descent.slope > 0;
         hollow += convex;
@@ -93,7 +93,7 @@ TEST(landscape_is_downhill_from_everywhere)
                        i % 2 ? PROJECTION_CLAMP : PROJECTION_ON_DEMAND);
         CHECK_OK(run_to_end(simulation, 100));
         check_path(simulation);
-        CHECK(!descent_hessian_index(simulation, x[0], x[1]));
+        CHECK(!descent_classify_hessian(simulation, x[0], x[1]));
         free_simulations();
     }
     CHECK(uphill > 5 && hollow > 100);
@@ -131,7 +131,7 @@ TEST(envelope_cells_are_runs)
         CHECK(cell->is_known);
         CHECK_STATUS(cell->bad_status, worst);
         refused += worst != STATUS_OK;
-        CHECK(cell->updates == simulation_sum_counters(run).updates);
+        CHECK(cell->updates == simulation_sum_newton_counters(run).updates);
         CHECK_SAME_BITS(map->run[0].x, run->run[0].x, 2 * run->system.nodes);
     }
     CHECK(refused >= 1); /* cells that did not converge are compared, too */
@@ -254,11 +254,11 @@ TEST(changes_by_hand_are_booked_as_work)
         simulation_set(scene, OPTION_SLOT(tolerance), 1e-8);
         int blocked = 0; /* the pinned node blocks the ceiling */
         for (int n = 0; n < 24 * 5; n++) {
-            Energies before = simulation_energies(scene, 0);
+            Energies before = simulation_get_energies(scene, 0);
             int broken = count_broken_springs(scene);
             Status status =
                 n % 5 ? simulation_step(scene) : change_scene(scene, n / 5);
-            Energies after = simulation_energies(scene, 0);
+            Energies after = simulation_get_energies(scene, 0);
             double size = fabs(before.total) + fabs(after.total) +
                           fabs(after.work) + fabs(before.dissipated) + 1;
             blocked += status == STATUS_BLOCKED;
@@ -274,7 +274,7 @@ TEST(changes_by_hand_are_booked_as_work)
                 CHECK_NEAR(after.dissipated, before.dissipated, 1e-12 * size);
         }
         CHECK(i == 2 || blocked == 0);
-        CHECK(fabs(simulation_energies(scene, 0).work) > 1e-3);
+        CHECK(fabs(simulation_get_energies(scene, 0).work) > 1e-3);
     }
 }
 

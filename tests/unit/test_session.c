@@ -550,7 +550,7 @@ static void collect_facts(void)
     const Newton *newton =
         content->pane[content->active_pane].simulation->run->newton;
     add_fact("solver\t%s %s",
-             newton ? solver_name(newton->active_solver) : "none",
+             newton ? get_solver_name(newton->active_solver) : "none",
              newton && newton->refusal_reason ? newton->refusal_reason : "");
     add_fact("says\t%s", text_or_nothing(player.note));
     add_fact("topic\t%s", text_or_nothing(content->title_bar.topic));
@@ -589,13 +589,13 @@ static void add_changes_to_record(const char *before, const char *now)
 static void add_facts_to_record(const char *line)
 {
     static char before[sizeof facts], head[160];
-    const Energies ledger = simulation_energies(player_simulation(&player), 0);
+    const Energies now = simulation_get_energies(player_simulation(&player), 0);
     memcpy(before, facts, sizeof before);
     player_build_frame(&player);
     const LiveValues *values = &active_pane(content)->values;
     collect_facts();
-    for (int i = 0; i < ledger.rows; i++)
-        add_fact("%s %.9g", ledger.row[i].name, ledger.row[i].value);
+    for (int i = 0; i < now.rows; i++)
+        add_fact("%s %.9g", now.row[i].name, now.row[i].value);
     if (content->lecture.page)
         for (char *at = facts; (at = strchr(at, '\t'));)
             memset(at, '.', strcspn(at, "\n"));
@@ -913,7 +913,7 @@ static double count_gains(const Simulation *simulation)
 /* Returns the total energy without the work done, J. */
 static double find_own_energy(const Simulation *simulation)
 {
-    Energies ledger = simulation_energies(simulation, 0);
+    Energies ledger = simulation_get_energies(simulation, 0);
     return ledger.total - ledger.work;
 }
 
@@ -926,7 +926,7 @@ static double find_wall_height(const Simulation *simulation)
 /* Returns the distance of the held node from the hand, m. */
 static double find_hand_distance(const Simulation *simulation)
 {
-    const Control *control = past_control(&player.past, 0);
+    const UserControl *control = past_control(&player.past, 0);
     const double *x = simulation->run[0].x + 2 * control->held_node;
     return hypot(x[0] - control->target[0], x[1] - control->target[1]);
 }
@@ -1031,7 +1031,7 @@ static double find_number(const char *name)
     for (size_t n = 0; n < sizeof numbers / sizeof *numbers; n++)
         if (strcmp(numbers[n].name, name) == 0)
             return numbers[n].find(simulation);
-    const NewtonCounters did = simulation_sum_counters(simulation);
+    const NewtonCounters did = simulation_sum_newton_counters(simulation);
     for (size_t n = 0; n < sizeof counters / sizeof *counters; n++)
         if (strcmp(counters[n].name, name) == 0)
             return (double)*(const long *)((const char *)&did +
@@ -1056,7 +1056,7 @@ static double find_number(const char *name)
         return (double[]){row->alpha,  row->residual, row->projected,
                           row->change, row->slope,    row->x_after[0]}[k];
     }
-    const Energies ledger = simulation_energies(simulation, 0);
+    const Energies ledger = simulation_get_energies(simulation, 0);
     for (i = 0; i < ledger.rows; i++)
         if (strcmp(ledger.row[i].name, name) == 0)
             return ledger.row[i].value;

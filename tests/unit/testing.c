@@ -205,7 +205,7 @@ Simulation *simulate_watched(NewtonObserver observer, void *user,
 }
 
 /* Applies and releases a control. */
-static Status apply_control(Simulation *simulation, Control *control)
+static Status apply_control(Simulation *simulation, UserControl *control)
 {
     Status status = control_apply(simulation, control);
     control_release(control);
@@ -214,21 +214,21 @@ static Status apply_control(Simulation *simulation, Control *control)
 
 Status simulation_set(Simulation *simulation, int slot, double value)
 {
-    Control *control = control_from_simulation(simulation);
+    UserControl *control = control_from_simulation(simulation);
     control->options.number[slot] = value;
     return apply_control(simulation, control);
 }
 
 Status simulation_pin(Simulation *simulation, int node, bool pinned)
 {
-    Control *control = control_from_simulation(simulation);
+    UserControl *control = control_from_simulation(simulation);
     control->pinned[node] = pinned;
     return apply_control(simulation, control);
 }
 
 Status simulation_hold(Simulation *simulation, int node, double x, double y)
 {
-    Control *control = control_from_simulation(simulation);
+    UserControl *control = control_from_simulation(simulation);
     control->held_node = node;
     control->target[0] = x;
     control->target[1] = y;
@@ -260,7 +260,7 @@ double energies_of(const Energies *energies, const char *name)
 
 double energy_now(const Simulation *simulation, int run, const char *name)
 {
-    const Energies energies = simulation_energies(simulation, run);
+    const Energies energies = simulation_get_energies(simulation, run);
     return energies_of(&energies, name);
 }
 
@@ -276,7 +276,7 @@ uint64_t hash_with_ledger(const Simulation *simulation, uint64_t hash)
     hash =
         hash_number(state_hash(simulation, hash), simulation_time(simulation));
     for (int r = 0; r < simulation->runs; r++) {
-        const Energies ledger = simulation_energies(simulation, r);
+        const Energies ledger = simulation_get_energies(simulation, r);
         hash = hash_number(hash, ledger.work);
         for (int i = 0; i < ledger.rows; i++)
             hash = hash_number(hash, ledger.row[i].value);

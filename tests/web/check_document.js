@@ -292,8 +292,8 @@ const frames = async (browser) => {
   const seen = `[...document.querySelectorAll('body > *')].filter((e) => e.getBoundingClientRect().width > 0).map((e) => e.id).join()`;
   if ((await bare.run(seen)) !== 'stage') wrong.push(`bare shows ${await bare.run(seen)}`);
   // A finger that scrolls does not pull the square.
-  await bare.run(`canvas.blur(); kinds = []; told = Module._web_mouse;
-    Module._web_mouse = (...how) => kinds.push(how[0]) && told(...how)`);
+  await bare.run(`canvas.blur(); kinds = []; told = Module._web_queue_mouse;
+    Module._web_queue_mouse = (...how) => kinds.push(how[0]) && told(...how)`);
   await bare.touch('touchStart', [200, 200]);
   await bare.touch('touchMove', [200, 180]);
   await bare.touch('touchEnd');

@@ -349,7 +349,7 @@ const lacking = async (browser) => {
   );
 
   // A paused run draws no frame and writes no text.
-  await tab.run(`wake(ask('web_obey', null, 'pause'))`);
+  await tab.run(`wake(ask('web_obey_lines', null, 'pause'))`);
   await tab.until(`field('step', 2) === '1' && !drawn`);
   await sleep(700);
   const still = await tab.run('stats.frames');
