@@ -4,19 +4,19 @@
 #include <float.h>
 #include <math.h>
 
-#define exact_rise        wide_exact_rise
-#define exact_residual    wide_exact_residual
-#define oracle_energy     wide_oracle_energy
-#define oracle_step       wide_oracle_step
-#define exact_potential   wide_exact_potential
-#define exact_strain      wide_exact_strain
-#define exact_derivatives wide_exact_derivatives
-#define exact_eigen       wide_exact_eigen
-#define exact_blocks      wide_exact_blocks
-#define exact_gap         wide_exact_gap
-#define smallest_gap      wide_smallest_gap
-#define smallest_cell     wide_smallest_cell
-#define exact_crossings   wide_exact_crossings
+#define exact_rise          wide_exact_rise
+#define exact_residual      wide_exact_residual
+#define oracle_energy       wide_oracle_energy
+#define oracle_step_energy  wide_oracle_step_energy
+#define exact_potential     wide_exact_potential
+#define exact_strain        wide_exact_strain
+#define exact_derivatives   wide_exact_derivatives
+#define exact_eigenvectors  wide_exact_eigenvectors
+#define visit_blocks        wide_visit_blocks
+#define exact_gap           wide_exact_gap
+#define find_smallest_gap   wide_find_smallest_gap
+#define smallest_area_ratio wide_smallest_area_ratio
+#define edge_crossings      wide_edge_crossings
 #include "oracle.h"
 
 static Real larger(Real a, Real b)

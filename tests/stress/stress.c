@@ -14,9 +14,9 @@
 #include <unistd.h>
 
 /* s, processor time after which a case counts as endless */
-enum { CASE_LIMIT = 240 };
+enum { CASE_TIME_LIMIT = 240 };
 
-static void on_alarm(int number)
+static void report_endless_case(int number)
 {
     static const char words[] = " does not end\n";
     (void)number;
@@ -28,16 +28,16 @@ static void on_alarm(int number)
 static void begin_case(const char *what)
 {
     snprintf(stress_line, sizeof stress_line, "%s", what);
-    stress_set_time_limit(CASE_LIMIT);
+    stress_set_time_limit(CASE_TIME_LIMIT);
     if (isatty(STDERR_FILENO))
         fprintf(stderr, "\r%-40s\r", what);
 }
 
-static void print_row(const char *name, const VerdictTally *tally)
+static void print_tally(const char *name, const VerdictTally *tally)
 {
     printf("%-22s %7ld %9ld %8ld %5ld %9ld %7ld\n", name, tally->cases,
            tally->steps[VERDICT_CONVERGED], tally->steps[VERDICT_REPORTED],
-           tally->wrong, tally->judged, tally->undecided);
+           tally->wrong, tally->judged_residuals, tally->undecided);
     fflush(stdout);
 }
 
@@ -46,27 +46,27 @@ static void add_tally(const VerdictTally *tally, VerdictTally *sum)
     sum->cases += tally->cases;
     sum->wrong += tally->wrong;
     sum->updates += tally->updates;
-    sum->judged += tally->judged;
+    sum->judged_residuals += tally->judged_residuals;
     sum->undecided += tally->undecided;
     for (int i = 0; i < VERDICTS; i++)
         sum->steps[i] += tally->steps[i];
     for (int i = 0; i < STATUS_COUNT; i++)
-        sum->statuses[i] += tally->statuses[i];
+        sum->steps_by_status[i] += tally->steps_by_status[i];
 }
 
-static void run_cases(bool quick, VerdictTally *sum)
+static void run_named_cases(bool quick, VerdictTally *sum)
 {
     for (const StressCase *row = stress_cases; row->name; row++) {
         char reason[512] = "";
         VerdictTally tally = {0};
-        if (quick && row->slow)
+        if (quick && row->is_slow)
             continue;
         begin_case(row->name);
         if (!row->run(&tally, reason)) {
             tally.wrong += tally.wrong == 0;
             printf("%s: %s\n", row->name, reason);
         }
-        print_row(row->name, &tally);
+        print_tally(row->name, &tally);
         add_tally(&tally, sum);
     }
 }
@@ -87,24 +87,24 @@ static const struct {
                 {"stiff solids", "k", 10000, 3, 0.9},
                 {"bodies", "mn", 20000, 10, 0.998}};
 
-static void run_random(uint64_t seed, bool quick, VerdictTally *sum)
+static void run_random_families(uint64_t seed, bool quick, VerdictTally *sum)
 {
     for (size_t i = 0; i < sizeof families / sizeof *families; i++) {
         char reason[512];
         VerdictTally tally = {0};
         long count = families[i].count / (quick ? 10 : 1);
         begin_case(families[i].name);
-        if (!stress_scenes(families[i].kinds, seed, count, families[i].steps,
-                           &tally, reason))
+        if (!stress_run_scenes(families[i].kinds, seed, count,
+                               families[i].steps, &tally, reason))
             printf("%s: %s\n", stress_line, reason);
         double good = (double)tally.steps[VERDICT_CONVERGED];
         double all = good + (double)(tally.steps[VERDICT_REPORTED] -
-                                     tally.statuses[STATUS_BLOCKED]);
+                                     tally.steps_by_status[STATUS_BLOCKED]);
         if (!(good >= families[i].share * all)) {
             printf("only %g of %g steps converged\n", good, all);
             tally.wrong++;
         }
-        print_row(families[i].name, &tally);
+        print_tally(families[i].name, &tally);
         add_tally(&tally, sum);
     }
 }
@@ -116,7 +116,7 @@ static int run_command_line(const char *line)
     VerdictTally tally = {0};
     char reason[512] = "";
     begin_case(line);
-    Verdict verdict = stress_run(line, 10, &tally, reason);
+    Verdict verdict = stress_run_line(line, 10, &tally, reason);
     printf("%s %s\n", words[verdict], reason);
     return verdict == VERDICT_WRONG;
 }
@@ -139,27 +139,28 @@ static void run_envelope(Solver solver, VerdictTally *sum)
                  get_solver_name(solver), s, pow(10, i / H % K - 6),
                  pow(10, 0.5 * (i % H) - 9));
         begin_case(line);
-        Verdict verdict = stress_run(line, 3, &tally, reason);
+        Verdict verdict = stress_run_line(line, 3, &tally, reason);
         if (verdict == VERDICT_WRONG)
             printf("%s (%s)\n", reason, line);
         idle += s >= 0.1 && !verdict && tally.updates == before;
         cells += s >= 0.1;
         converged += s >= 0.1 && !verdict;
     }
-    print_row("envelope", &tally);
+    print_tally("envelope", &tally);
     printf("%s: %.2f %% converged where stretch >= 0.1, %d without an update\n",
            get_solver_name(solver), 100.0 * converged / cells, idle);
     tally.wrong += converged < 0.99 * cells || idle > 0;
     add_tally(&tally, sum);
 }
 
-static void print_tallies(const VerdictTally *sum)
+static void print_summary(const VerdictTally *sum)
 {
-    print_row("all", sum);
+    print_tally("all", sum);
     puts("steps by status:");
     for (int i = 0; i < STATUS_COUNT; i++)
-        if (sum->statuses[i] > 0)
-            printf("  %-22s %9ld\n", status_name((Status)i), sum->statuses[i]);
+        if (sum->steps_by_status[i] > 0)
+            printf("  %-22s %9ld\n", status_name((Status)i),
+                   sum->steps_by_status[i]);
     printf("%ld violated\n", sum->wrong);
 }
 
@@ -167,7 +168,7 @@ int main(int argc, char **argv)
 {
     uint64_t seed = 1;
     bool quick = false;
-    signal(SIGPROF, on_alarm);
+    signal(SIGPROF, report_endless_case);
     for (int i = 1; i < argc; i++) {
         if (strcmp(argv[i], "--quick") == 0)
             quick = true;
@@ -185,10 +186,10 @@ int main(int argc, char **argv)
     VerdictTally sum = {0};
     printf("%-22s %7s %9s %8s %5s %9s %7s\n", "", "cases", "converged",
            "reported", "wrong", "resolved", "blurred");
-    run_cases(quick, &sum);
-    run_random(seed, quick, &sum);
+    run_named_cases(quick, &sum);
+    run_random_families(seed, quick, &sum);
     for (int solver = 0; solver < SOLVER_COUNT && !quick; solver++)
         run_envelope((Solver)solver, &sum);
-    print_tallies(&sum);
+    print_summary(&sum);
     return sum.wrong > 0;
 }

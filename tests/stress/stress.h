@@ -13,27 +13,27 @@
 /* E of a step, and the time for which walls have moved in the step, s */
 typedef struct StepPotential {
     IncrementalPotential E;
-    double moved;
+    double wall_time;
 } StepPotential;
 
 /* Returns E at x_n + u, not rounded, by oracle.c, J s^2. */
-long double wide_energy(const StepPotential *potential, const double *u);
+long double exact_energy(const StepPotential *potential, const double *u);
 
 /* Returns the sum, J s^2, of two rounding errors: of E at x_n + u by the
  * rounding of the coordinates, and of the slope of E along `direction`. */
-long double wide_noise(const StepPotential *potential, const double *u,
-                       const double *direction);
+long double energy_noise(const StepPotential *potential, const double *u,
+                         const double *direction);
 
-typedef enum LargeVerdict {
-    LARGE_PASSED,
-    LARGE_FAILED,
-    LARGE_UNDECIDED /* near the tolerance, or too many iterations */
-} LargeVerdict;
+typedef enum TestVerdict {
+    TEST_PASSED,
+    TEST_FAILED,
+    TEST_UNDECIDED /* near the tolerance, or too many iterations */
+} TestVerdict;
 
 /* Tests by Algorithm 3, with clamped blocks and without a matrix, whether the
  * residual at u is below the tolerance, m/s. */
-LargeVerdict test_large_residual(const IncrementalPotential *E, const double *u,
-                                 double h, double tolerance);
+TestVerdict test_large_residual(const IncrementalPotential *E, const double *u,
+                                double h, double tolerance);
 
 /* ---- judging steps (stress_watch.c) ------------------------------------ */
 
@@ -45,45 +45,45 @@ typedef enum Verdict {
 } Verdict;
 
 /* Counts of cases, wrong cases, updates, steps by verdict and by status,
- * residuals tested again (judged), and residuals of these that are undecided
- * because rounding is larger than the tolerance. */
+ * residuals judged by the oracle, and those of them that are undecided, as
+ * rounding is larger than the tolerance. */
 typedef struct VerdictTally {
-    long cases, wrong, updates, steps[VERDICTS], judged, undecided;
-    long statuses[STATUS_COUNT];
+    long cases, wrong, updates, steps[VERDICTS], judged_residuals, undecided;
+    long steps_by_status[STATUS_COUNT];
 } VerdictTally;
 
 /* Watches one run: no node is behind a wall and no cell turned over, no update
  * and no step raises E, and residuals of converged steps are computed again. */
-typedef struct Watch {
+typedef struct RunWatch {
     TimeIntegrator *run;
-    VerdictTally *tally; /* counts of all watches */
-    bool residuals;     /* residuals of converged steps are computed again */
-    bool springs;       /* the system has no energy but springs and pulls */
-    double *x, *v;      /* [2n] m, m/s, before the step */
-    double *x_n;        /* [2n] m, start of the present minimisation */
-    double *u;          /* [2n] m, last iterate of the minimisation */
-    double *workspace;  /* [2n] */
-    long double start;  /* J s^2, E at u = 0 */
-    long double energy; /* J s^2, E at u */
-    int updates;        /* updates of the present minimisation so far */
-    double tolerance;   /* m/s, tolerance at the start of the step */
+    VerdictTally *tally;  /* counts of all watches */
+    bool tests_residuals; /* residuals of converged steps are computed again */
+    bool only_springs;    /* the system has no energy but springs and pulls */
+    double *x, *v;        /* [2n] m, m/s, before the step */
+    double *x_n;          /* [2n] m, start of the present minimisation */
+    double *u;            /* [2n] m, last iterate of the minimisation */
+    double *workspace;    /* [2n] */
+    long double start_energy; /* J s^2, E at u = 0 */
+    long double energy;       /* J s^2, E at u */
+    int updates;              /* updates of the present minimisation so far */
+    double tolerance;         /* m/s, tolerance at the start of the step */
     long crossings;     /* number of crossing edges at the start of the step */
-    bool wrong;         /* the present step has broken a promise */
-    bool flat;          /* a cell was flat when E was last computed */
+    bool is_wrong;      /* the present step has broken a promise */
+    bool has_flat_cell; /* a cell was flat when E was last computed */
     char reason[512];   /* first broken promise */
     Status status;      /* status of the last step */
-} Watch;
+} RunWatch;
 
 /* Starts to watch a run, whose address must not change and whose observer of
  * Newton becomes the watch. Returns false without memory. */
-bool watch_create(TimeIntegrator *run, VerdictTally *tally, Watch *watch);
-void watch_free(Watch *watch);
+bool watch_create(TimeIntegrator *run, VerdictTally *tally, RunWatch *watch);
+void watch_free(RunWatch *watch);
 
 /* Creates a run anew, with its x, v and h, after a change of its system. */
 Status watch_restart(TimeIntegrator *run);
 
 /* Makes one step, tests it and returns the verdict. */
-Verdict watch_step(Watch *watch);
+Verdict watch_step(RunWatch *watch);
 
 /* ---- random scenes (stress_scenes.c) ----------------------------------- */
 
@@ -91,14 +91,14 @@ enum { STRESS_LINE_SIZE = 512 };
 
 /* Calls `take` with each row of tests/data/stress.txt below "= NAME" until it
  * returns false; returns what the last call did. */
-bool stress_rows(const char *name, bool (*take)(void *user, char *row),
-                 void *user);
+bool stress_visit_rows(const char *name, bool (*take)(void *user, char *row),
+                       void *user);
 
 /* Makes and tests `steps` steps of a command line, which may end with "shaken
  * N".
  *   reason  [512] out, if the verdict is WRONG */
-Verdict stress_run(const char *line, int steps, VerdictTally *tally,
-                   char *reason);
+Verdict stress_run_line(const char *line, int steps, VerdictTally *tally,
+                        char *reason);
 
 /* Command line that runs now */
 extern char stress_line[STRESS_LINE_SIZE];
@@ -116,15 +116,15 @@ extern char stress_line[STRESS_LINE_SIZE];
  *   k  solids of triangles: moduli to 1e13 Pa, density from 1e-6 kg/m^2, h to 1
  *      s, tolerances from 1e-9 m/s
  *   l  large squares */
-bool stress_scenes(const char *kinds, uint64_t seed, long count, int steps,
-                   VerdictTally *tally, char *reason);
+bool stress_run_scenes(const char *kinds, uint64_t seed, long count, int steps,
+                       VerdictTally *tally, char *reason);
 
 /* Limits the processor time until SIGPROF, s; 0: no limit. */
 void stress_set_time_limit(long seconds);
 
 typedef struct StressCase {
     const char *name;
-    bool slow; /* only in `make stress` */
+    bool is_slow; /* only in `make stress` */
     /* Returns false and a reason [512] if a promise is broken. */
     bool (*run)(VerdictTally *tally, char *reason);
 } StressCase;

@@ -12,34 +12,34 @@
 #include <string.h>
 
 /* Returns E at x_n + u, not rounded, with its derivative along `direction`. */
-static Jet evaluate(const StepPotential *potential, const double *u,
-                    const double *direction, Random *jitter)
+static Jet evaluate_step(const StepPotential *potential, const double *u,
+                         const double *direction, Random *jitter)
 {
     const IncrementalPotential *E = &potential->E;
     EvalPoint at = make_eval_point(E->system, E->x_n, u, NULL);
     Probe probe = {.at = &at,
                    .h = sqrtl(E->weight),
                    .p = direction,
-                   .moved = potential->moved,
+                   .wall_time = potential->wall_time,
                    .jitter = jitter};
     at.weight = E->weight;
-    return oracle_step(&probe, E->u_tilde);
+    return oracle_step_energy(&probe, E->u_tilde);
 }
 
-long double wide_energy(const StepPotential *potential, const double *u)
+long double exact_energy(const StepPotential *potential, const double *u)
 {
-    return evaluate(potential, u, NULL, NULL).f;
+    return evaluate_step(potential, u, NULL, NULL).f;
 }
 
-long double wide_noise(const StepPotential *potential, const double *u,
-                       const double *direction)
+long double energy_noise(const StepPotential *potential, const double *u,
+                         const double *direction)
 {
     const IncrementalPotential *E = &potential->E;
     Random jitter = {1};
-    Jet exact = evaluate(potential, u, direction, NULL);
+    Jet exact = evaluate_step(potential, u, direction, NULL);
     Real sum = LDBL_EPSILON * fabsl(exact.f);
     for (int round = 0; round < 3; round++) {
-        Jet rounded = evaluate(potential, u, direction, &jitter);
+        Jet rounded = evaluate_step(potential, u, direction, &jitter);
         sum += fabsl(rounded.f - exact.f) + fabsl(rounded.p - exact.p);
     }
     for (int i = 0; i < 2 * E->system->nodes; i++)
@@ -57,24 +57,25 @@ static const Real judge_margin = 1e-6L;
 
 /* The gradient g [2n], and the blocks of the Hessian: the number of nodes of
  * each block, these nodes, and the entries of all blocks one after the other */
-typedef struct Blocks {
+typedef struct HessianBlocks {
     Real *g, *entry;
-    int (*node)[3], *nodes;
+    int (*node)[3], *node_counts;
     int count, entries, capacity;
-} Blocks;
+} HessianBlocks;
 
-static void store_block(void *blocks, const Block *block)
+static void store_block(void *blocks, const PartBlock *block)
 {
-    Blocks *to = blocks;
+    HessianBlocks *to = blocks;
     int n = 2 * block->count;
     if (to->count == to->capacity) {
         size_t capacity = (size_t)(to->capacity = 2 * to->capacity + 1024);
         to->entry = realloc(to->entry, 36 * capacity * sizeof *to->entry);
         to->node = realloc(to->node, capacity * sizeof *to->node);
-        to->nodes = realloc(to->nodes, capacity * sizeof *to->nodes);
-        CHECK(to->entry && to->node && to->nodes);
+        to->node_counts =
+            realloc(to->node_counts, capacity * sizeof *to->node_counts);
+        CHECK(to->entry && to->node && to->node_counts);
     }
-    to->nodes[to->count] = block->count;
+    to->node_counts[to->count] = block->count;
     memcpy(to->node[to->count++], block->node, sizeof block->node);
     memcpy(to->entry + to->entries, block->H,
            (size_t)(n * n) * sizeof *block->H);
@@ -90,14 +91,14 @@ static void clear_pinned(const System *system, Real *vector)
 }
 
 /* Computes y = H d, which is 0 at pinned nodes. */
-static void multiply_hessian(const System *system, const Blocks *blocks,
-                             const Real *d, Real *y)
+static void multiply_blocks(const System *system, const HessianBlocks *blocks,
+                            const Real *d, Real *y)
 {
     const Real *entry = blocks->entry;
     memset(y, 0, 2 * (size_t)system->nodes * sizeof *y);
     for (int b = 0; b < blocks->count; b++) {
         const int *node = blocks->node[b];
-        int n = 2 * blocks->nodes[b];
+        int n = 2 * blocks->node_counts[b];
         for (int i = 0; i < n * n; i++)
             y[2 * node[i / n / 2] + i / n % 2] +=
                 *entry++ * d[2 * node[i % n / 2] + i % n % 2];
@@ -106,7 +107,7 @@ static void multiply_hessian(const System *system, const Blocks *blocks,
 }
 
 /* Returns the largest |p_x| + |p_y| of all nodes. */
-static Real largest_step(int size, const Real *p)
+static Real find_longest_step(int size, const Real *p)
 {
     Real largest = 0;
     for (int i = 0; i < size; i += 2)
@@ -115,7 +116,7 @@ static Real largest_step(int size, const Real *p)
 }
 
 /* Returns |r|_(M^-1)^2. */
-static Real inverse_square(const System *system, const Real *r)
+static Real inverse_mass_square(const System *system, const Real *r)
 {
     Real sum = 0;
     for (int i = 0; i < 2 * system->nodes; i++)
@@ -125,26 +126,26 @@ static Real inverse_square(const System *system, const Real *r)
 
 /* Runs conjugate gradients, preconditioned with the masses, until the test is
  * decided. p, r, d, y [2n] workspace; p starts as 0, r as -grad E. */
-static LargeVerdict decide_test(const System *system, Real h, Real tolerance,
-                                const Blocks *blocks, Real *p, Real *r, Real *d,
-                                Real *y)
+static TestVerdict decide_test(const System *system, Real h, Real tolerance,
+                               const HessianBlocks *blocks, Real *p, Real *r,
+                               Real *d, Real *y)
 {
     Real lightest = INFINITY;
     int size = 2 * system->nodes;
     for (int i = 0; i < system->nodes; i++)
         if (!system->pinned[i])
             lightest = fminl(lightest, system->m[i]);
-    Real now = inverse_square(system, r), last = INFINITY;
+    Real now = inverse_mass_square(system, r), last = INFINITY;
     for (int k = 0; k < MAX_JUDGE_ITERATIONS; k++) {
-        Real away = largest_step(size, p) / h - tolerance, bend = 0;
+        Real away = find_longest_step(size, p) / h - tolerance, bend = 0;
         Real error = sqrtl(2 / lightest) / h * sqrtl(now);
         if (away + error <= judge_margin * tolerance)
-            return LARGE_PASSED;
+            return TEST_PASSED;
         if (away - error > judge_margin * tolerance)
-            return LARGE_FAILED;
+            return TEST_FAILED;
         for (int i = 0; i < size; i++)
             d[i] = r[i] / system->m[i / 2] + now / last * d[i];
-        multiply_hessian(system, blocks, d, y);
+        multiply_blocks(system, blocks, d, y);
         for (int i = 0; i < size; i++)
             bend += d[i] * y[i];
         for (int i = 0; i < size; i++) {
@@ -152,27 +153,27 @@ static LargeVerdict decide_test(const System *system, Real h, Real tolerance,
             r[i] -= now / bend * y[i];
         }
         last = now;
-        now = inverse_square(system, r);
+        now = inverse_mass_square(system, r);
     }
-    return LARGE_UNDECIDED;
+    return TEST_UNDECIDED;
 }
 
-LargeVerdict test_large_residual(const IncrementalPotential *E, const double *u,
-                                 double h, double tolerance)
+TestVerdict test_large_residual(const IncrementalPotential *E, const double *u,
+                                double h, double tolerance)
 {
     size_t size = 2 * (size_t)E->system->nodes;
     Real *r = calloc(4 * size, sizeof *r);
-    Blocks blocks = {.g = r};
+    HessianBlocks blocks = {.g = r};
     CHECK(r != NULL);
-    exact_blocks(E, u, 1, store_block, &blocks);
+    visit_blocks(E, u, 1, store_block, &blocks);
     for (size_t i = 0; i < size; i++)
         r[i] = -r[i];
     clear_pinned(E->system, r);
-    LargeVerdict verdict = decide_test(E->system, h, tolerance, &blocks,
-                                       r + size, r, r + 2 * size, r + 3 * size);
+    TestVerdict verdict = decide_test(E->system, h, tolerance, &blocks,
+                                      r + size, r, r + 2 * size, r + 3 * size);
     free(blocks.entry);
     free(blocks.node);
-    free(blocks.nodes);
+    free(blocks.node_counts);
     free(r);
     return verdict;
 }

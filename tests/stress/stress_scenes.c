@@ -1,5 +1,5 @@
-/* stress_scenes.c - random scenes, each a command line that can be run again,
- * and named cases in which rounding is large. */
+/* stress_scenes.c - random scenes, each a command line that can be run
+ * again, and named cases in which rounding is large. */
 #include "stress.h"
 
 #include <math.h>
@@ -9,10 +9,10 @@
 #include <sys/time.h>
 
 /* s, processor time after which a scene counts as endless */
-enum { SCENE_LIMIT = 120 };
+enum { SCENE_TIME_LIMIT = 120 };
 
-bool stress_rows(const char *name, bool (*take)(void *user, char *row),
-                 void *user)
+bool stress_visit_rows(const char *name, bool (*take)(void *user, char *row),
+                       void *user)
 {
     char row[2 * STRESS_LINE_SIZE];
     bool good = true, below = false;
@@ -94,7 +94,7 @@ static void make_random_line(const char *kinds, uint64_t seed, long number,
     char kind = kinds[number % (long)strlen(kinds)];
     line[0] = '\0';
     if (line_part_count == 0)
-        stress_rows("draw", store_line_part, NULL);
+        stress_visit_rows("draw", store_line_part, NULL);
     for (int i = 0; i < line_part_count; i++)
         if (strchr(line_parts[i].kinds, kind) &&
             random_below(&random, line_parts[i].one_in) == 0)
@@ -152,7 +152,7 @@ static Verdict run_steps(Simulation *simulation, uint64_t shaken, int steps,
     Verdict worst = VERDICT_CONVERGED;
     for (int r = 0; r < simulation->runs; r++) {
         TimeIntegrator *run = &simulation->run[r];
-        Watch watch;
+        RunWatch watch;
         if (shaken > 0)
             perturb_start(shaken, run);
         if ((shaken > 0 && watch_restart(run)) ||
@@ -171,8 +171,8 @@ static Verdict run_steps(Simulation *simulation, uint64_t shaken, int steps,
     return worst;
 }
 
-Verdict stress_run(const char *line, int steps, VerdictTally *tally,
-                   char *reason)
+Verdict stress_run_line(const char *line, int steps, VerdictTally *tally,
+                        char *reason)
 {
     char known[STRESS_LINE_SIZE];
     Simulation simulation;
@@ -197,14 +197,14 @@ void stress_set_time_limit(long seconds)
     setitimer(ITIMER_PROF, &limit, NULL);
 }
 
-bool stress_scenes(const char *kinds, uint64_t seed, long count, int steps,
-                   VerdictTally *tally, char *reason)
+bool stress_run_scenes(const char *kinds, uint64_t seed, long count, int steps,
+                       VerdictTally *tally, char *reason)
 {
     Verdict verdict = VERDICT_CONVERGED;
     for (long i = 0; i < count && verdict != VERDICT_WRONG; i++) {
         make_random_line(kinds, seed, i, stress_line);
-        stress_set_time_limit(SCENE_LIMIT);
-        verdict = stress_run(stress_line, steps, tally, reason);
+        stress_set_time_limit(SCENE_TIME_LIMIT);
+        verdict = stress_run_line(stress_line, steps, tally, reason);
     }
     stress_set_time_limit(0);
     return verdict != VERDICT_WRONG;
@@ -230,12 +230,13 @@ static bool run_row(void *user, char *row)
     for (int i = 0; i <= context->each_solver; i++) {
         snprintf(line, sizeof line, "%s%s", given,
                  context->each_solver ? solvers[i] : "");
-        long judged = context->tally->judged;
+        long judged = context->tally->judged_residuals;
         Verdict verdict =
-            stress_run(line, steps, context->tally, context->reason);
+            stress_run_line(line, steps, context->tally, context->reason);
         bool good = verdict != VERDICT_WRONG;
         if (good && must == '!') {
-            good = !verdict && context->tally->judged - judged >= steps;
+            good =
+                !verdict && context->tally->judged_residuals - judged >= steps;
             snprintf(context->reason, 512, "it does not converge, or unjudged");
         }
         if (!good) {
@@ -246,26 +247,26 @@ static bool run_row(void *user, char *row)
     return true;
 }
 
-static bool extreme_squares(VerdictTally *tally, char *reason)
+static bool run_extreme_squares(VerdictTally *tally, char *reason)
 {
-    return stress_rows("extreme squares", run_row,
-                       &(RowContext){tally, reason, true});
+    return stress_visit_rows("extreme squares", run_row,
+                             &(RowContext){tally, reason, true});
 }
 
-static bool large_squares(VerdictTally *tally, char *reason)
+static bool run_large_squares(VerdictTally *tally, char *reason)
 {
-    return stress_rows("large squares", run_row,
-                       &(RowContext){tally, reason, false});
+    return stress_visit_rows("large squares", run_row,
+                             &(RowContext){tally, reason, false});
 }
 
-static bool earlier_failures(VerdictTally *tally, char *reason)
+static bool run_earlier_failures(VerdictTally *tally, char *reason)
 {
-    return stress_rows("once wrong", run_row,
-                       &(RowContext){tally, reason, false});
+    return stress_visit_rows("once wrong", run_row,
+                             &(RowContext){tally, reason, false});
 }
 
 /* Runs every integrator with a short and a long time step. */
-static bool every_integrator(VerdictTally *tally, char *reason)
+static bool run_every_integrator(VerdictTally *tally, char *reason)
 {
     for (int i = 0; integrator_methods[i].name; i++)
         for (int gently = 0; gently < 2; gently++) {
@@ -279,18 +280,18 @@ static bool every_integrator(VerdictTally *tally, char *reason)
 }
 
 /* Kicks a square at random every 50 steps; judges some residuals. */
-static bool many_steps(VerdictTally *tally, char *reason)
+static bool run_many_steps(VerdictTally *tally, char *reason)
 {
     Random random = {7};
     Simulation simulation;
-    Watch watch;
+    RunWatch watch;
     simulation_from_line("--stretch 1.4", NULL, NULL, &simulation);
     TimeIntegrator *run = &simulation.run[0];
     bool good = watch_create(run, tally, &watch);
     for (long step = 0; step < 300000 && good; step++) {
         for (size_t i = 0; step % 50 == 0 && i < run->x_length; i++)
             run->v[i] += random_uniform(&random, -3, 3);
-        watch.residuals = step % 500 < 3;
+        watch.tests_residuals = step % 500 < 3;
         good = watch_step(&watch) != VERDICT_WRONG;
     }
     memcpy(reason, watch.reason, sizeof watch.reason);
@@ -302,10 +303,10 @@ static bool many_steps(VerdictTally *tally, char *reason)
 }
 
 const StressCase stress_cases[] = {
-    {"extreme squares", false, extreme_squares},
-    {"large squares", true, large_squares},
-    {"every integrator", false, every_integrator},
-    {"once wrong", false, earlier_failures},
-    {"many steps", true, many_steps},
+    {"extreme squares", false, run_extreme_squares},
+    {"large squares", true, run_large_squares},
+    {"every integrator", false, run_every_integrator},
+    {"once wrong", false, run_earlier_failures},
+    {"many steps", true, run_many_steps},
     {NULL, false, NULL},
 };

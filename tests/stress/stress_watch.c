@@ -26,26 +26,25 @@ static const long double HUGE_ENERGY = 1e280L;
 #define FLAT_CELL 1e-12
 
 /* Unknowns above which no dense matrix is factored, which costs n^3 */
-enum { LARGEST_SOLVED = 400 };
+enum { MAX_DENSE_UNKNOWNS = 400 };
 
 /* Factor of the noise of exact_residual for shaken squares, whose coordinates
  * and forces have very different sizes */
-enum { SHAKEN_NOISE = 4 };
+enum { SHAKEN_FACTOR = 4 };
 
-/* Relative error of a direction by a factor that the program takes as exact
- * (rounding.c, INEXACT_MASSES) */
+/* Relative error of a direction whose factor counts as exact (rounding.c) */
 #define DIGITS_OF_DIRECTION 1e-5
 
 /* Marks the step as wrong; the first reason is kept. */
-static void mark_wrong(Watch *watch, const char *format, ...)
+static void mark_wrong(RunWatch *watch, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
-static void mark_wrong(Watch *watch, const char *format, ...)
+static void mark_wrong(RunWatch *watch, const char *format, ...)
 {
     va_list arguments;
-    if (watch->wrong)
+    if (watch->is_wrong)
         return;
-    watch->wrong = true;
+    watch->is_wrong = true;
     va_start(arguments, format);
     int used = snprintf(watch->reason, sizeof watch->reason,
                         "step %ld: ", watch->run->steps);
@@ -54,13 +53,13 @@ static void mark_wrong(Watch *watch, const char *format, ...)
     va_end(arguments);
 }
 
-static int watch_size(const Watch *watch)
+static int count_unknowns(const RunWatch *watch)
 {
     return 2 * watch->run->system->nodes;
 }
 
 /* Returns the potential of the present minimisation, with the stored x_n. */
-static IncrementalPotential watch_potential(const Watch *watch)
+static IncrementalPotential get_potential(const RunWatch *watch)
 {
     IncrementalPotential E = watch->run->newton->iterate.E;
     E.x_n = watch->x_n;
@@ -68,24 +67,25 @@ static IncrementalPotential watch_potential(const Watch *watch)
 }
 
 /* Returns this potential with the time for which walls have moved so far. */
-static StepPotential step_potential(const Watch *watch)
+static StepPotential get_step_potential(const RunWatch *watch)
 {
     double moved =
         watch->run->is_driven ? watch->run->moved_part * watch->run->h : 0;
-    return (StepPotential){watch_potential(watch), moved};
+    return (StepPotential){get_potential(watch), moved};
 }
 
 /* Tests the residual of a large square of springs, whose blocks are clamped. */
-static void judge_large_square(Watch *watch, const double *u, double tolerance)
+static void judge_large_square(RunWatch *watch, const double *u,
+                               double tolerance)
 {
-    IncrementalPotential E = watch_potential(watch);
+    IncrementalPotential E = get_potential(watch);
     const NewtonSettings *settings = &watch->run->newton->settings;
     if (settings->projection != PROJECTION_CLAMP)
         return;
-    LargeVerdict verdict = test_large_residual(&E, u, settings->h, tolerance);
-    watch->tally->judged++;
-    watch->tally->undecided += verdict == LARGE_UNDECIDED;
-    if (verdict == LARGE_FAILED)
+    TestVerdict verdict = test_large_residual(&E, u, settings->h, tolerance);
+    watch->tally->judged_residuals++;
+    watch->tally->undecided += verdict == TEST_UNDECIDED;
+    if (verdict == TEST_FAILED)
         mark_wrong(watch, "converged, but the residual is above %g m/s",
                    tolerance);
 }
@@ -99,26 +99,27 @@ typedef double (*ResidualFunction)(const IncrementalPotential *E,
  * the program may have used; a projection on demand has two.
  *   noise  out, m/s, allowed error by rounding; NULL: none
  *   least  out, m/s, smallest residual */
-static bool residual_holds(const Watch *watch, const double *u, double limit,
-                           ResidualFunction judge, double *noise, double *least)
+static bool residual_passes(const RunWatch *watch, const double *u,
+                            double limit, ResidualFunction judge, double *noise,
+                            double *least)
 {
     static const int lifts[PROJECTION_COUNT] = {[PROJECTION_CLAMP] = 1,
                                                 [PROJECTION_NONE] = 0,
                                                 [PROJECTION_ABS] = 2,
                                                 [PROJECTION_ON_DEMAND] = 1};
     const NewtonSettings *settings = &watch->run->newton->settings;
-    StepPotential potential = step_potential(watch);
+    StepPotential potential = get_step_potential(watch);
     *least = INFINITY;
-    for (int i = 0; i < watch_size(watch); i++)
+    for (int i = 0; i < count_unknowns(watch); i++)
         watch->workspace[i] = watch->x_n[i] + u[i];
     bool either = settings->projection == PROJECTION_ON_DEMAND;
     for (int k = 0; k <= either; k++) {
         double residual =
             judge(&potential.E, u, watch->workspace, settings->h,
-                  potential.moved, lifts[settings->projection] - k, noise);
+                  potential.wall_time, lifts[settings->projection] - k, noise);
         *least = fmin(*least, residual);
-        if (noise && watch->springs)
-            *noise *= SHAKEN_NOISE;
+        if (noise && watch->only_springs)
+            *noise *= SHAKEN_FACTOR;
         if (residual <= limit + (noise ? *noise : 0))
             return true;
     }
@@ -128,17 +129,17 @@ static bool residual_holds(const Watch *watch, const double *u, double limit,
 /* Tests the residual with all terms; the iterate alone comes from the program.
  * A residual that 19 digits refuse is tested with 34, since rounding can only
  * raise one so small. Noise above the tolerance is allowed and counted. */
-static void judge_all_terms(Watch *watch, const double *u, double limit)
+static void judge_residual(RunWatch *watch, const double *u, double limit)
 {
     double noise, residual;
-    watch->tally->judged++;
+    watch->tally->judged_residuals++;
     limit *= 1 + DIGITS_OF_DIRECTION;
-    if (residual_holds(watch, u, limit, exact_residual, NULL, &residual) ||
-        residual_holds(watch, u, limit, wide_exact_residual, NULL, &residual))
+    if (residual_passes(watch, u, limit, exact_residual, NULL, &residual) ||
+        residual_passes(watch, u, limit, wide_exact_residual, NULL, &residual))
         return;
     watch->tally->undecided++;
-    if (!residual_holds(watch, u, limit, wide_exact_residual, &noise,
-                        &residual))
+    if (!residual_passes(watch, u, limit, wide_exact_residual, &noise,
+                         &residual))
         mark_wrong(
             watch,
             "converged, but the residual is %g m/s, tolerance %g, rounding "
@@ -147,18 +148,18 @@ static void judge_all_terms(Watch *watch, const double *u, double limit)
 }
 
 /* Tests that the residual at u is below the limit, m/s. */
-static void judge_convergence(Watch *watch, const double *u, double limit)
+static void judge_convergence(RunWatch *watch, const double *u, double limit)
 {
-    if (watch->residuals && watch_size(watch) <= LARGEST_SOLVED)
-        judge_all_terms(watch, u, limit);
-    else if (watch->residuals && watch->springs)
+    if (watch->tests_residuals && count_unknowns(watch) <= MAX_DENSE_UNKNOWNS)
+        judge_residual(watch, u, limit);
+    else if (watch->tests_residuals && watch->only_springs)
         judge_large_square(watch, u, limit);
 }
 
 /* Tests the end of a minimisation: the last direction, which was used, passes
  * the test; or the next one does, found by multigrid or shorter than a
  * millionth of the shortest spring. */
-static void judge_step_end(Watch *watch)
+static void judge_step_end(RunWatch *watch)
 {
     const Newton *newton = watch->run->newton;
     const System *system = newton->system;
@@ -178,49 +179,53 @@ static void judge_step_end(Watch *watch)
 
 /* Returns true if E rises between two iterates by more than rounding
  * explains, with 34 digits if 19 are too few. */
-static bool energy_rises(Watch *watch, const double *from, const double *to,
+static bool energy_rises(RunWatch *watch, const double *from, const double *to,
                          Real rise, Real scale)
 {
-    StepPotential potential = step_potential(watch);
+    StepPotential potential = get_step_potential(watch);
     if (rise <= 0)
         return false;
-    for (int i = 0; i < watch_size(watch); i++)
+    for (int i = 0; i < count_unknowns(watch); i++)
         watch->workspace[i] = to[i] - from[i];
-    Real allowed = ROUNDINGS * (DBL_EPSILON * scale +
-                                wide_noise(&potential, from, watch->workspace) +
-                                wide_noise(&potential, to, watch->workspace));
-    return !(rise <= allowed) && !(wide_exact_rise(&potential.E, from, to,
-                                                   potential.moved) <= allowed);
+    Real allowed =
+        ROUNDINGS * (DBL_EPSILON * scale +
+                     energy_noise(&potential, from, watch->workspace) +
+                     energy_noise(&potential, to, watch->workspace));
+    return !(rise <= allowed) &&
+           !(wide_exact_rise(&potential.E, from, to, potential.wall_time) <=
+             allowed);
 }
 
 /* Begins to watch a minimisation, which starts at u = 0 or where the walls and
  * pins of this step have moved nodes. */
-static void watch_begin(Watch *watch)
+static void begin_minimisation(RunWatch *watch)
 {
-    int n = watch_size(watch);
+    int n = count_unknowns(watch);
     const Newton *newton = watch->run->newton;
     memcpy(watch->x_n, newton->iterate.E.x_n, (size_t)n * sizeof *watch->x_n);
     for (int i = 0; i < n; i++)
         watch->u[i] = watch->run->is_driven ? watch->run->new_x[i] : 0;
     if (!system_find_term(watch->run->system, &cell_energy))
-        watch->crossings = exact_crossings(watch->run->system, watch->x_n);
-    StepPotential potential = step_potential(watch);
-    watch->start = watch->energy = wide_energy(&potential, watch->u);
+        watch->crossings = edge_crossings(watch->run->system, watch->x_n);
+    StepPotential potential = get_step_potential(watch);
+    watch->start_energy = watch->energy = exact_energy(&potential, watch->u);
     watch->updates = 0;
 }
 
 /* Tests that E at this iterate is not above E at the last one. A cell that a
  * moving wall has made flat is left out: its E is rounding. */
-static void watch_descent(Watch *watch, const double *u, const char *where)
+static void check_descent(RunWatch *watch, const double *u, const char *where)
 {
-    StepPotential potential = step_potential(watch);
-    long double energy = wide_energy(&potential, u);
-    long double scale =
-        fabsl(energy - watch->start) + fabsl(watch->energy - watch->start);
-    bool was_flat = watch->flat, flat = watch->run->is_driven;
-    watch->flat = smallest_cell(potential.E.system,
-                                watch->run->newton->iterate.x) < FLAT_CELL;
-    flat = flat && (watch->flat || was_flat || !isfinite(watch->energy));
+    StepPotential potential = get_step_potential(watch);
+    long double energy = exact_energy(&potential, u);
+    long double scale = fabsl(energy - watch->start_energy) +
+                        fabsl(watch->energy - watch->start_energy);
+    bool was_flat = watch->has_flat_cell, flat = watch->run->is_driven;
+    watch->has_flat_cell =
+        smallest_area_ratio(potential.E.system, watch->run->newton->iterate.x) <
+        FLAT_CELL;
+    flat =
+        flat && (watch->has_flat_cell || was_flat || !isfinite(watch->energy));
     if (!isfinite(energy) && !flat)
         mark_wrong(watch, "E is %Lg %s", energy, where);
     if (!flat &&
@@ -232,14 +237,14 @@ static void watch_descent(Watch *watch, const double *u, const char *where)
 
 /* Tests that LINE_SEARCH_LIMIT and NOT_DESCENT are reported only where rounding
  * does not hide the slope. */
-static void check_failure_reason(Watch *watch, const NewtonRecord *record)
+static void check_failure_reason(RunWatch *watch, const NewtonRecord *record)
 {
-    IncrementalPotential E = watch_potential(watch);
+    IncrementalPotential E = get_potential(watch);
     long double scale = 0;
-    if (!watch->springs || (record->status != STATUS_LINE_SEARCH_LIMIT &&
-                            record->status != STATUS_NOT_DESCENT))
+    if (!watch->only_springs || (record->status != STATUS_LINE_SEARCH_LIMIT &&
+                                 record->status != STATUS_NOT_DESCENT))
         return;
-    for (int i = 0; i < watch_size(watch); i++) {
+    for (int i = 0; i < count_unknowns(watch); i++) {
         long double away = (long double)watch->u[i] - E.u_tilde[i];
         scale += 0.5L * E.system->m[i / 2] * away * away;
     }
@@ -251,10 +256,10 @@ static void check_failure_reason(Watch *watch, const NewtonRecord *record)
 }
 
 /* Tests that no node is behind a wall and no triangle is turned over. */
-static void check_walls(Watch *watch, const double *x)
+static void check_gaps_and_areas(RunWatch *watch, const double *x)
 {
-    double gap = smallest_gap(watch->run->system, x);
-    double J = smallest_cell(watch->run->system, x);
+    double gap = find_smallest_gap(watch->run->system, x);
+    double J = smallest_area_ratio(watch->run->system, x);
     if (!(gap > 0) || !(J > 0))
         mark_wrong(watch, "the smallest gap is %g, the smallest cell %g", gap,
                    J);
@@ -262,49 +267,51 @@ static void check_walls(Watch *watch, const double *x)
 
 /* Tests that no edges cross but those that crossed at the start of the step:
  * where cells may turn over, a break may have uncovered them. */
-static void check_edges(Watch *watch, const double *x)
+static void check_crossings(RunWatch *watch, const double *x)
 {
-    long crossings = exact_crossings(watch->run->system, x);
+    long crossings = edge_crossings(watch->run->system, x);
     if (crossings > watch->crossings)
         mark_wrong(watch, "%ld edges cross, %ld did", crossings,
                    watch->crossings);
 }
 
 /* Tests an iterate: the observer of Newton's method. */
-static bool watch_record(void *user, const NewtonRecord *record)
+static bool check_iterate(void *user, const NewtonRecord *record)
 {
-    Watch *watch = user;
+    RunWatch *watch = user;
     const Newton *newton = watch->run->newton;
     if (record->iteration < 0) /* the last record, by moving walls or pins */
         return true;
     if (record->iteration == 0)
-        watch_begin(watch);
-    check_edges(watch, newton->iterate.x);
+        begin_minimisation(watch);
+    check_crossings(watch, newton->iterate.x);
     if (record->iteration != watch->updates)
         mark_wrong(watch, "record %d after %d updates", record->iteration,
                    watch->updates);
     watch->updates++;
     if (watch->updates > newton->settings.max_iterations)
         mark_wrong(watch, "%d iterations, more than allowed", watch->updates);
-    for (int i = 0; i < watch_size(watch); i++)
+    for (int i = 0; i < count_unknowns(watch); i++)
         if (!isfinite(newton->iterate.u[i]) || !isfinite(newton->iterate.x[i]))
             mark_wrong(watch, "iterate %d is not finite", watch->updates);
     if (newton->settings.line_search != LINE_SEARCH_NONE)
-        watch_descent(watch, newton->iterate.u, "in an iteration");
+        check_descent(watch, newton->iterate.u, "in an iteration");
     check_failure_reason(watch, record);
-    check_walls(watch, newton->iterate.x);
+    check_gaps_and_areas(watch, newton->iterate.x);
     if (record->status == STATUS_OK)
         judge_step_end(watch);
     memcpy(watch->u, newton->iterate.u,
-           (size_t)watch_size(watch) * sizeof *watch->u);
+           (size_t)count_unknowns(watch) * sizeof *watch->u);
     return true;
 }
 
-bool watch_create(TimeIntegrator *run, VerdictTally *tally, Watch *watch)
+bool watch_create(TimeIntegrator *run, VerdictTally *tally, RunWatch *watch)
 {
-    *watch =
-        (Watch){.run = run, .tally = tally, .residuals = true, .springs = true};
-    size_t n = (size_t)watch_size(watch);
+    *watch = (RunWatch){.run = run,
+                        .tally = tally,
+                        .tests_residuals = true,
+                        .only_springs = true};
+    size_t n = (size_t)count_unknowns(watch);
     double **vectors[] = {&watch->x, &watch->v, &watch->x_n, &watch->u,
                           &watch->workspace};
     bool good = true;
@@ -314,16 +321,16 @@ bool watch_create(TimeIntegrator *run, VerdictTally *tally, Watch *watch)
         const TermKind *kind = run->system->term[i].kind;
         if (kind != &mass_spring_energy && kind != &central_field &&
             kind != &hand_energy)
-            watch->springs = false;
+            watch->only_springs = false;
     }
     if (run->newton) {
-        run->newton->settings.observer = watch_record;
+        run->newton->settings.observer = check_iterate;
         run->newton->settings.user_data = watch;
     }
     return good;
 }
 
-void watch_free(Watch *watch)
+void watch_free(RunWatch *watch)
 {
     if (watch->run->newton)
         watch->tally->updates += watch->run->newton->counters.updates;
@@ -332,7 +339,7 @@ void watch_free(Watch *watch)
     free(watch->x_n);
     free(watch->u);
     free(watch->workspace);
-    *watch = (Watch){0};
+    *watch = (RunWatch){0};
 }
 
 Status watch_restart(TimeIntegrator *run)
@@ -349,11 +356,11 @@ Status watch_restart(TimeIntegrator *run)
 }
 
 /* Returns true if squares of numbers of this step may overflow. */
-static bool overflow_is_near(const Watch *watch)
+static bool overflow_is_near(const RunWatch *watch)
 {
     const System *system = watch->run->system;
     long double h = watch->run->h, sum = 0;
-    for (int i = 0; i < watch_size(watch); i++)
+    for (int i = 0; i < count_unknowns(watch); i++)
         sum = fmaxl(sum, fabsl(watch->x[i]) + h * fabsl(watch->v[i]));
     sum = sum * sum;
     for (int s = 0; s < system->springs; s++) {
@@ -366,9 +373,9 @@ static bool overflow_is_near(const Watch *watch)
 }
 
 /* Tests that a failed step left the state as it was, and had a reason. */
-static void check_failure(Watch *watch, Status status)
+static void check_failed_step(RunWatch *watch, Status status)
 {
-    size_t bytes = (size_t)watch_size(watch) * sizeof *watch->x;
+    size_t bytes = (size_t)count_unknowns(watch) * sizeof *watch->x;
     if (memcmp(watch->run->x, watch->x, bytes) != 0 ||
         memcmp(watch->run->v, watch->v, bytes) != 0)
         mark_wrong(watch, "%s, but the state moved", status_name(status));
@@ -413,19 +420,19 @@ static bool momentum_is_conserved(const TimeIntegrator *run, int *pin)
  * the tolerance, as the last direction. Moments need a step without projection
  * (multigrid clamps compressed springs and does not count them) and without
  * friction across a gap. An arm has an error of one unit of its last digit. */
-static void check_momentum(Watch *watch, int pin)
+static void check_step_momentum(RunWatch *watch, int pin)
 {
     const TimeIntegrator *run = watch->run;
     const double *g = run->system->gravity, *m = run->system->m;
     Real mass = 0, sum[2] = {0}, middle[2] = {0}, turn = 0, arms = 0, noise = 0;
     Real unsure = 0; /* kg m^2/s, error by the last digits of the arms */
-    for (int i = 0; i < watch_size(watch); i++) {
+    for (int i = 0; i < count_unknowns(watch); i++) {
         middle[i % 2] += (Real)m[i / 2] * run->x[i];
         mass += 0.5L * m[i / 2];
     }
     for (int c = 0; c < 2 && pin >= 0; c++)
         middle[c] = mass * run->x[2 * pin + c];
-    for (int i = 0; i < watch_size(watch); i++) {
+    for (int i = 0; i < count_unknowns(watch); i++) {
         Real change = (Real)run->v[i] - watch->v[i] - (Real)run->h * g[i % 2];
         Real arm = run->x[i ^ 1] - middle[1 - i % 2] / mass;
         sum[i % 2] += m[i / 2] * change;
@@ -451,46 +458,46 @@ static void check_momentum(Watch *watch, int pin)
 }
 
 /* Tests the state after a successful step. */
-static void check_state(Watch *watch)
+static void check_step_state(RunWatch *watch)
 {
     const TimeIntegrator *run = watch->run;
-    for (int i = 0; i < watch_size(watch); i++) {
+    for (int i = 0; i < count_unknowns(watch); i++) {
         if (!isfinite(run->x[i]) || !isfinite(run->v[i]))
             mark_wrong(watch, "the state is not finite");
         if (run->system->pinned && run->system->pinned[i / 2] &&
             !run->system->pin_v && (run->x[i] != watch->x[i] || run->v[i] != 0))
             mark_wrong(watch, "a pinned node moved");
     }
-    check_walls(watch, run->x);
+    check_gaps_and_areas(watch, run->x);
     int pin;
     if (watch->status == STATUS_OK && momentum_is_conserved(run, &pin))
-        check_momentum(watch, pin);
-    if (watch->springs &&
+        check_step_momentum(watch, pin);
+    if (watch->only_springs &&
         run->newton && /* flow and breaks change E between steps */
         run->newton->settings.line_search != LINE_SEARCH_NONE)
-        watch_descent(watch, run->newton->iterate.u, "as the step ends");
+        check_descent(watch, run->newton->iterate.u, "as the step ends");
 }
 
-Verdict watch_step(Watch *watch)
+Verdict watch_step(RunWatch *watch)
 {
     TimeIntegrator *run = watch->run;
-    size_t bytes = (size_t)watch_size(watch) * sizeof *watch->x;
+    size_t bytes = (size_t)count_unknowns(watch) * sizeof *watch->x;
     memcpy(watch->x, run->x, bytes);
     memcpy(watch->v, run->v, bytes);
-    watch->wrong = false;
+    watch->is_wrong = false;
     watch->updates = 0;
     watch->tolerance = run->newton ? run->newton->settings.tolerance : 0;
     Status status = watch->status = time_integrator_step(run);
     if ((int)status < 0 || status >= STATUS_COUNT || status == STATUS_RUNNING)
         mark_wrong(watch, "status %d has no name", (int)status);
     else if (status == STATUS_OK || status_is_unconverged(status))
-        check_state(watch);
+        check_step_state(watch);
     else
-        check_failure(watch, status);
-    Verdict verdict = watch->wrong ? VERDICT_WRONG
-                      : status     ? VERDICT_REPORTED
-                                   : VERDICT_CONVERGED;
+        check_failed_step(watch, status);
+    Verdict verdict = watch->is_wrong ? VERDICT_WRONG
+                      : status        ? VERDICT_REPORTED
+                                      : VERDICT_CONVERGED;
     watch->tally->steps[verdict]++;
-    watch->tally->statuses[status]++;
+    watch->tally->steps_by_status[status]++;
     return verdict;
 }

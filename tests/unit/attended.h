@@ -16,7 +16,7 @@ static Player player;
 static volatile sig_atomic_t stop;
 
 /* Creates the player of a command line with a script: the past is kept. */
-static inline void begin_script(const char *script, const char *line)
+static inline void begin_scripted_player(const char *script, const char *line)
 {
     static Options options[OPTIONS_MAX_PANES];
     static char name[] = "/tmp/elasto-test-XXXXXX";
@@ -44,7 +44,7 @@ static inline void begin_script(const char *script, const char *line)
 
 static inline void begin_player(const char *line)
 {
-    begin_script("0 play\n", line);
+    begin_scripted_player("0 play\n", line);
 }
 
 static inline void end_player(void)
@@ -53,7 +53,7 @@ static inline void end_player(void)
     player_free(&player);
 }
 
-static inline Status obey(const char *line)
+static inline Status obey_line(const char *line)
 {
     Command command;
     char message[128];
@@ -61,7 +61,7 @@ static inline Status obey(const char *line)
     return player_obey(&player, &command);
 }
 
-static inline const PastPane *past_pane(int pane)
+static inline const PastPane *get_past_pane(int pane)
 {
     return &player.past.pane[pane];
 }

@@ -7,7 +7,7 @@
 #include <png.h>
 #include <sys/stat.h>
 
-enum { FRAME = 900 }; /* pixels, both sides of a golden picture */
+enum { SIDE = 900 }; /* pixels, both sides of a golden picture */
 
 /* Reads a PNG file as pixels 0xffRRGGBB; free it with canvas_free. */
 static inline Canvas read_png(const char *name)
@@ -41,33 +41,32 @@ static inline int pixel_distance(Colour a, Colour b)
 }
 
 /* Marks pixels around words: where frames with and without words differ. The
- * shapes of words depend on the version of the library. mask [FRAME FRAME] out
- */
+ * shapes of words depend on the library's version. mask [SIDE SIDE] out */
 static inline void mask_words(const Canvas *words, const Canvas *plain,
                               unsigned char *mask)
 {
-    enum { AROUND = 24, ABOVE = 4 };
-    memset(mask, 0, FRAME * FRAME);
-    for (int j = 0; j < FRAME; j++)
-        for (int i = 0; i < FRAME; i++) {
-            if (words->pixels[FRAME * j + i] == plain->pixels[FRAME * j + i])
+    enum { BESIDE_WORDS = 24, ABOVE_WORDS = 4 };
+    memset(mask, 0, SIDE * SIDE);
+    for (int j = 0; j < SIDE; j++)
+        for (int i = 0; i < SIDE; i++) {
+            if (words->pixels[SIDE * j + i] == plain->pixels[SIDE * j + i])
                 continue;
-            for (int b = j - ABOVE; b <= j + ABOVE; b++)
-                for (int a = i - AROUND; a <= i + AROUND; a++)
-                    if (a >= 0 && b >= 0 && a < FRAME && b < FRAME)
-                        mask[FRAME * b + a] = 1;
+            for (int b = j - ABOVE_WORDS; b <= j + ABOVE_WORDS; b++)
+                for (int a = i - BESIDE_WORDS; a <= i + BESIDE_WORDS; a++)
+                    if (a >= 0 && b >= 0 && a < SIDE && b < SIDE)
+                        mask[SIDE * b + a] = 1;
         }
 }
 
 /* Paints the present frame, with and without words; free both. */
-static inline void paint_frames(Canvas frame[2])
+static inline void paint_frame_pair(Canvas frame[2])
 {
     /* words have the same width in both frames */
     if (!player.screen.paper.text)
         assert_int_equal(text_create(&player.screen.paper.text), 0);
     for (int plain = 0; plain < 2; plain++) {
         Paper paper;
-        assert_int_equal(paper_create(FRAME, FRAME, &paper), 0);
+        assert_int_equal(paper_create(SIDE, SIDE, &paper), 0);
         if (plain) {
             text_free(paper.text);
             paper.text = NULL;
@@ -81,21 +80,21 @@ static inline void paint_frames(Canvas frame[2])
 
 /* Counts the pixels away from words that differ from a picture by more than 4
  * of 255, and frees the frames. */
-static inline int count_far_pixels(const char *file, Canvas frame[2])
+static inline int count_differing_pixels(const char *file, Canvas frame[2])
 {
-    static unsigned char mask[FRAME * FRAME];
+    static unsigned char mask[SIDE * SIDE];
     struct stat info;
     int far = 0, compared = 0;
     Canvas reference = read_png(file);
-    assert_int_equal(reference.width, FRAME);
-    assert_int_equal(reference.height, FRAME);
+    assert_int_equal(reference.width, SIDE);
+    assert_int_equal(reference.height, SIDE);
     mask_words(&frame[0], &frame[1], mask);
-    for (int i = 0; i < FRAME * FRAME; i++)
+    for (int i = 0; i < SIDE * SIDE; i++)
         if (!mask[i]) {
             far += pixel_distance(frame[0].pixels[i], reference.pixels[i]) > 4;
             compared++;
         }
-    CHECK(compared > FRAME * FRAME / 2);
+    CHECK(compared > SIDE * SIDE / 2);
     canvas_free(&reference);
     canvas_free(&frame[0]);
     canvas_free(&frame[1]);

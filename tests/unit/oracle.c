@@ -37,10 +37,10 @@ static Jet jet_chain(Jet a, Real F, Real F1, Real F2)
 /* Adds factor times a part to the sum, and its sizes to probe->size. */
 static void add_part(Probe *probe, Jet *sum, Real factor, Jet part)
 {
-    probe->booked++;
+    probe->part_count++;
     *sum = jet_add(*sum, factor, part);
-    probe->size = jet_add(
-        probe->size, fabsl(factor),
+    probe->abs_sum = jet_add(
+        probe->abs_sum, fabsl(factor),
         (Jet){fabsl(part.f), fabsl(part.p), fabsl(part.q), fabsl(part.pq)});
 }
 
@@ -63,7 +63,7 @@ static Jet coordinate(Probe *probe, int c, bool of_u)
                  probe->q ? probe->q[c] : 0, 0};
 }
 
-static Jet difference(Probe *probe, int i, int j, int axis, bool of_u)
+static Jet node_offset(Probe *probe, int i, int j, int axis, bool of_u)
 {
     return jet_add(coordinate(probe, 2 * i + axis, of_u), -1,
                    coordinate(probe, 2 * j + axis, of_u));
@@ -81,12 +81,12 @@ Real exact_strain(const System *system, const double *x, int s)
 static Real find_flow_limit_error(Probe *probe, Real E)
 {
     Real side =
-        probe->jitter ? random_uniform(probe->jitter, -1, 1) : probe->side;
+        probe->jitter ? random_uniform(probe->jitter, -1, 1) : probe->flow_side;
     return 8 * DBL_EPSILON * (1 + fabsl(E)) * side;
 }
 
 /* Adds k l2 V(E) of spring s: slides, plasticity.h, damping.h. */
-static void add_spring(Probe *probe, Jet *sum, const void *data, int s)
+static void add_spring_energy(Probe *probe, Jet *sum, const void *data, int s)
 {
     const System *system = probe->at->system;
     const Plasticity *flow =
@@ -96,8 +96,8 @@ static void add_spring(Probe *probe, Jet *sum, const void *data, int s)
     Real theta = damped ? damped->eta / probe->h : 0;
     Jet E = {.f = -1}, V;
     for (int axis = 0; axis < 2; axis++) {
-        Jet d = difference(probe, system->e[2 * s], system->e[2 * s + 1], axis,
-                           false);
+        Jet d = node_offset(probe, system->e[2 * s], system->e[2 * s + 1], axis,
+                            false);
         E = jet_add(E, 1 / (Real)system->l2[s], jet_mul(d, d));
     }
     Real e = E.f - (flow ? flow->ep[s] : 0), kappa = 0;
@@ -136,9 +136,9 @@ static Jet scaled_gap(Probe *probe, const Contact *contact, int i, int k,
     const Obstacle *it = &contact->obstacle[k];
     Jet d[2], s = {0};
     for (int axis = 0; axis < 2; axis++) {
-        d[axis] = it->node >= 0 ? difference(probe, i, it->node, axis, false)
+        d[axis] = it->node >= 0 ? node_offset(probe, i, it->node, axis, false)
                                 : coordinate(probe, 2 * i + axis, false);
-        Real o = it->o[axis] - probe->since * it->v[axis];
+        Real o = it->o[axis] - probe->wall_rewind * it->v[axis];
         d[axis].f -= it->node >= 0 ? 0 : add_jitter(probe, o);
         n[axis] = it->n[axis];
     }
@@ -178,7 +178,7 @@ static void add_wall_friction(Probe *probe, Jet *sum, const Contact *contact,
         return;
     EvalPoint start = *probe->at;
     Probe before = {
-        .at = &start, .jitter = probe->jitter, .since = probe->moved};
+        .at = &start, .jitter = probe->jitter, .wall_rewind = probe->wall_time};
     Real n[2], e = ((const Friction *)term->data)->slip_speed * probe->h;
     start.x = start.x_n;
     Real s = scaled_gap(&before, contact, i, k, n).f;
@@ -188,7 +188,7 @@ static void add_wall_friction(Probe *probe, Jet *sum, const Contact *contact,
                                n[1] * add_jitter(probe, it->v[0]))};
     for (int axis = 0; axis < 2; axis++)
         y = jet_add(y, axis ? n[0] : -n[1],
-                    it->node >= 0 ? difference(probe, i, it->node, axis, true)
+                    it->node >= 0 ? node_offset(probe, i, it->node, axis, true)
                                   : coordinate(probe, 2 * i + axis, true));
     add_part(probe, sum,
              it->friction * contact->barrier.c / contact->barrier.d_hat *
@@ -215,16 +215,14 @@ static void add_wall_contact(Probe *probe, Jet *sum, const void *data, int i)
                          : add_wall_friction)(probe, sum, contact, node, k);
 }
 
-/* Boundary of the bodies, as in boundary.h. Indices of `whole` and `sides`:
- * left or lower node of a spring; its direction: up, right, up right, down
- * right */
+/* Boundary of the bodies, as in boundary.h. Spring [i][k] begins at node i and
+ * leads, for k = 0 to 3, up, right, up right and down right. */
 typedef struct Outline {
     int edges, points, *point, (*edge)[2]; /* nodes of the boundary */
-    /* For each of the 4 springs of a node: whether it is unbroken, and its
-     * number of triangles. */
-    unsigned char (*whole)[4], (*sides)[4];
-    unsigned char *role; /* [n] IN_A_TRIANGLE, ON_AN_EDGE */
-    double *x;           /* [2n] m, positions rounded to doubles */
+    unsigned char (*is_whole)[4];          /* [n] 1: the spring is unbroken */
+    unsigned char (*triangle_count)[4];    /* [n] triangles at a spring */
+    unsigned char *role;                   /* [n] IN_A_TRIANGLE, ON_AN_EDGE */
+    double *x; /* [2n] m, positions rounded to doubles */
 } Outline;
 
 enum { IN_A_TRIANGLE = 1, ON_AN_EDGE = 2 };
@@ -232,7 +230,7 @@ enum { IN_A_TRIANGLE = 1, ON_AN_EDGE = 2 };
 static void add_outline_triangle(Outline *outline, int a, int high, int corner)
 {
     const int node[4] = {a, a + high, a + high + 1, a + 1};
-    unsigned char(*sides)[4] = outline->sides;
+    unsigned char(*sides)[4] = outline->triangle_count;
     ++*(corner / 2 ? &sides[node[3]][1] : &sides[a][1]);
     ++*(corner % 3 ? &sides[node[1]][0] : &sides[a][0]);
     ++*(corner % 2 ? &sides[a][2] : &sides[node[3]][3]);
@@ -244,10 +242,10 @@ static void add_outline_cell(Outline *outline, int a, int high)
 {
     bool solid[4];
     for (int corner = 0; corner < 4; corner++)
-        solid[corner] =
-            outline->whole[corner / 2 ? a + 1 : a][1] &&
-            outline->whole[corner % 3 ? a + high : a][0] &&
-            (corner % 2 ? outline->whole[a][2] : outline->whole[a + 1][3]);
+        solid[corner] = outline->is_whole[corner / 2 ? a + 1 : a][1] &&
+                        outline->is_whole[corner % 3 ? a + high : a][0] &&
+                        (corner % 2 ? outline->is_whole[a][2]
+                                    : outline->is_whole[a + 1][3]);
     bool both = solid[0] && solid[2], others = solid[1] && solid[3];
     for (int corner = 0; corner < 4; corner++)
         if (solid[corner] && corner % 2 == (others && !both))
@@ -266,24 +264,24 @@ static Outline find_outline(const System *system)
     CHECK(bytes != NULL);
     Outline it = {.x = bytes, .point = (int *)(bytes + 2 * n)};
     it.edge = (int(*)[2])(it.point + n);
-    it.whole = (unsigned char(*)[4])(it.edge + 4 * n);
-    it.sides = it.whole + n;
-    it.role = (unsigned char *)(it.sides + n);
-    memset(it.whole, 0, 9 * (size_t)n);
+    it.is_whole = (unsigned char(*)[4])(it.edge + 4 * n);
+    it.triangle_count = it.is_whole + n;
+    it.role = (unsigned char *)(it.triangle_count + n);
+    memset(it.is_whole, 0, 9 * (size_t)n);
     for (int s = 0; s < system->springs; s++) {
         int i = system->e[2 * s], j = system->e[2 * s + 1];
         int low = i < j ? i : j, way = i + j - 2 * low;
         bool up = way == 1 && low % high < high - 1;
-        it.whole[low][up            ? 0
-                      : way < high  ? 3
-                      : way == high ? 1
-                                    : 2] = system->k[s] != 0;
+        it.is_whole[low][up            ? 0
+                         : way < high  ? 3
+                         : way == high ? 1
+                                       : 2] = system->k[s] != 0;
     }
     for (int i = 0; i < n; i++)
         if (i % high < high - 1 && i / high % wide < wide - 1)
             add_outline_cell(&it, i, high);
     for (int i = 0; i < 4 * n; i++)
-        if (it.sides[i / 4][i % 4] == 1) {
+        if (it.triangle_count[i / 4][i % 4] == 1) {
             const int way[4] = {1, high, high + 1, high - 1};
             int *edge = it.edge[it.edges++];
             edge[0] = i / 4;
@@ -304,8 +302,8 @@ static Jet point_edge_gap(Probe *probe, const SelfContact *self, int p,
 {
     Jet d[2], e[2], q[2], length2, along, d2;
     for (int axis = 0; axis < 2; axis++) {
-        e[axis] = difference(probe, end[1], end[0], axis, false);
-        q[axis] = difference(probe, p, end[0], axis, false);
+        e[axis] = node_offset(probe, end[1], end[0], axis, false);
+        q[axis] = node_offset(probe, p, end[0], axis, false);
         d[axis] = q[axis];
     }
     along = jet_add(jet_mul(q[0], e[0]), 1, jet_mul(q[1], e[1]));
@@ -314,7 +312,7 @@ static Jet point_edge_gap(Probe *probe, const SelfContact *self, int p,
     *r = fminl(fmaxl(along.f / l, 0), 1);
     if (*r == 1)
         for (int axis = 0; axis < 2; axis++)
-            d[axis] = difference(probe, p, end[1], axis, false);
+            d[axis] = node_offset(probe, p, end[1], axis, false);
     d2 = jet_add(jet_mul(d[0], d[0]), 1, jet_mul(d[1], d[1]));
     if (*r > 0 && *r < 1) {
         Jet side = jet_add(jet_mul(e[0], q[1]), -1, jet_mul(e[1], q[0]));
@@ -398,14 +396,14 @@ static bool find_cell_area(Probe *probe, const CellBarriers *cells, int t,
     for (int axis = 0; axis < 2; axis++)
         for (int edge = 0; edge < 2; edge++)
             e[edge][axis] =
-                difference(probe, node[1 + edge], node[0], axis, false);
+                node_offset(probe, node[1 + edge], node[0], axis, false);
     *J = jet_add(jet_mul(e[0][0], e[1][1]), -1, jet_mul(e[0][1], e[1][0]));
     *J = jet_add((Jet){0}, 1 / (2 * (Real)cells->triangles.rest_area), *J);
     return true;
 }
 
 /* Adds A0 k_c f(J/J_hat) of triangle t: cells.h. */
-static void add_cell(Probe *probe, Jet *sum, const void *data, int t)
+static void add_cell_energy(Probe *probe, Jet *sum, const void *data, int t)
 {
     const CellBarriers *cells = data;
     Jet J;
@@ -414,7 +412,7 @@ static void add_cell(Probe *probe, Jet *sum, const void *data, int t)
 }
 
 /* Adds A0 (mu/2 (|F|^2 - 2) - mu ln J + lambda/2 (ln J)^2): neo_hookean.h. */
-static void add_solid(Probe *probe, Jet *sum, const void *data, int t)
+static void add_triangle_energy(Probe *probe, Jet *sum, const void *data, int t)
 {
     const NeoHookean *solid = data;
     const int *node = solid->triangles.node[t];
@@ -422,7 +420,7 @@ static void add_solid(Probe *probe, Jet *sum, const void *data, int t)
     for (int c = 0; c < 4; c++)
         F[c] =
             jet_add((Jet){0}, 1 / sqrtl(2 * (Real)solid->triangles.rest_area),
-                    difference(probe, node[1 + c / 2], node[0], c % 2, false));
+                    node_offset(probe, node[1 + c / 2], node[0], c % 2, false));
     for (int c = 0; c < 4; c++)
         size = jet_add(size, 1, jet_mul(F[c], F[c]));
     J = jet_add(jet_mul(F[0], F[3]), -1, jet_mul(F[1], F[2]));
@@ -439,7 +437,7 @@ static void add_solid(Probe *probe, Jet *sum, const void *data, int t)
 }
 
 /* Adds k/2 |x - o|^2 of coordinate c: pull_energy.h. */
-static void add_pull(Probe *probe, Jet *sum, const void *data, int c)
+static void add_pull_energy(Probe *probe, Jet *sum, const void *data, int c)
 {
     const NodePull *pull = data;
     Jet d = coordinate(probe, c, false);
@@ -450,12 +448,12 @@ static void add_pull(Probe *probe, Jet *sum, const void *data, int c)
 
 /* Objects over which a term sums */
 typedef enum PartKind {
-    SPRINGS,
-    COORDINATES,
-    WALLS,
-    CELLS,
-    SOLIDS,
-    PAIRS
+    PART_SPRING,
+    PART_COORDINATE,
+    PART_WALL_PAIR,
+    PART_CELL,
+    PART_TRIANGLE,
+    PART_EDGE_PAIR
 } PartKind;
 
 static int count_parts(const Probe *probe, PartKind parts, const void *data)
@@ -463,14 +461,14 @@ static int count_parts(const Probe *probe, PartKind parts, const void *data)
     const System *system = probe->at->system;
     const Contact *contact = get_contact(system);
     switch (parts) {
-    case SPRINGS:
+    case PART_SPRING:
         return system->springs;
-    case COORDINATES:
+    case PART_COORDINATE:
         return 2 * system->nodes;
-    case WALLS:
+    case PART_WALL_PAIR:
         return contact->obstacles * system->nodes;
-    case CELLS:
-    case SOLIDS:
+    case PART_CELL:
+    case PART_TRIANGLE:
         return ((const Triangles *)data)->count;
     default:
         return probe->outline->edges * probe->outline->points;
@@ -481,40 +479,40 @@ static int count_parts(const Probe *probe, PartKind parts, const void *data)
 
 /* Numbers on which the energy of a part depends. read: derivatives by the node
  * coordinates; move: displacements that change one number alone, by 1 */
-typedef struct Frame {
+typedef struct PartFrame {
     int n, node[3];
-    Real read[4][6];
-    double move[4][6];
-} Frame;
+    Real derivative[4][6];
+    double unit_move[4][6];
+} PartFrame;
 
 /* Fills the frame of the difference of two nodes, or of one node if j < 0. */
-static void frame_of_two(Frame *frame, int i, int j)
+static void fill_frame_of_two(PartFrame *frame, int i, int j)
 {
-    *frame = (Frame){.n = 2, .node = {i, j < 0 ? i : j, i}};
+    *frame = (PartFrame){.n = 2, .node = {i, j < 0 ? i : j, i}};
     for (int c = 0; c < 2; c++) {
-        frame->read[c][c] = frame->move[c][c] = 1;
-        frame->read[c][2 + c] = j < 0 ? 0 : -1;
+        frame->derivative[c][c] = frame->unit_move[c][c] = 1;
+        frame->derivative[c][2 + c] = j < 0 ? 0 : -1;
     }
 }
 
 /* Fills the frame of two vectors, which are weighted sums of three nodes. */
-static void frame_of_three(Frame *frame, const int node[3],
-                           const double w[2][3])
+static void fill_frame_of_three(PartFrame *frame, const int node[3],
+                                const double w[2][3])
 {
-    *frame = (Frame){.n = 4, .node = {node[0], node[1], node[2]}};
+    *frame = (PartFrame){.n = 4, .node = {node[0], node[1], node[2]}};
     double det = w[0][1] * w[1][2] - w[0][2] * w[1][1];
     for (int k = 0; k < 4; k++) {
         int m = k / 2, c = k % 2;
         for (int i = 0; i < 3; i++)
-            frame->read[k][2 * i + c] = w[m][i];
-        frame->move[k][2 + c] = (m ? -w[0][2] : w[1][2]) / det;
-        frame->move[k][4 + c] = (m ? w[0][1] : -w[1][1]) / det;
+            frame->derivative[k][2 * i + c] = w[m][i];
+        frame->unit_move[k][2 + c] = (m ? -w[0][2] : w[1][2]) / det;
+        frame->unit_move[k][4 + c] = (m ? w[0][1] : -w[1][1]) / det;
     }
 }
 
 /* Fills the frame of a point and an edge: p moves along the edge, the edge
  * turns. All other second derivatives are W'', which is never negative. */
-static void frame_of_pair(Probe *probe, Frame *frame, int i)
+static void fill_frame_of_pair(Probe *probe, PartFrame *frame, int i)
 {
     const SelfContact *self = get_self_contact(probe->at->system);
     const Outline *outline = probe->outline;
@@ -524,36 +522,38 @@ static void frame_of_pair(Probe *probe, Frame *frame, int i)
     if (p == end[0] || p == end[1] || is_far(outline->x, p, end, self->d_hat))
         return;
     point_edge_gap(probe, self, p, end, &r, n);
-    *frame = (Frame){.n = 2, .node = {p, end[0], end[1]}};
+    *frame = (PartFrame){.n = 2, .node = {p, end[0], end[1]}};
     for (int c = 0; c < 2; c++) {
         Real t = c ? n[0] : -n[1];
         const Real read[2][6] = {{t, 0, (r - 1) * t, 0, -r * t, 0},
                                  {0, 0, -n[c], 0, n[c], 0}};
         for (int k = 0; k < 6; k += 2)
             for (int m = 0; m < 2; m++)
-                frame->read[m][k + c] = read[m][k];
-        frame->move[0][c] = (double)t;
-        frame->move[1][c] = (double)(r * n[c]);
-        frame->move[1][4 + c] = (double)n[c];
+                frame->derivative[m][k + c] = read[m][k];
+        frame->unit_move[0][c] = (double)t;
+        frame->unit_move[1][c] = (double)(r * n[c]);
+        frame->unit_move[1][4 + c] = (double)n[c];
     }
 }
 
 /* Returns the frame of part i; n = 0 if the energy of the part is convex. */
-static Frame make_frame(Probe *probe, PartKind parts, const void *data, int i)
+static PartFrame make_part_frame(Probe *probe, PartKind parts, const void *data,
+                                 int i)
 {
     static const double edges[2][3] = {{-1, 1, 0}, {-1, 0, 1}};
     const System *system = probe->at->system;
     const Triangles *triangles = data;
-    Frame frame = {0};
-    if (parts == SPRINGS)
-        frame_of_two(&frame, system->e[2 * i], system->e[2 * i + 1]);
-    else if (parts == WALLS)
-        frame_of_two(&frame, i % system->nodes,
-                     ((const Contact *)data)->obstacle[i / system->nodes].node);
-    else if (parts == CELLS || parts == SOLIDS)
-        frame_of_three(&frame, triangles->node[i], edges);
-    else if (parts == PAIRS)
-        frame_of_pair(probe, &frame, i);
+    PartFrame frame = {0};
+    if (parts == PART_SPRING)
+        fill_frame_of_two(&frame, system->e[2 * i], system->e[2 * i + 1]);
+    else if (parts == PART_WALL_PAIR)
+        fill_frame_of_two(
+            &frame, i % system->nodes,
+            ((const Contact *)data)->obstacle[i / system->nodes].node);
+    else if (parts == PART_CELL || parts == PART_TRIANGLE)
+        fill_frame_of_three(&frame, triangles->node[i], edges);
+    else if (parts == PART_EDGE_PAIR)
+        fill_frame_of_pair(probe, &frame, i);
     return frame;
 }
 
@@ -562,19 +562,19 @@ static const struct {
     const TermKind *kind;
     PartKind parts;
     void (*part)(Probe *probe, Jet *sum, const void *data, int i);
-} formulas[] = {{&mass_spring_energy, SPRINGS, add_spring},
-                {&plastic_energy, SPRINGS, add_spring},
-                {&contact_energy, WALLS, add_wall_contact},
-                {&friction_energy, WALLS, add_wall_contact},
-                {&cell_energy, CELLS, add_cell},
-                {&central_field, COORDINATES, add_pull},
-                {&hand_energy, COORDINATES, add_pull},
-                {&neo_hookean_energy, SOLIDS, add_solid},
-                {&self_contact_energy, PAIRS, add_self_contact},
-                {&self_friction_energy, PAIRS, add_self_contact}};
+} formulas[] = {{&mass_spring_energy, PART_SPRING, add_spring_energy},
+                {&plastic_energy, PART_SPRING, add_spring_energy},
+                {&contact_energy, PART_WALL_PAIR, add_wall_contact},
+                {&friction_energy, PART_WALL_PAIR, add_wall_contact},
+                {&cell_energy, PART_CELL, add_cell_energy},
+                {&central_field, PART_COORDINATE, add_pull_energy},
+                {&hand_energy, PART_COORDINATE, add_pull_energy},
+                {&neo_hookean_energy, PART_TRIANGLE, add_triangle_energy},
+                {&self_contact_energy, PART_EDGE_PAIR, add_self_contact},
+                {&self_friction_energy, PART_EDGE_PAIR, add_self_contact}};
 
 /* Returns the row of a term, or -1. */
-static int find_formula(const TermKind *kind)
+static int find_formula_row(const TermKind *kind)
 {
     int row = (int)(sizeof formulas / sizeof *formulas) - 1;
     while (row >= 0 && formulas[row].kind != kind)
@@ -583,10 +583,10 @@ static int find_formula(const TermKind *kind)
 }
 
 /* Adds sign times the displacement that changes number k to p [2n]. */
-static void move_nodes(const Frame *frame, int k, double sign, double *p)
+static void add_unit_move(const PartFrame *frame, int k, double sign, double *p)
 {
     for (int i = 0; i < 6; i++)
-        p[2 * frame->node[i / 2] + i % 2] += sign * frame->move[k][i];
+        p[2 * frame->node[i / 2] + i % 2] += sign * frame->unit_move[k][i];
 }
 
 /* Finds the negative eigenvalues of the block of one part, in the numbers of
@@ -594,31 +594,31 @@ static void move_nodes(const Frame *frame, int k, double sign, double *p)
  *   lift  [4] out, what cutting adds to each eigenvalue
  *   rows  [4][6] out, eigenvectors over the coordinates of the frame's nodes */
 static int find_lifts(const Probe *probe, int row, const void *data, int part,
-                      double *p, double *q, Frame *frame, Real lift[4],
+                      double *p, double *q, PartFrame *frame, Real lift[4],
                       Real rows[4][6])
 {
     Probe own = *probe;
-    *frame = make_frame(&own, formulas[row].parts, data, part);
+    *frame = make_part_frame(&own, formulas[row].parts, data, part);
     Real A[16], v[16];
     int n = frame->n;
     own.p = p;
     own.q = q;
     for (int i = 0; i < n * n; i++) {
         Jet W = {0};
-        move_nodes(frame, i / n, 1, p);
-        move_nodes(frame, i % n, 1, q);
+        add_unit_move(frame, i / n, 1, p);
+        add_unit_move(frame, i % n, 1, q);
         formulas[row].part(&own, &W, data, part);
-        move_nodes(frame, i / n, -1, p);
-        move_nodes(frame, i % n, -1, q);
+        add_unit_move(frame, i / n, -1, p);
+        add_unit_move(frame, i % n, -1, q);
         A[i] = W.pq;
     }
-    exact_eigen(n, A, v);
+    exact_eigenvectors(n, A, v);
     for (int k = 0; k < n; k++) {
         lift[k] = -fminl(A[(n + 1) * k], 0);
         for (int i = 0; i < 6; i++) {
             rows[k][i] = 0;
             for (int m = 0; m < n; m++)
-                rows[k][i] += v[n * m + k] * frame->read[m][i];
+                rows[k][i] += v[n * m + k] * frame->derivative[m][i];
         }
     }
     return n;
@@ -641,9 +641,9 @@ Jet oracle_energy(Probe *probe, const TermKind *only)
     Outline outline = find_outline_at_point(probe);
     Jet sum = {0};
     probe->outline = &outline;
-    probe->size = (Jet){0};
+    probe->abs_sum = (Jet){0};
     for (int t = 0; t < system->terms; t++) {
-        int row = find_formula(system->term[t].kind);
+        int row = find_formula_row(system->term[t].kind);
         const void *data = system->term[t].data;
         if (row < 0 || (only && only != formulas[row].kind))
             continue;
@@ -651,11 +651,11 @@ Jet oracle_energy(Probe *probe, const TermKind *only)
         for (int i = 0; i < count; i++)
             formulas[row].part(probe, &sum, data, i);
     }
-    probe->size = jet_add((Jet){0}, probe->at->weight, probe->size);
+    probe->abs_sum = jet_add((Jet){0}, probe->at->weight, probe->abs_sum);
     return jet_add((Jet){0}, probe->at->weight, sum);
 }
 
-Jet oracle_step(Probe *probe, const double *u_tilde)
+Jet oracle_step_energy(Probe *probe, const double *u_tilde)
 {
     const System *system = probe->at->system;
     Jet sum = oracle_energy(probe, NULL);
@@ -684,34 +684,33 @@ static int find_part_nodes(const Probe *probe, PartKind parts, const void *data,
 {
     const System *system = probe->at->system;
     const Outline *outline = probe->outline;
-    const int *from = parts == SPRINGS ? system->e + 2 * i
-                      : parts == CELLS || parts == SOLIDS
+    const int *from = parts == PART_SPRING ? system->e + 2 * i
+                      : parts == PART_CELL || parts == PART_TRIANGLE
                           ? ((const Triangles *)data)->node[i]
                           : node;
-    if (parts == COORDINATES)
+    if (parts == PART_COORDINATE)
         node[0] = i / 2;
-    else if (parts == WALLS) {
+    else if (parts == PART_WALL_PAIR) {
         node[0] = i % system->nodes;
         node[1] = get_contact(system)->obstacle[i / system->nodes].node;
-    } else if (parts == PAIRS) {
+    } else if (parts == PART_EDGE_PAIR) {
         node[0] = outline->point[i % outline->points];
         memcpy(node + 1, outline->edge[i / outline->points], 2 * sizeof *node);
     }
-    int count = parts == SPRINGS       ? 2
-                : parts == COORDINATES ? 1
-                : parts != WALLS       ? 3
-                : node[1] < 0          ? 1
-                                       : 2;
+    int count = parts == PART_SPRING       ? 2
+                : parts == PART_COORDINATE ? 1
+                : parts != PART_WALL_PAIR  ? 3
+                : node[1] < 0              ? 1
+                                           : 2;
     memmove(node, from, (size_t)count * sizeof *node);
     return count;
 }
 
-/* Adds `lifts` times what cutting adds to a block, whose nodes are those of the
- * frame in their order. */
+/* Adds `lifts` times what cutting adds to a block with the frame's nodes. */
 static void add_lift(const Probe *probe, int row, const void *data, int part,
-                     int lifts, double *p, double *q, Block *block)
+                     int lifts, double *p, double *q, PartBlock *block)
 {
-    Frame frame;
+    PartFrame frame;
     Real lift[4], rows[4][6];
     int size = 2 * block->count;
     int n = find_lifts(probe, row, data, part, p, q, &frame, lift, rows);
@@ -722,15 +721,15 @@ static void add_lift(const Probe *probe, int row, const void *data, int part,
 }
 
 /* Computes the block of a part, if it has energy. p, q [2n] all 0 */
-static bool evaluate_block(Probe *probe, int row, const void *data, int part,
-                           int lifts, double *p, double *q, Block *block)
+static bool evaluate_part(Probe *probe, int row, const void *data, int part,
+                          int lifts, double *p, double *q, PartBlock *block)
 {
-    long booked = probe->booked;
+    long booked = probe->part_count;
     Real w = probe->at->weight;
     Jet W = {0};
-    *block = (Block){0};
+    *block = (PartBlock){0};
     formulas[row].part(probe, &W, data, part);
-    if (probe->booked == booked)
+    if (probe->part_count == booked)
         return false;
     block->count =
         find_part_nodes(probe, formulas[row].parts, data, part, block->node);
@@ -751,64 +750,65 @@ static bool evaluate_block(Probe *probe, int row, const void *data, int part,
 }
 
 /* Passes the inertia of each node and then all parts of all terms to `take`. */
-static void visit_blocks(const Probe *there, const double *u,
-                         const double *u_tilde, int lifts,
-                         void (*take)(void *to, const Block *block), void *to)
+static void visit_parts(const Probe *there, const double *u,
+                        const double *u_tilde, int lifts,
+                        void (*take)(void *to, const PartBlock *block),
+                        void *to)
 {
     const System *system = there->at->system;
     Outline outline = find_outline_at_point(there);
     double *p = calloc(4 * (size_t)system->nodes, sizeof *p);
     double *q = p + 2 * system->nodes;
     Probe probe = *there;
-    Block block;
+    PartBlock block;
     CHECK(p != NULL);
     probe.p = p;
     probe.q = q;
     probe.outline = &outline;
     for (int i = 0; i < system->nodes; i++) {
         Real m = system->m[i];
-        block = (Block){.count = 1, .node = {i}, .H = {m, 0, 0, m}};
+        block = (PartBlock){.count = 1, .node = {i}, .H = {m, 0, 0, m}};
         for (int c = 0; c < 2; c++)
             block.g[c] = m * ((Real)u[2 * i + c] - u_tilde[2 * i + c]);
         take(to, &block);
     }
     for (int t = 0; t < system->terms; t++) {
-        int row = find_formula(system->term[t].kind);
+        int row = find_formula_row(system->term[t].kind);
         const void *data = system->term[t].data;
         int count =
             row < 0 ? 0 : count_parts(&probe, formulas[row].parts, data);
         for (int i = 0; i < count; i++)
-            if (evaluate_block(&probe, row, data, i, lifts, p, q, &block))
+            if (evaluate_part(&probe, row, data, i, lifts, p, q, &block))
                 take(to, &block);
     }
     free(p);
 }
 
-void exact_blocks(const IncrementalPotential *E, const double *u, int lifts,
-                  void (*take)(void *to, const Block *block), void *to)
+void visit_blocks(const IncrementalPotential *E, const double *u, int lifts,
+                  void (*take)(void *to, const PartBlock *block), void *to)
 {
     EvalPoint at = make_eval_point(E->system, E->x_n, u, NULL);
     at.weight = E->weight;
     const Probe probe = {.at = &at, .h = sqrtl(E->weight)};
-    visit_blocks(&probe, u, E->u_tilde, lifts, take, to);
+    visit_parts(&probe, u, E->u_tilde, lifts, take, to);
 }
 
 /* The system of a Newton update: gradient g [2n], the sum of the absolute
  * values of its parts [2n], and H [2n 2n] */
-typedef struct Assembly {
+typedef struct DenseSystem {
     const System *system;
-    Real *g, *size, *H;
-    int n, lifts;
-} Assembly;
+    Real *g, *abs_sum, *H;
+    int n, lift_factor;
+} DenseSystem;
 
-static void add_block(void *assembly, const Block *block)
+static void add_block(void *assembly, const PartBlock *block)
 {
-    const Assembly *to = assembly;
+    const DenseSystem *to = assembly;
     int n = 2 * block->count;
     for (int i = 0; i < n; i++) {
         int r = 2 * block->node[i / 2] + i % 2;
         to->g[r] += block->g[i];
-        to->size[r] += fabsl(block->g[i]);
+        to->abs_sum[r] += fabsl(block->g[i]);
         for (int k = 0; k < n; k++)
             to->H[to->n * r + 2 * block->node[k / 2] + k % 2] +=
                 block->H[n * i + k];
@@ -816,21 +816,21 @@ static void add_block(void *assembly, const Block *block)
 }
 
 /* Assembles g, size and H, with unit rows for pinned nodes. */
-static void assemble(const Probe *probe, const double *u, const double *u_tilde,
-                     const Assembly *to)
+static void assemble_system(const Probe *probe, const double *u,
+                            const double *u_tilde, const DenseSystem *to)
 {
     const System *system = to->system;
     size_t n = (size_t)to->n;
     memset(to->g, 0, n * sizeof *to->g);
-    memset(to->size, 0, n * sizeof *to->size);
+    memset(to->abs_sum, 0, n * sizeof *to->abs_sum);
     memset(to->H, 0, n * n * sizeof *to->H);
-    visit_blocks(probe, u, u_tilde, to->lifts, add_block, (void *)to);
+    visit_parts(probe, u, u_tilde, to->lift_factor, add_block, (void *)to);
     for (size_t r = 0; r < n; r++) {
         if (!system->pinned[r / 2])
             continue;
         for (size_t c = 0; c < n; c++)
             to->H[n * r + c] = to->H[n * c + r] = r == c;
-        to->g[r] = to->size[r] = 0;
+        to->g[r] = to->abs_sum[r] = 0;
     }
 }
 
@@ -843,21 +843,21 @@ void exact_derivatives(const IncrementalPotential *E, const double *u,
     EvalPoint at = make_eval_point(E->system, E->x_n, u, x);
     at.weight = E->weight;
     const Probe probe = {.at = &at, .h = h};
-    const Assembly to = {E->system, g, size, H, (int)n, lifts};
-    assemble(&probe, u, E->u_tilde, &to);
+    const DenseSystem to = {E->system, g, size, H, (int)n, lifts};
+    assemble_system(&probe, u, E->u_tilde, &to);
     free(size);
 }
 
 /* Factors H = L D L^T without pivoting; L D replaces H on and below the
  * diagonal. Returns false if a pivot is 0. A pivot below the mass in a clamped
  * H is a rounding error and replaced by the mass. */
-static bool factor_densely(const Assembly *of)
+static bool factor_densely(const DenseSystem *of)
 {
     int n = of->n;
     Real *H = of->H;
     for (int c = 0; c < n; c++) {
         Real m = of->system->pinned[c / 2] ? 0 : of->system->m[c / 2];
-        if (of->lifts && H[n * c + c] < m)
+        if (of->lift_factor && H[n * c + c] < m)
             H[n * c + c] = m;
         if (!(fabsl(H[n * c + c]) > 0))
             return false;
@@ -872,7 +872,7 @@ static bool factor_densely(const Assembly *of)
 
 /* Returns the largest |p_x| + |p_y| of p = -H^-1 g, or infinity if H is
  * singular. g becomes -p, H its factor. */
-static Real solve_densely(const Assembly *of)
+static Real solve_densely(const DenseSystem *of)
 {
     int n = of->n;
     Real most = 0, *H = of->H, *b = of->g;
@@ -900,23 +900,24 @@ double exact_rise(const IncrementalPotential *E, const double *from,
     for (int i = 0; i < 2; i++) {
         EvalPoint at = make_eval_point(E->system, E->x_n, i ? to : from, NULL);
         at.weight = E->weight;
-        Probe probe = {.at = &at, .h = sqrtl(E->weight), .moved = moved};
-        energy[i] = oracle_step(&probe, E->u_tilde).f;
+        Probe probe = {.at = &at, .h = sqrtl(E->weight), .wall_time = moved};
+        energy[i] = oracle_step_energy(&probe, E->u_tilde).f;
     }
     return (double)(energy[1] - energy[0]);
 }
 
 /* UNITS: error of each part of a double gradient and of each coordinate, in
  * units of the last place. SAMPLES: random errors, of which the worst counts */
-enum { UNITS = 4, SAMPLES = 12 };
+enum { ERROR_ULPS = 4, ERROR_SAMPLES = 12 };
 
 /* Returns the largest |p_x| + |p_y| after random errors in the last digits of
  * x, x_n and the parts of the gradient. All parts see the same positions, so
  * that forces balance. u is off by half a unit of its last digit, which inertia
  * feels where u is much larger than u - u_tilde. place [4n] workspace */
 static Real find_perturbed_residual(const Probe *probe, const double *u,
-                                    const double *u_tilde, const Assembly *of,
-                                    Random *random, double *place)
+                                    const double *u_tilde,
+                                    const DenseSystem *of, Random *random,
+                                    double *place)
 {
     const System *system = probe->at->system;
     double *x = place, *x_n = place + of->n;
@@ -926,24 +927,24 @@ static Real find_perturbed_residual(const Probe *probe, const double *u,
     at.x = x;
     at.x_n = x_n;
     for (int i = 0; i < of->n; i++) {
-        double ulps = UNITS * DBL_EPSILON * random_uniform(random, -1, 1);
+        double ulps = ERROR_ULPS * DBL_EPSILON * random_uniform(random, -1, 1);
         x[i] = probe->at->x[i] * (1 + ulps);
         x_n[i] = probe->at->x_n[i] * (1 + ulps);
     }
-    assemble(&own, u, u_tilde, of);
+    assemble_system(&own, u, u_tilde, of);
     for (int i = 0; i < of->n; i++) {
         Real m = system->pinned[i / 2] ? 0 : system->m[i / 2];
         of->g[i] += (2 * random_below(random, 2) - 1) * DBL_EPSILON *
-                    (UNITS * of->size[i] + m * fabsl(u[i]) / 2);
+                    (ERROR_ULPS * of->abs_sum[i] + m * fabsl(u[i]) / 2);
     }
     return solve_densely(of);
 }
 
 /* Returns exact_residual for a given probe->side. */
-static double find_residual_on_side(const IncrementalPotential *E,
-                                    const double *u, const double *x, double h,
-                                    double moved, int lifts, int side,
-                                    double *noise)
+static double find_residual_on_flow_side(const IncrementalPotential *E,
+                                         const double *u, const double *x,
+                                         double h, double moved, int lifts,
+                                         int side, double *noise)
 {
     size_t n = 2 * (size_t)E->system->nodes;
     double *place = calloc(2 * n, sizeof *place);
@@ -952,12 +953,14 @@ static double find_residual_on_side(const IncrementalPotential *E,
     CHECK(place != NULL && g != NULL);
     EvalPoint at = make_eval_point(E->system, E->x_n, u, x);
     at.weight = E->weight;
-    const Probe probe = {
-        .at = &at, .h = sqrtl(E->weight), .moved = moved, .side = side};
-    const Assembly to = {E->system, g, g + n, g + 2 * n, (int)n, lifts};
-    assemble(&probe, u, E->u_tilde, &to);
+    const Probe probe = {.at = &at,
+                         .h = sqrtl(E->weight),
+                         .wall_time = moved,
+                         .flow_side = side};
+    const DenseSystem to = {E->system, g, g + n, g + 2 * n, (int)n, lifts};
+    assemble_system(&probe, u, E->u_tilde, &to);
     Real most = solve_densely(&to);
-    for (int round = 0; noise && round < SAMPLES; round++)
+    for (int round = 0; noise && round < ERROR_SAMPLES; round++)
         blur = fmaxl(blur, fabsl(find_perturbed_residual(&probe, u, E->u_tilde,
                                                          &to, &random, place) -
                                  most));
@@ -977,8 +980,8 @@ double exact_residual(const IncrementalPotential *E, const double *u,
     bool flows = system_find_term(E->system, &plastic_energy) != NULL;
     double least = INFINITY, blur;
     for (int side = flows ? -1 : 0; side <= flows; side++) {
-        double residual = find_residual_on_side(E, u, x, h, moved, lifts, side,
-                                                noise ? &blur : NULL);
+        double residual = find_residual_on_flow_side(
+            E, u, x, h, moved, lifts, side, noise ? &blur : NULL);
         if (noise && (residual <= least || side <= 0))
             *noise = blur;
         least = fmin(least, residual);
@@ -986,7 +989,7 @@ double exact_residual(const IncrementalPotential *E, const double *u,
     return least;
 }
 
-void exact_eigen(int n, Real *a, Real *v)
+void exact_eigenvectors(int n, Real *a, Real *v)
 {
     for (int i = 0; i < n * n; i++)
         v[i] = i % (n + 1) == 0;
@@ -1013,25 +1016,25 @@ void exact_eigen(int n, Real *a, Real *v)
 /* ---- boundaries that must not cross ------------------------------------- */
 
 /* Returns twice the area of the triangle with nodes a, b and c. */
-static Real double_area(const double *x, int a, int b, int c)
+static Real twice_area(const double *x, int a, int b, int c)
 {
     const double *o = x + 2 * a, *p = x + 2 * b, *q = x + 2 * c;
     return ((Real)p[0] - o[0]) * ((Real)q[1] - o[1]) -
            ((Real)p[1] - o[1]) * ((Real)q[0] - o[0]);
 }
 
-long exact_crossings(const System *system, const double *x)
+long edge_crossings(const System *system, const double *x)
 {
     Outline outline = find_outline(system);
     long count = 0;
     for (int k = 0; k < outline.edges; k++)
         for (int l = 0; l < k; l++) {
             const int *e = outline.edge[k], *f = outline.edge[l];
-            count += double_area(x, e[0], e[1], f[0]) *
-                             double_area(x, e[0], e[1], f[1]) <
+            count += twice_area(x, e[0], e[1], f[0]) *
+                             twice_area(x, e[0], e[1], f[1]) <
                          0 &&
-                     double_area(x, f[0], f[1], e[0]) *
-                             double_area(x, f[0], f[1], e[1]) <
+                     twice_area(x, f[0], f[1], e[0]) *
+                             twice_area(x, f[0], f[1], e[1]) <
                          0;
         }
     return count;
@@ -1049,7 +1052,7 @@ double exact_gap(const System *system, const double *x, int node, int obstacle)
                     scaled_gap(&probe, contact, node, obstacle, n).f);
 }
 
-double smallest_gap(const System *system, const double *x)
+double find_smallest_gap(const System *system, const double *x)
 {
     const Contact *contact = get_contact(system);
     double smallest = INFINITY;
@@ -1060,7 +1063,7 @@ double smallest_gap(const System *system, const double *x)
     return smallest;
 }
 
-double smallest_cell(const System *system, const double *x)
+double smallest_area_ratio(const System *system, const double *x)
 {
     const CellBarriers *cells = system_term_data(system, &cell_energy);
     const NeoHookean *solid = get_neo_hookean(system);
@@ -1074,7 +1077,7 @@ double smallest_cell(const System *system, const double *x)
     for (int t = 0; solid && t < solid->triangles.count; t++) {
         const int *node = solid->triangles.node[t];
         smallest =
-            fmin(smallest, (double)(double_area(x, node[0], node[1], node[2]) /
+            fmin(smallest, (double)(twice_area(x, node[0], node[1], node[2]) /
                                     (2 * solid->triangles.rest_area)));
     }
     return smallest;

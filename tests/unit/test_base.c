@@ -10,80 +10,80 @@
 
 /* ---- factorisations ---------------------------------------------------- */
 
-enum { GRID = 7, SIZE = GRID * GRID, ENTRIES = 3 * SIZE };
+enum { SIDE = 7, UNKNOWNS = SIDE * SIDE, ENTRIES = 3 * UNKNOWNS };
 
 /* A sparse matrix of a grid: diagonal, left and lower neighbours */
-typedef struct Problem {
+typedef struct GridMatrix {
     Triplets triplets;
     Sparse A;
     Cholesky *cholesky;
-} Problem;
+} GridMatrix;
 
-static void problem_create(CholeskyKind kind, Problem *problem)
+static void grid_matrix_create(CholeskyKind kind, GridMatrix *matrix)
 {
-    problem->triplets = (Triplets){.matrix_size = SIZE, .count = ENTRIES};
-    CHECK_OK(triplets_allocate(&problem->triplets));
-    for (int i = 0; i < SIZE; i++) {
-        triplets_add(&problem->triplets, i, i);
-        if (i % GRID > 0)
-            triplets_add(&problem->triplets, i, i - 1);
-        if (i >= GRID)
-            triplets_add(&problem->triplets, i, i - GRID);
+    matrix->triplets = (Triplets){.matrix_size = UNKNOWNS, .count = ENTRIES};
+    CHECK_OK(triplets_allocate(&matrix->triplets));
+    for (int i = 0; i < UNKNOWNS; i++) {
+        triplets_add(&matrix->triplets, i, i);
+        if (i % SIDE > 0)
+            triplets_add(&matrix->triplets, i, i - 1);
+        if (i >= SIDE)
+            triplets_add(&matrix->triplets, i, i - SIDE);
     }
-    CHECK_OK(sparse_create(&problem->triplets, &problem->A));
-    CHECK_OK(cholesky_create(&problem->A, kind, &problem->cholesky));
+    CHECK_OK(sparse_create(&matrix->triplets, &matrix->A));
+    CHECK_OK(cholesky_create(&matrix->A, kind, &matrix->cholesky));
 }
 
-static void problem_free(Problem *problem)
+static void grid_matrix_free(GridMatrix *matrix)
 {
-    cholesky_free(problem->cholesky);
-    sparse_free(&problem->A);
-    triplets_free(&problem->triplets);
+    cholesky_free(matrix->cholesky);
+    sparse_free(&matrix->A);
+    triplets_free(&matrix->triplets);
 }
 
 /* Returns the entry (row, column), row >= column. */
-static double *find_entry_value(Problem *problem, int row, int column)
+static double *find_entry_value(GridMatrix *matrix, int row, int column)
 {
-    for (int s = problem->A.column_start[column];; s++)
-        if (problem->A.row[s] == row)
-            return problem->A.value + s;
+    for (int s = matrix->A.column_start[column];; s++)
+        if (matrix->A.row[s] == row)
+            return matrix->A.value + s;
 }
 
 /* Fills the matrix at random; the diagonal exceeds the sum of a row by 1/2. */
-static void problem_fill(Random *random, Problem *problem)
+static void fill_grid_matrix(Random *random, GridMatrix *matrix)
 {
-    Sparse *A = &problem->A;
-    double sum[SIZE] = {0};
-    for (int c = 0; c < SIZE; c++)
+    Sparse *A = &matrix->A;
+    double sum[UNKNOWNS] = {0};
+    for (int c = 0; c < UNKNOWNS; c++)
         for (int s = A->column_start[c]; s < A->column_start[c + 1]; s++) {
             A->value[s] = random_uniform(random, -1, 1);
             sum[c] += fabs(A->value[s]);
             sum[A->row[s]] += fabs(A->value[s]);
         }
-    for (int i = 0; i < SIZE; i++)
-        *find_entry_value(problem, i, i) = sum[i] + 0.5;
+    for (int i = 0; i < UNKNOWNS; i++)
+        *find_entry_value(matrix, i, i) = sum[i] + 0.5;
 }
 
 /* Checks that A x = b within the tolerance, in place or not. */
-static void check_solution(Random *random, Problem *problem, double tolerance)
+static void check_solution(Random *random, GridMatrix *matrix, double tolerance)
 {
-    double b[SIZE], x[2][SIZE], A[SIZE * SIZE];
-    for (int i = 0; i < SIZE; i++)
+    double b[UNKNOWNS], x[2][UNKNOWNS], A[UNKNOWNS * UNKNOWNS];
+    for (int i = 0; i < UNKNOWNS; i++)
         b[i] = x[1][i] = random_uniform(random, -1, 1);
-    dense_from_sparse(&problem->A, A);
+    dense_from_sparse(&matrix->A, A);
     for (int k = 0; k < 2; k++) {
-        CHECK_OK(cholesky_solve(problem->cholesky, k ? x[k] : b, x[k]));
-        for (int i = 0; i < SIZE; i++) {
+        CHECK_OK(cholesky_solve(matrix->cholesky, k ? x[k] : b, x[k]));
+        for (int i = 0; i < UNKNOWNS; i++) {
             Real sum = 0;
-            for (int j = 0; j < SIZE; j++)
-                sum += (Real)A[SIZE * i + j] * x[k][j];
+            for (int j = 0; j < UNKNOWNS; j++)
+                sum += (Real)A[UNKNOWNS * i + j] * x[k][j];
             CHECK_NEAR(sum, b[i], tolerance);
         }
     }
 }
 
 typedef enum Damage {
-    NOTHING,
+    NO_DAMAGE,
     NEGATE_ONE,  /* one entry of the diagonal changes its sign */
     NEGATE_HALF, /* half of the diagonal changes its sign */
     EMPTY_ROW,   /* row and column 7; b is not 0 there */
@@ -93,11 +93,11 @@ typedef enum Damage {
     ALL_TINY /* 1 / 1e-310 is infinite */
 } Damage;
 
-static void damage_matrix(Problem *problem, Damage how, int trial)
+static void damage_matrix(GridMatrix *matrix, Damage how, int trial)
 {
     static const double bad[] = {NAN, INFINITY, -INFINITY};
-    Sparse *A = &problem->A;
-    for (int c = 0; c < SIZE; c++)
+    Sparse *A = &matrix->A;
+    for (int c = 0; c < UNKNOWNS; c++)
         for (int s = A->column_start[c]; s < A->column_start[c + 1]; s++) {
             double *value = A->value + s;
             int r = A->row[s];
@@ -127,8 +127,8 @@ TEST(matrices_are_solved_or_named)
         Status factor, solve;
         double tolerance;
     } rows[] = {
-        {NOTHING, CHOLESKY_DEFINITE, STATUS_OK, STATUS_OK, 1e-14},
-        {NOTHING, CHOLESKY_INDEFINITE, STATUS_OK, STATUS_OK, 1e-14},
+        {NO_DAMAGE, CHOLESKY_DEFINITE, STATUS_OK, STATUS_OK, 1e-14},
+        {NO_DAMAGE, CHOLESKY_INDEFINITE, STATUS_OK, STATUS_OK, 1e-14},
         {NEGATE_HALF, CHOLESKY_INDEFINITE, STATUS_OK, STATUS_OK, 1e-14},
         {SMALL_PIVOT, CHOLESKY_INDEFINITE, STATUS_OK, STATUS_OK, 1e-14},
         {NEGATE_ONE, CHOLESKY_DEFINITE, STATUS_NOT_POSITIVE_DEFINITE, 0, 0},
@@ -142,26 +142,26 @@ TEST(matrices_are_solved_or_named)
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         Random random = {30 + (uint64_t)i};
-        Problem problem;
-        problem_create(rows[i].kind, &problem);
-        problem.A.value[problem.A.entries] = NAN;
-        for (int trial = 0; trial < SIZE; trial++) {
-            double x[SIZE];
-            for (int k = 0; k < SIZE; k++)
+        GridMatrix matrix;
+        grid_matrix_create(rows[i].kind, &matrix);
+        matrix.A.value[matrix.A.entries] = NAN;
+        for (int trial = 0; trial < UNKNOWNS; trial++) {
+            double x[UNKNOWNS];
+            for (int k = 0; k < UNKNOWNS; k++)
                 x[k] = 1;
-            problem_fill(&random, &problem);
-            damage_matrix(&problem, rows[i].how, trial);
-            CHECK_STATUS(cholesky_factor(problem.cholesky), rows[i].factor);
+            fill_grid_matrix(&random, &matrix);
+            damage_matrix(&matrix, rows[i].how, trial);
+            CHECK_STATUS(cholesky_factor(matrix.cholesky), rows[i].factor);
             if (rows[i].factor == STATUS_OK)
-                CHECK_STATUS(cholesky_solve(problem.cholesky, x, x),
+                CHECK_STATUS(cholesky_solve(matrix.cholesky, x, x),
                              rows[i].solve);
             if (rows[i].tolerance > 0)
-                check_solution(&random, &problem, rows[i].tolerance);
-            problem_fill(&random, &problem);
-            CHECK_OK(cholesky_factor(problem.cholesky));
-            check_solution(&random, &problem, 1e-14);
+                check_solution(&random, &matrix, rows[i].tolerance);
+            fill_grid_matrix(&random, &matrix);
+            CHECK_OK(cholesky_factor(matrix.cholesky));
+            check_solution(&random, &matrix, 1e-14);
         }
-        problem_free(&problem);
+        grid_matrix_free(&matrix);
     }
 }
 
@@ -182,15 +182,14 @@ enum { MAX_ORDER = 21, LD = MAX_ORDER + 2 };
 static const int ld = LD;
 static const double one = 1, zero = 0;
 
-static void fill_matrix(Random *random, double *A)
+static void fill_random_matrix(Random *random, double *A)
 {
     for (int i = 0; i < LD * MAX_ORDER; i++)
         A[i] = random_uniform(random, -1, 1);
 }
 
 /* Returns sum_p A[i, p] B[j, p], p = 0 ... k - 1. */
-static double multiply_rows(const double *A, const double *B, int i, int j,
-                            int k)
+static double dot_rows(const double *A, const double *B, int i, int j, int k)
 {
     double sum = 0;
     for (int p = 0; p < k; p++)
@@ -208,8 +207,8 @@ TEST(products_have_one_order_of_sums)
     for (int m = 1; m <= MAX_ORDER; m++)
         for (int n = 1; n <= 9; n++) {
             int k = (m * n) % MAX_ORDER;
-            fill_matrix(&random, A);
-            fill_matrix(&random, B);
+            fill_random_matrix(&random, A);
+            fill_random_matrix(&random, B);
             for (int i = 0; i < LD * MAX_ORDER; i++)
                 C[i] = S[i] = 7;
             dgemm_("N", "C", &m, &n, &k, &one, A, &ld, B, &ld, &zero, C, &ld);
@@ -217,12 +216,11 @@ TEST(products_have_one_order_of_sums)
             for (int j = 0; j < MAX_ORDER; j++)
                 for (int i = 0; i < LD; i++) {
                     double *c = C + j * LD + i, *s = S + j * LD + i;
-                    CHECK(*c ==
-                          (i < m && j < n ? multiply_rows(A, B, i, j, k) : 7));
+                    CHECK(*c == (i < m && j < n ? dot_rows(A, B, i, j, k) : 7));
                     if (i >= m || j >= m)
                         CHECK(*s == 7);
                     else if (i >= j)
-                        CHECK(*s == multiply_rows(A, A, i, j, k));
+                        CHECK(*s == dot_rows(A, A, i, j, k));
                 }
         }
 }
@@ -236,21 +234,21 @@ TEST(factors_and_divisions_are_exact_to_rounding)
         X[LD * MAX_ORDER];
     for (int n = 1; n <= MAX_ORDER; n++) {
         int info = -1, m = 1 + (5 * n) % MAX_ORDER;
-        fill_matrix(&random, A);
+        fill_random_matrix(&random, A);
         for (int i = 0; i < n; i++)
             A[i * LD + i] = 4 + n;
         memcpy(L, A, sizeof A);
         dpotrf_("L", &n, L, &ld, &info);
         CHECK(info == 0);
-        fill_matrix(&random, B);
+        fill_random_matrix(&random, B);
         memcpy(X, B, sizeof B);
         dtrsm_("R", "L", "C", "N", &m, &n, &one, L, &ld, X, &ld);
         for (int j = 0; j < n; j++) {
             for (int i = j; i < n; i++)
-                CHECK_NEAR(multiply_rows(L, L, i, j, j + 1), A[j * LD + i],
+                CHECK_NEAR(dot_rows(L, L, i, j, j + 1), A[j * LD + i],
                            8 * DBL_EPSILON * (4 + n));
             for (int i = 0; i < m; i++)
-                CHECK_NEAR(multiply_rows(X, L, i, j, j + 1), B[j * LD + i],
+                CHECK_NEAR(dot_rows(X, L, i, j, j + 1), B[j * LD + i],
                            8 * DBL_EPSILON * (4 + n));
         }
         A[(n - 1) * LD + n - 1] = -1;
@@ -260,7 +258,7 @@ TEST(factors_and_divisions_are_exact_to_rounding)
 }
 
 /* Returns the error of a double in units of its last place. */
-static double count_ulps(double got, long double exact)
+static double find_ulp_error(double got, long double exact)
 {
     double nearest = (double)exact;
     if (!isfinite(nearest))
@@ -270,11 +268,11 @@ static double count_ulps(double got, long double exact)
 }
 
 /* Checks the 1.5 units of the last place that mathematics.h promises. */
-static void check_digits(double x, double z)
+static void check_function_digits(double x, double z)
 {
-    CHECK_AT_MOST(count_ulps(math_log(x), logl(x)), 1.5);
-    CHECK_AT_MOST(count_ulps(math_log1p(z), log1pl(z)), 1.5);
-    CHECK_AT_MOST(count_ulps(math_hypot(x, z), hypotl(x, z)), 1.5);
+    CHECK_AT_MOST(find_ulp_error(math_log(x), logl(x)), 1.5);
+    CHECK_AT_MOST(find_ulp_error(math_log1p(z), log1pl(z)), 1.5);
+    CHECK_AT_MOST(find_ulp_error(math_hypot(x, z), hypotl(x, z)), 1.5);
 }
 
 TEST(functions_are_right_to_the_last_place)
@@ -286,16 +284,16 @@ TEST(functions_are_right_to_the_last_place)
     const int count = sizeof edges / sizeof *edges;
     Random random = {81};
     for (int i = 0; i < count * count; i++)
-        check_digits(edges[i / count], edges[i % count]);
+        check_function_digits(edges[i / count], edges[i % count]);
     for (int i = 0; i < 300000; i++) {
         double x = i % 3 == 0   ? random_logarithmic(&random, 1e-300, 1e300)
                    : i % 3 == 1 ? random_uniform(&random, 0.5, 2)
                                 : 1 + random_uniform(&random, -1e-6, 1e-6);
         double z = i % 2 ? random_uniform(&random, -0.999, 3)
                          : random_logarithmic(&random, 1e-20, 1e20);
-        check_digits(x, i % 4 == 2 && z < 0.5 ? -z : z);
+        check_function_digits(x, i % 4 == 2 && z < 0.5 ? -z : z);
         if (i % 5 == 0)
-            check_digits(x, x * random_uniform(&random, -2, 2));
+            check_function_digits(x, x * random_uniform(&random, -2, 2));
     }
 }
 

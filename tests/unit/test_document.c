@@ -25,7 +25,7 @@ static int count_lines(const char *word)
 }
 
 /* Checks that each line has the fields of its word, and that braces match. */
-static void check_lines(void)
+static void check_document_lines(void)
 {
     static const struct {
         const char *word;
@@ -70,7 +70,7 @@ TEST(a_page_keeps_its_answer_until_the_guess)
         begin_player(line);
         player.setup.asks_guess = true;
         write_document();
-        check_lines();
+        check_document_lines();
         assert_true(count_lines("topic") == 1 && count_lines("text") > 0);
         CHECK((count_lines("ask") > 0) == (page->question != NULL));
         assert_int_equal(count_lines("asks"), page->question != NULL);
@@ -79,7 +79,7 @@ TEST(a_page_keeps_its_answer_until_the_guess)
         CHECK_OK(player_reveal_answer(&player, NULL));
         CHECK_OK(player_obey_queue(&player, false));
         write_document();
-        check_lines();
+        check_document_lines();
         assert_int_equal(count_lines("asks"), 0);
         CHECK(count_lines("look") > 0 && count_lines("code") > 0);
         end_player();
@@ -91,7 +91,7 @@ TEST(scenes_have_numbers_and_a_picture_in_words)
     for (const Scene *scene = scenes; scene->name; scene++) {
         begin_player(scene->name);
         write_document();
-        check_lines();
+        check_document_lines();
         CHECK(count_lines("number") > 0 && count_lines("picture") == 1);
         assert_int_equal(count_lines("ask") + count_lines("look"), 0);
         end_player();
@@ -122,7 +122,7 @@ TEST(a_table_is_text_after_the_guess)
     write_document();
     assert_true(count_lines("cells") > 4); /* heads, updates and the last row */
     assert_non_null(strstr(text, ": the loop ends\t"));
-    CHECK_OK(obey("set stretch 1"));
+    CHECK_OK(obey_line("set stretch 1"));
     CHECK_OK(player_make_step(&player));
     write_document();
     assert_int_equal(count_lines("cells"), 3); /* of one update */

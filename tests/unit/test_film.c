@@ -1,5 +1,4 @@
-/* test_film.c - films of each format, read back with ffmpeg: number, rate and
- * pixels of their frames */
+/* test_film.c - films of each format, read back: rate and pixels of frames */
 #include "test.h"
 
 #include <math.h>
@@ -19,10 +18,10 @@ static char folder[] = "/tmp/elasto-film-XXXXXX";
 /* error: allowed error of a channel, of 255. .apng and .gif keep so few colours
  * exactly; the other formats are compared in the middle of the block, with a
  * loss that no eye sees (7 with ffmpeg 5.1). */
-static const struct Row {
+static const struct FilmRow {
     const char *name, *format; /* ffmpeg's name of the pixel format */
-    double rate;
-    int error, width, height;
+    double frame_rate;
+    int tolerance, width, height;
 } rows[] = {
     {"a film.apng", "rgb24", 60, 0, WIDTH, HEIGHT},
     {"x:y.gif", "bgra", 50, 0, WIDTH, HEIGHT},
@@ -32,7 +31,7 @@ static const struct Row {
 enum { ROWS = sizeof rows / sizeof *rows };
 
 /* Returns a pixel of a block that moves and changes its colour, on white. */
-static uint32_t pixel(int frame, int x, int y)
+static uint32_t film_pixel(int frame, int x, int y)
 {
     int i = frame == 5 ? 4 : frame; /* frames 4 and 5 are equal */
     bool inside = x >= i && x < i + BLOCK && y >= 10 && y < 10 + BLOCK;
@@ -56,7 +55,7 @@ static void make_film(const char *name, int frames)
     CHECK_OK(canvas_create(WIDTH, HEIGHT, &canvas));
     for (int i = 0; i < frames; i += i == 4 ? 2 : 1) {
         for (int k = 0; k < WIDTH * HEIGHT; k++)
-            canvas.pixels[k] = pixel(i, k % WIDTH, k / WIDTH);
+            canvas.pixels[k] = film_pixel(i, k % WIDTH, k / WIDTH);
         CHECK_OK(film_add_frame(&film, &canvas, i == 4 ? 2 : 1));
     }
     CHECK(film.frames == frames);
@@ -66,7 +65,7 @@ static void make_film(const char *name, int frames)
 }
 
 /* Opens the output of a shell command, in which %s is the film. */
-static FILE *open_command(const char *format, const char *name)
+static FILE *open_command_output(const char *format, const char *name)
 {
     char line[512];
     snprintf(line, sizeof line, format, name);
@@ -80,41 +79,42 @@ static int read_film(const char *name, int width, int height, uint8_t *bytes,
                      int most)
 {
     size_t size = 3 * (size_t)width * (size_t)height;
-    FILE *film =
-        open_command("ffmpeg -v error -i 'file:%s' -fps_mode passthrough -f "
-                     "rawvideo -pix_fmt rgb24 pipe:1 </dev/null",
-                     name);
+    FILE *film = open_command_output(
+        "ffmpeg -v error -i 'file:%s' -fps_mode passthrough -f "
+        "rawvideo -pix_fmt rgb24 pipe:1 </dev/null",
+        name);
     size_t read = fread(bytes, 1, size * (size_t)most, film);
     CHECK(pclose(film) == 0 && read % size == 0);
     return (int)(read / size);
 }
 
 /* Returns the frame rate, 1/s, from the times of the first and last frame. */
-static double find_rate(const char *name, int count)
+static double find_frame_rate(const char *name, int count)
 {
     double first, last;
-    FILE *times =
-        open_command("ffprobe -v error -show_entries packet=pts_time -of "
-                     "csv=p=0 'file:%s' | tr -d , | sort -g | sed -n '1p;$p'",
-                     name);
+    FILE *times = open_command_output(
+        "ffprobe -v error -show_entries packet=pts_time -of "
+        "csv=p=0 'file:%s' | tr -d , | sort -g | sed -n '1p;$p'",
+        name);
     CHECK(fscanf(times, "%lf %lf", &first, &last) == 2);
     CHECK(pclose(times) == 0);
     return (count - 1) / (last - first);
 }
 
 /* Checks the pixel format: all browsers play yuv420p, not all play others. */
-static void check_format(const struct Row *row)
+static void check_format(const struct FilmRow *row)
 {
     char format[16] = "";
     FILE *answer =
-        open_command("ffprobe -v error -show_entries stream=pix_fmt -of "
-                     "csv=p=0 'file:%s'",
-                     row->name);
+        open_command_output("ffprobe -v error -show_entries stream=pix_fmt -of "
+                            "csv=p=0 'file:%s'",
+                            row->name);
     CHECK(fscanf(answer, "%15[a-z0-9]", format) == 1 && pclose(answer) == 0);
     assert_string_equal(format, row->format);
 }
 
-static void check_frames(const struct Row *row, const uint8_t *bytes, int count)
+static void check_frames(const struct FilmRow *row, const uint8_t *bytes,
+                         int count)
 {
     int wrong = 0;
     for (int i = 0; i < count; i++)
@@ -122,11 +122,11 @@ static void check_frames(const struct Row *row, const uint8_t *bytes, int count)
             for (int x = 0; x < WIDTH; x++) {
                 const uint8_t *at =
                     bytes + 3 * ((i * row->height + y) * row->width + x);
-                uint32_t drawn = pixel(i, x, y);
+                uint32_t drawn = film_pixel(i, x, y);
                 bool middle = x == i + BLOCK / 2 && y == 10 + BLOCK / 2;
-                for (int c = 0; c < 3 && (row->error == 0 || middle); c++)
+                for (int c = 0; c < 3 && (row->tolerance == 0 || middle); c++)
                     wrong += abs(at[c] - (int)(drawn >> (16 - 8 * c) & 255)) >
-                             row->error;
+                             row->tolerance;
             }
     if (wrong)
         print_error("%s: %d numbers of %d frames\n", row->name, wrong, count);
@@ -137,7 +137,7 @@ TEST(films_show_what_was_drawn)
 {
     static uint8_t bytes[3 * (WIDTH + 1) * (HEIGHT + 1) * (FRAMES + 1)];
     for (int i = 0; i < ROWS + 1; i++) {
-        const struct Row *row = &rows[i % ROWS];
+        const struct FilmRow *row = &rows[i % ROWS];
         int count = i < ROWS ? FRAMES : 1;
         make_film(row->name, count);
         int frames =
@@ -146,7 +146,8 @@ TEST(films_show_what_was_drawn)
         check_format(row);
         check_frames(row, bytes, frames);
         if (frames == FRAMES) /* times of .webm are whole milliseconds */
-            CHECK(fabs(find_rate(row->name, frames) / row->rate - 1) < 1e-2);
+            CHECK(fabs(find_frame_rate(row->name, frames) / row->frame_rate -
+                       1) < 1e-2);
         CHECK(unlink(row->name) == 0);
     }
 }

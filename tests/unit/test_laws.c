@@ -67,12 +67,12 @@ static void begin_free_masses(double h, const double *x, const double *v)
 }
 
 /* Returns the energy that the first dissipating term has booked, J. */
-static double find_lost_energy(void)
+static double get_booked_loss(void)
 {
     return masses.losses[0].energy;
 }
 
-static void make_step(void)
+static void step_masses(void)
 {
     CHECK_OK(time_integrator_step(&run));
 }
@@ -93,14 +93,14 @@ TEST(a_belt_takes_its_load_along)
     begin_free_masses(h, (double[2]){0.005 * n[0], 0.005 * n[1]}, still);
     for (int i = 0; i < 200; i++) {
         double before = speed, done = run.external_work;
-        double heat = find_lost_energy();
-        make_step();
+        double heat = get_booked_loss();
+        step_masses();
         speed = run.v[0] * t[0] + run.v[1] * t[1];
         if (i < 60 || speed > 0.9 * W)
             continue; /* the block falls to its height, or sticks */
         CHECK_NEAR((speed - before) / h, mu * N - G * sin(angle), 1e-6);
         CHECK_NEAR((run.external_work - done) / h, mu * N * W, 1e-5);
-        CHECK_NEAR((find_lost_energy() - heat) / h, mu * N * (W - speed), 1e-5);
+        CHECK_NEAR((get_booked_loss() - heat) / h, mu * N * (W - speed), 1e-5);
         slips++;
     }
     CHECK(slips > 30);
@@ -128,7 +128,7 @@ TEST(a_hand_pushes_with_a_bounded_speed)
     begin_free_masses(h, still, still);
     for (int i = 0; i < 200; i++) {
         double before = wall->o[0];
-        make_step();
+        step_masses();
         CHECK(wall->o[0] >= before && wall->o[0] - before <= 5 * h + 1e-12);
         CHECK(run.x[0] > wall->o[0]);
     }
@@ -136,7 +136,7 @@ TEST(a_hand_pushes_with_a_bounded_speed)
     CHECK(run.v[0] > 1 && run.external_work >= 0.5 * run.v[0] * run.v[0]);
     get_contact(&masses)->hand.is_held = false;
     double work = run.external_work;
-    make_step();
+    step_masses();
     CHECK(wall->o[0] == 1 && run.external_work == work);
 }
 
@@ -151,7 +151,7 @@ TEST(a_fixed_body_stops_the_hand)
     Obstacle *wall = add_hand_on_wall();
     begin_free_masses(0.01, still, still);
     for (int i = 0; i < 100; i++)
-        make_step();
+        step_masses();
     CHECK(-0.0035 < wall->o[0] && wall->o[0] <= -0.003 && run.x[0] == 0);
     create_masses(1, 0);
     Obstacle walls[2] = {{.n = {right[0], 0}, .o = {-0.1, 0}, .node = -1},
@@ -161,7 +161,7 @@ TEST(a_fixed_body_stops_the_hand)
     get_contact(&masses)->hand.target[0] = 0.05; /* near, where it slows */
     begin_free_masses(0.01, still, still);
     for (int i = 0; i < 300; i++)
-        make_step();
+        step_masses();
     double room = 0.05 - wall->o[0];
     CHECK(0.001 < room && room < 0.002);
     CHECK_NEAR(run.x[0], 0.05 - 0.5 * room, 1e-6);
@@ -180,7 +180,7 @@ TEST(a_ball_that_is_pushed_jumps_over_nothing)
         (ObstaclePush){.is_held = 1, .target = {9, 0}, .mesh = {.side = 1}};
     begin_free_masses(0.01, still, still);
     for (int i = 0; i < 50; i++) {
-        make_step();
+        step_masses();
         CHECK(run.x[0] - contact->obstacle[0].o[0] > 0.02);
     }
     CHECK(contact->obstacle[0].o[0] > 1);
@@ -208,20 +208,20 @@ TEST(broken_springs_neither_flow_nor_damp)
     CHECK_OK(fracture.configure(&masses, NULL, &(double){0.01}));
     begin_free_masses(0.001, apart, v);
     for (int i = 0; i < 200 && !spring_is_broken(&masses, 0); i++)
-        make_step();
+        step_masses();
     CHECK(spring_is_broken(&masses, 0));
-    double damped = find_lost_energy(), speed = run.v[2];
+    double damped = get_booked_loss(), speed = run.v[2];
     CHECK(damped > 0 && speed > 0);
     for (int i = 0; i < 5; i++)
-        make_step();
+        step_masses();
     CHECK_NEAR(run.v[2], speed, 1e-12 * speed);
-    CHECK(find_lost_energy() == damped);
+    CHECK(get_booked_loss() == damped);
 }
 
 /* ---- whole scenes ------------------------------------------------------ */
 
 /* Largest numbers of nodes and springs of the scenes here */
-enum { NODES = 1024, SPRINGS = 8 * NODES };
+enum { MOST_NODES = 1024, MOST_SPRINGS = 8 * MOST_NODES };
 
 /* Returns the work of moving walls in the last step, J. */
 static double find_wall_work(const System *system, const double *x, double h)
@@ -253,7 +253,7 @@ static double find_dissipation(const TimeIntegrator *it, double *k,
                                const double *x_n, const double *v_n, Real P)
 {
     System whole = *it->system;
-    static double dx[2 * NODES];
+    static double dx[2 * MOST_NODES];
     whole.k = k;
     Real sum = P + find_wall_work(&whole, it->x, it->h);
     for (int c = 0; c < 2 * whole.nodes; c++) {
@@ -283,11 +283,12 @@ TEST(the_ledger_adds_up)
                                         "drop",
                                         "squeeze",
                                         "dent"};
-    static double x[2 * NODES], v[2 * NODES], k[SPRINGS];
+    static double x[2 * MOST_NODES], v[2 * MOST_NODES], k[MOST_SPRINGS];
     for (int i = 0; i < 8; i++) {
         Simulation *scene = simulate("%s --tolerance 1e-8", lines[i]);
         double sum[SIMULATION_MAX_RUNS] = {0}, most = 0;
-        CHECK(scene->system.nodes <= NODES && scene->system.springs <= SPRINGS);
+        CHECK(scene->system.nodes <= MOST_NODES &&
+              scene->system.springs <= MOST_SPRINGS);
         for (int n = 0; n < 110; n++)
             for (int r = 0; r < scene->runs; r++) {
                 TimeIntegrator *it = &scene->run[r];
@@ -340,13 +341,13 @@ TEST(damping_books_the_energy_that_it_takes)
  * did not break share a node with a broken one of larger load. */
 TEST(breaking_books_its_energy)
 {
-    static double k[SPRINGS], load[SPRINGS], most[NODES];
+    static double k[MOST_SPRINGS], load[MOST_SPRINGS], most[MOST_NODES];
     Simulation *scene = simulate("tear");
     System *system = &scene->system;
     int broken = 0;
-    CHECK(system->nodes <= NODES && system->springs <= SPRINGS);
+    CHECK(system->nodes <= MOST_NODES && system->springs <= MOST_SPRINGS);
     for (int n = 0; n < 120; n++) {
-        double lost = energy_now(scene, 0, "fracture");
+        double lost = get_run_energy(scene, 0, "fracture");
         const double *x = scene->run[0].x;
         memcpy(k, system->k, (size_t)system->springs * sizeof *k);
         memset(most, 0, sizeof most);
@@ -369,9 +370,9 @@ TEST(breaking_books_its_energy)
                       fmax(most[system->e[2 * s]], most[system->e[2 * s + 1]]));
         System whole = *system;
         whole.k = k;
-        CHECK_NEAR(energy_now(scene, 0, "fracture") - lost,
+        CHECK_NEAR(get_run_energy(scene, 0, "fracture") - lost,
                    exact_potential(&whole, x) - exact_potential(system, x),
-                   1e-10 * (1 + energy_now(scene, 0, "elastic")));
+                   1e-10 * (1 + get_run_energy(scene, 0, "elastic")));
     }
     CHECK(broken > 30);
 }
@@ -393,7 +394,7 @@ TEST(a_fast_ceiling_comes_in_parts)
     CHECK_NEAR(it->moved_part, 1, 1e-15);
     CHECK_STATUS(simulation_step(scene), STATUS_BLOCKED);
     CHECK(ceiling->o[1] > -0.51 && it->moved_part < 1);
-    CHECK(smallest_gap(it->system, it->x) > 0);
+    CHECK(find_smallest_gap(it->system, it->x) > 0);
 }
 
 /* A wall throws, catches and lowers a mass in a convex potential: with the work
@@ -426,23 +427,23 @@ TEST(a_moving_wall_never_gives_back_what_is_dissipated)
 }
 
 /* A method of the table with one of its solvers */
-typedef struct Variant {
+typedef struct RunKind {
     const IntegratorMethod *method;
     Solver solver;
-} Variant;
+} RunKind;
 
-static bool next_variant(Variant *variant)
+static bool next_variant(RunKind *variant)
 {
     if (!variant->method)
         variant->method = integrator_methods;
     else if (variant->method->is_implicit && variant->solver + 1 < SOLVER_COUNT)
         variant->solver++;
     else
-        *variant = (Variant){.method = variant->method + 1};
+        *variant = (RunKind){.method = variant->method + 1};
     return variant->method->name != NULL;
 }
 
-static Simulation *start_variant(const Variant *variant, const char *line)
+static Simulation *start_variant(const RunKind *variant, const char *line)
 {
     return simulate("%s --integrator %s --solver %s", line,
                     variant->method->name, get_solver_name(variant->solver));
@@ -453,7 +454,7 @@ static Simulation *start_variant(const Variant *variant, const char *line)
 /* s, time in which nine nodes move by a tenth, unlike along x and y */
 static const double TIME = 0.064;
 
-static Simulation *start_moving_square(const Variant *variant, int steps)
+static Simulation *start_moving_square(const RunKind *variant, int steps)
 {
     char line[120];
     Random random = {90};
@@ -471,17 +472,17 @@ static Simulation *start_moving_square(const Variant *variant, int steps)
  * term of the error changes the slope by less than 0.05; the square falls. */
 TEST(methods_have_the_order_of_their_table)
 {
-    enum { FINEST = 16384 };
-    const Variant verlet = {integrator_find_method("verlet"), SOLVER_NEWTON};
-    const TimeIntegrator *start = &start_moving_square(&verlet, FINEST)->run[0];
-    Simulation *far = make_steps(start_moving_square(&verlet, FINEST), FINEST);
+    enum { STEPS = 16384 };
+    const RunKind verlet = {integrator_find_method("verlet"), SOLVER_NEWTON};
+    const TimeIntegrator *start = &start_moving_square(&verlet, STEPS)->run[0];
+    Simulation *far = make_steps(start_moving_square(&verlet, STEPS), STEPS);
     Simulation *near =
-        make_steps(start_moving_square(&verlet, 2 * FINEST), 2 * FINEST);
+        make_steps(start_moving_square(&verlet, 2 * STEPS), 2 * STEPS);
     double fallen = 0; /* springs do not move the centre of mass */
     for (int i = 1; i < 2 * 9; i += 2)
         fallen += (far->run[0].x[i] - start->x[i] - TIME * start->v[i]) / 9;
     CHECK_NEAR(fallen, -9.81 / 2 * TIME * TIME, 1e-12);
-    for (Variant variant = {0}; next_variant(&variant);) {
+    for (RunKind variant = {0}; next_variant(&variant);) {
         int order = variant.method->order;
         int steps = order == 1 ? 2048 : 256;
         double last = 0;
@@ -505,7 +506,7 @@ TEST(methods_have_the_order_of_their_table)
 
 /* Linear and angular momentum, with the sums of absolute values */
 typedef struct Momentum {
-    long double linear[2], angular, linear_size, angular_size;
+    long double linear[2], angular, linear_abs_sum, angular_abs_sum;
 } Momentum;
 
 static Momentum find_momentum(const TimeIntegrator *run)
@@ -518,8 +519,8 @@ static Momentum find_momentum(const TimeIntegrator *run)
         sum.linear[1] += m * v[1];
         sum.angular +=
             m * ((long double)x[0] * v[1] - (long double)x[1] * v[0]);
-        sum.linear_size += m * hypotl(v[0], v[1]);
-        sum.angular_size += m * hypotl(x[0], x[1]) * hypotl(v[0], v[1]);
+        sum.linear_abs_sum += m * hypotl(v[0], v[1]);
+        sum.angular_abs_sum += m * hypotl(x[0], x[1]) * hypotl(v[0], v[1]);
     }
     return sum;
 }
@@ -538,10 +539,10 @@ static void check_momentum(Simulation *square, double angular)
         Momentum now = find_momentum(&make_steps(square, 1)->run[0]);
         for (int c = 0; c < 2; c++)
             CHECK_NEAR(now.linear[c], start.linear[c],
-                       4e-13 * start.linear_size);
+                       4e-13 * start.linear_abs_sum);
         if (angular > 0)
             CHECK_NEAR(now.angular, start.angular,
-                       angular * start.angular_size);
+                       angular * start.angular_abs_sum);
     }
 }
 
@@ -550,7 +551,7 @@ static void check_momentum(Simulation *square, double angular)
  * tolerance of Newton's method. */
 TEST(momentum_is_kept)
 {
-    for (Variant variant = {0}; next_variant(&variant);) {
+    for (RunKind variant = {0}; next_variant(&variant);) {
         bool midpoint = strcmp(variant.method->name, "midpoint") == 0;
         bool symplectic = strcmp(variant.method->name, "verlet") == 0 ||
                           strcmp(variant.method->name, "symplectic-euler") == 0;

@@ -10,14 +10,14 @@
 static const int sizes[][2] = {{1280, 800},  {900, 900},  {1366, 768},
                                {3840, 2160}, {400, 300},  {200, 200},
                                {1, 1},       {300, 4000}, {4000, 200}};
-enum { SIZES = sizeof sizes / sizeof *sizes };
+enum { WINDOW_SIZES = sizeof sizes / sizeof *sizes };
 enum {
-    LISTING = 1,
-    LINE,
-    RESIDUAL,
-    ENERGIES,
-    ASSEMBLY,
-    SEEN = 5
+    LISTING_CARD = 1,
+    LINE_CARD,
+    RESIDUAL_CARD,
+    ENERGY_CARD,
+    ASSEMBLY_CARD,
+    SHOWN_CARDS = 5
 }; /* indices of cards */
 
 static Simulation simulation;
@@ -42,7 +42,7 @@ static bool boxes_overlap(Box a, Box b)
            b.x < a.x + a.width && a.y < b.y + b.height && b.y < a.y + a.height;
 }
 
-static bool box_inside(Box inner, Box outer)
+static bool box_is_inside(Box inner, Box outer)
 {
     return inner.width <= 0 ||
            (inner.x >= outer.x && inner.y >= outer.y &&
@@ -56,7 +56,7 @@ static int check_boxes(const Box *boxes, int count, Box zone)
     int there = 0;
     for (int i = 0; i < count; i++) {
         there += boxes[i].width > 0;
-        CHECK(box_inside(boxes[i], zone));
+        CHECK(box_is_inside(boxes[i], zone));
         for (int j = 0; j < i; j++)
             CHECK(!boxes_overlap(boxes[i], boxes[j]));
     }
@@ -84,7 +84,7 @@ static void check_chips(const Layout *l, int wished)
 TEST(zones_tile_every_size)
 {
     fill_content();
-    for (int s = 0; s < SIZES; s++)
+    for (int s = 0; s < WINDOW_SIZES; s++)
         for (content.panes = 1; content.panes <= LAYOUT_MAX_PANES;
              content.panes++) {
             Layout l = layout_create(&content, sizes[s][0], sizes[s][1]);
@@ -100,11 +100,11 @@ TEST(zones_tile_every_size)
             if (l.width >= 200)
                 CHECK(check_boxes(l.pane, l.panes, l.stage) == l.panes);
             CHECK(check_boxes(l.card, l.cards, l.column) ==
-                  (l.cards ? SEEN : 0));
+                  (l.cards ? SHOWN_CARDS : 0));
             CHECK(check_boxes(l.setting, l.settings, l.settings_row) ==
                   l.settings);
             check_chips(&l, content.chips.count);
-            CHECK(box_inside(l.bars, window));
+            CHECK(box_is_inside(l.bars, window));
         }
 }
 
@@ -114,7 +114,7 @@ TEST(small_windows_leave_parts_out)
     fill_content();
     for (int s = 0; s < 4; s++) {
         Layout l = layout_create(&content, sizes[s][0], sizes[s][1]);
-        CHECK(l.cards > SEEN && l.settings == 9);
+        CHECK(l.cards > SHOWN_CARDS && l.settings == 9);
         CHECK(l.chips - l.chips_left_out >= 7);
         CHECK(l.em >= 12 && l.stage.width >= 0.5 * l.width);
     }
@@ -124,8 +124,8 @@ TEST(small_windows_leave_parts_out)
     CHECK(small.stage.width == 400 && small.stage.height > 200);
 }
 
-static bool click_hits(const Layout *layout, double x, double y, Zone zone,
-                       int index)
+static bool click_hits_zone(const Layout *layout, double x, double y, Zone zone,
+                            int index)
 {
     WindowHit hit = layout_hit(layout, x, y);
     return hit.zone == zone && hit.index == index;
@@ -137,7 +137,7 @@ TEST(a_click_hits_the_part_that_is_drawn_there)
 {
     fill_content();
     content.panes = 5;
-    content.cards.closed_cards |= 1 << LISTING;
+    content.cards.closed_cards |= 1 << LISTING_CARD;
     Layout l = layout_create(&content, 1280, 800);
     const Box *const lists[] = {l.pane, l.card, l.setting, l.chip};
     const int counts[] = {l.panes, l.cards, l.settings, l.chips};
@@ -149,18 +149,18 @@ TEST(a_click_hits_the_part_that_is_drawn_there)
                 continue;
             int right = box.x + box.width, low = box.y + box.height;
             double middle = box.x + 0.5 * box.width;
-            CHECK(
-                click_hits(&l, middle, box.y + 0.5 * box.height, zones[k], i));
-            CHECK(click_hits(&l, box.x, box.y, zones[k], i));
-            CHECK(click_hits(&l, box.x, low - 1, zones[k], i));
-            CHECK(k == 1 || click_hits(&l, right - 1, box.y, zones[k], i));
-            CHECK(!click_hits(&l, box.x - 1, box.y, zones[k], i));
-            CHECK(!click_hits(&l, right, low - 1, zones[k], i));
-            CHECK(!click_hits(&l, middle, box.y - 1, zones[k], i));
-            CHECK(!click_hits(&l, middle, low, zones[k], i));
+            CHECK(click_hits_zone(&l, middle, box.y + 0.5 * box.height,
+                                  zones[k], i));
+            CHECK(click_hits_zone(&l, box.x, box.y, zones[k], i));
+            CHECK(click_hits_zone(&l, box.x, low - 1, zones[k], i));
+            CHECK(k == 1 || click_hits_zone(&l, right - 1, box.y, zones[k], i));
+            CHECK(!click_hits_zone(&l, box.x - 1, box.y, zones[k], i));
+            CHECK(!click_hits_zone(&l, right, low - 1, zones[k], i));
+            CHECK(!click_hits_zone(&l, middle, box.y - 1, zones[k], i));
+            CHECK(!click_hits_zone(&l, middle, low, zones[k], i));
         }
-    CHECK(l.card[LISTING].height < l.card[LINE].height);
-    for (int i = LISTING; i <= ASSEMBLY; i++) {
+    CHECK(l.card[LISTING_CARD].height < l.card[LINE_CARD].height);
+    for (int i = LISTING_CARD; i <= ASSEMBLY_CARD; i++) {
         Box close = layout_close_box(&l, i);
         WindowHit hit = layout_hit(&l, close.x + 2, close.y + 2);
         CHECK(hit.zone == ZONE_CARD_CLOSE && hit.index == i);

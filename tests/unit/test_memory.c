@@ -58,7 +58,7 @@ void __wrap_free(void *block)
 }
 
 /* Gives the wrapped functions to CHOLMOD; the way depends on its version. */
-static void share_with_cholmod(void)
+static void share_allocator_with_cholmod(void)
 {
 #if SUITESPARSE_MAIN_VERSION >= 7
     SuiteSparse_config_malloc_func_set(__wrap_malloc);
@@ -72,7 +72,7 @@ static void share_with_cholmod(void)
 }
 
 /* Creates a simulation and makes one step. */
-static Status run_once(const Options *options)
+static Status simulate_one_step(const Options *options)
 {
     Simulation simulation;
     allocations = block_count = 0;
@@ -93,16 +93,16 @@ TEST(every_allocation_may_fail)
         "--segments 3", "--segments 19", "--projection none",
         "dent --segments 3 --damping 0.01 --tear 0.3",
         "--segments 2 --body 0,0 --body 1.001,0 --self-friction 1"};
-    share_with_cholmod();
+    share_allocator_with_cholmod();
     for (size_t l = 0; l < sizeof lines / sizeof *lines; l++) {
-        const Options options = line_options(lines[l]);
-        CHECK_OK(run_once(&options));
+        const Options options = options_from_line(lines[l]);
+        CHECK_OK(simulate_one_step(&options));
         long total = allocations;
         CHECK(total > 5);
         for (long i = 0; i < 2 * total; i++) {
             keeps_failing = i >= total;
             first_failure = i % total;
-            Status status = run_once(&options);
+            Status status = simulate_one_step(&options);
             if (status != STATUS_OUT_OF_MEMORY)
                 print_error("%s: %ld of %ld\n", lines[l], i, total);
             CHECK_STATUS(status, STATUS_OUT_OF_MEMORY);

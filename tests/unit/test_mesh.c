@@ -1,6 +1,5 @@
 /* test_mesh.c - the square: nodes, springs and numbering of the slides, the
- * elimination order, and the words of --pin. (Starts: test_session; falling:
- * test_laws; pins: stress.) */
+ * elimination order, and the words of --pin */
 #include "test.h"
 
 #include <math.h>
@@ -109,8 +108,8 @@ TEST(cells_triangles_and_outline_are_those_of_the_springs)
  * elimination: later neighbours of a node become neighbours. */
 static double count_factor_entries(int segments)
 {
-    enum { MOST = 625 };
-    static bool meets[MOST][MOST];
+    enum { MAX_MESH_NODES = 625 };
+    static bool meets[MAX_MESH_NODES][MAX_MESH_NODES];
     const System *system = &simulate("--segments %d", segments)->system;
     int n = system->nodes, blocks = n;
     memset(meets, 0, sizeof meets);

@@ -10,7 +10,7 @@
 #include "solve/multigrid.h"
 #include "solve/newton_parts.h"
 
-enum { LARGEST = 2 * 129 * 129 }; /* unknowns of the largest square here */
+enum { MAX_UNKNOWNS = 2 * 129 * 129 }; /* unknowns of the largest square here */
 
 static Newton *newton; /* minimiser of the running test */
 static Iterate *at;    /* its iterate */
@@ -20,7 +20,7 @@ static int size;    /* 2n */
 
 static const double H = 0.004;
 
-static Simulation *begin_problem(int segments, double stretch)
+static Simulation *begin_square(int segments, double stretch)
 {
     Simulation *square = simulate(
         "--segments %d --stretch %g --solver multigrid", segments, stretch);
@@ -33,12 +33,12 @@ static Simulation *begin_problem(int segments, double stretch)
                                    .weight = H * H,
                                    .x_n = x_n,
                                    .u_tilde = newton->u_tilde};
-    CHECK(size <= LARGEST);
+    CHECK(size <= MAX_UNKNOWNS);
     return square;
 }
 
 /* Changes positions, masses, springs and pins at random. */
-static void randomise_problem(Random *random, bool pins)
+static void randomise_square(Random *random, bool pins)
 {
     int side = body->segments + 1;
     double cell = 1.0 / body->segments;
@@ -64,7 +64,7 @@ static void randomise_problem(Random *random, bool pins)
 }
 
 /* Adds a hand at the middle node, `times` as stiff as its mass. */
-static void add_hand(double times)
+static void pull_middle_node(double times)
 {
     int node = body->nodes / 2;
     NodePull hand = {.node = node,
@@ -79,28 +79,29 @@ static void add_hand(double times)
 
 /* E at the start and now; counts of residuals tested in extended precision */
 typedef struct EnergyHistory {
-    Real start, now;
-    int judged;
-    int by_bound; /* steps ended by a bound of the next residual */
+    Real start_energy, last_energy;
+    int residuals;
+    int ended_by_bound; /* steps ended by a bound of the next residual */
 } EnergyHistory;
 
-static bool store_residual(void *user, const NewtonRecord *record)
+static bool check_update(void *user, const NewtonRecord *record)
 {
-    static const double zero[LARGEST];
+    static const double zero[MAX_UNKNOWNS];
     EnergyHistory *E = user;
     if (record->iteration == 0)
-        E->start = E->now = wide_energy(&(StepPotential){.E = at->E}, zero);
-    Real now = wide_energy(&(StepPotential){.E = at->E}, at->u);
-    CHECK_AT_MOST(now, E->now);
-    CHECK_NEAR(now - E->now, record->change, 2e-14L * E->start);
-    E->now = now;
+        E->start_energy = E->last_energy =
+            exact_energy(&(StepPotential){.E = at->E}, zero);
+    Real now = exact_energy(&(StepPotential){.E = at->E}, at->u);
+    CHECK_AT_MOST(now, E->last_energy);
+    CHECK_NEAR(now - E->last_energy, record->change, 2e-14L * E->start_energy);
+    E->last_energy = now;
     if (record->status == STATUS_OK) {
         const double *judged = newton->passes_test ? newton->u_trial : at->u;
         CHECK(test_large_residual(&newton->iterate.E, judged,
                                   newton->settings.h,
-                                  newton->tolerance) == LARGE_PASSED);
-        E->judged++;
-        E->by_bound += !newton->passes_test;
+                                  newton->tolerance) == TEST_PASSED);
+        E->residuals++;
+        E->ended_by_bound += !newton->passes_test;
     }
     return true;
 }
@@ -125,21 +126,21 @@ TEST(steps_fall_and_pass_the_test_of_algorithm_3)
     for (int i = 0; i < 15; i++) {
         Random random = {(uint64_t)i};
         EnergyHistory history = {0};
-        Simulation *square = begin_problem(rows[i].segments, rows[i].stretch);
+        Simulation *square = begin_square(rows[i].segments, rows[i].stretch);
         if (rows[i].disturbed)
-            randomise_problem(&random, rows[i].pins);
+            randomise_square(&random, rows[i].pins);
         if (rows[i].hand > 0)
-            add_hand(rows[i].hand);
+            pull_middle_node(rows[i].hand);
         if (i == 14) /* a short step, which a bound ends */
             square->run[0].h = newton->settings.h = 1e-4;
-        newton->settings.observer = store_residual;
+        newton->settings.observer = check_update;
         newton->settings.user_data = &history;
         for (int step = 0; step < (i == 0 ? 12 : 4); step++) {
             make_steps(square, 1);
             CHECK(newton->active_solver == SOLVER_MULTIGRID);
         }
-        CHECK(history.judged > 1 && newton->counters.handed_to_newton == 0);
-        CHECK(i < 14 || history.by_bound > 0);
+        CHECK(history.residuals > 1 && newton->counters.handed_to_newton == 0);
+        CHECK(i < 14 || history.ended_by_bound > 0);
     }
 }
 
@@ -155,7 +156,7 @@ TEST(undecided_directions_have_not_converged)
 {
     static const double parts[] = {0.9, 0.99, 0.999, 0.999999};
     for (int i = 0; i < 5; i++) {
-        begin_problem(16, 1.1 + 0.05 * i);
+        begin_square(16, 1.1 + 0.05 * i);
         newton->settings.max_iterations = 1;
         newton->settings.solver = SOLVER_NEWTON;
         CHECK_STATUS(minimise(1e-30), STATUS_ITERATION_LIMIT);
@@ -168,17 +169,16 @@ TEST(undecided_directions_have_not_converged)
     }
 }
 
-/* A new object, which has seen no step, makes the same bits, also after springs
- * have become stiffer. */
+/* A new object makes the same bits, also after springs have become stiffer. */
 TEST(bits_depend_on_the_step_alone)
 {
-    static double first[LARGEST];
+    static double first[MAX_UNKNOWNS];
     for (int pins = 0; pins < 2; pins++) {
         Multigrid *multigrid[2];
         Random random = {5};
-        begin_problem(64, 1.4);
+        begin_square(64, 1.4);
         if (pins)
-            randomise_problem(&random, true);
+            randomise_square(&random, true);
         CHECK_OK(multigrid_create(64, &multigrid[0]));
         for (int n = 0; n < (pins ? 2 : 9); n++) {
             bool stiffer = n > 0 && n % 2 == 0;
@@ -217,16 +217,16 @@ TEST(steps_take_no_more_work)
     for (int i = 0; i < 8; i++) {
         Random random = {7};
         bool rough = i % 2;
-        Simulation *square = begin_problem(rows[i / 2].segments, 1.4);
+        Simulation *square = begin_square(rows[i / 2].segments, 1.4);
         if (rough)
-            randomise_problem(&random, true);
+            randomise_square(&random, true);
         make_steps(square, 5);
         CHECK_AT_MOST(newton->counters.cycles,
                       rough ? rows[i / 2].rough : rows[i / 2].smooth);
         CHECK(rough || newton->counters.updates == newton->counters.cycles);
         CHECK(rough || newton->counters.tile_sweeps == 0);
     }
-    Simulation *tight = begin_problem(32, 1.4); /* the square buckles */
+    Simulation *tight = begin_square(32, 1.4); /* the square buckles */
     newton->settings.tolerance = 1e-9;
     make_steps(tight, 12);
     CHECK_AT_MOST(newton->counters.updates, 176);

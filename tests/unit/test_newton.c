@@ -1,6 +1,5 @@
 /* test_newton.c - each way in which Newton's method can end, and that the
- * status names it, by formulas that share no code with it. (Updates: stress.)
- */
+ * status names it, by formulas without its code. (Updates: stress.) */
 #include "test.h"
 #include "stress.h"
 
@@ -11,13 +10,13 @@
 #include "solve/newton_parts.h"
 
 /* Squares have up to 4 segments, most have 3 */
-enum { LARGEST = 2 * 25, SIZE = 2 * 16 };
+enum { MAX_UNKNOWNS = 2 * 25, UNKNOWNS = 2 * 16 };
 
 /* The last record of a minimisation, and the iterate from which its p starts */
 typedef struct LastRecord {
     const Simulation *simulation;
     NewtonRecord record;
-    double u[LARGEST];
+    double u[MAX_UNKNOWNS];
 } LastRecord;
 
 static bool store_record(void *user, const NewtonRecord *record)
@@ -47,13 +46,13 @@ TEST(residuals_are_what_they_are_called)
     for (int line = 0; line < 7; line++) {
         LastRecord last;
         Simulation *simulation =
-            simulate_watched(store_record, &last, "%s", lines[line]);
+            simulate_observed(store_record, &last, "%s", lines[line]);
         TimeIntegrator *run = &simulation->run[0];
         const Newton *newton = run->newton;
         double tolerance = simulation->options.tolerance;
         last.simulation = simulation;
         for (int step = 0; step < 60; step++) {
-            double x_n[LARGEST];
+            double x_n[MAX_UNKNOWNS];
             memcpy(x_n, run->x, 2 * (size_t)run->system->nodes * sizeof *x_n);
             make_steps(simulation, 1);
             IncrementalPotential E = newton->iterate.E;
@@ -66,8 +65,7 @@ TEST(residuals_are_what_they_are_called)
                 CHECK_NEAR(residual, exact, 1e-9 * exact + 1e-10);
             else if (multigrid && newton->passes_test)
                 CHECK_NEAR(residual, exact, tolerance - residual);
-            else if (multigrid) /* a bound of the next residual passed the test
-                                 */
+            else if (multigrid) /* a bound passed the test */
                 CHECK_AT_MOST(exact_residual(&E, newton->iterate.u, NULL,
                                              run->h, 0, 1, NULL),
                               tolerance);
@@ -81,11 +79,11 @@ TEST(residuals_are_what_they_are_called)
 
 /* ---- two nodes ----------------------------------------------------------- */
 
-/* A spring of 1 m between two nodes; create_pair frees the last one */
+/* A spring of 1 m between two nodes; create_spring_pair frees the last one */
 static System pair;
 static Newton newton;
 
-static void create_pair(double m0, double m1, double k)
+static void create_spring_pair(double m0, double m1, double k)
 {
     newton_free(&newton);
     system_free(&pair);
@@ -126,7 +124,7 @@ TEST(a_maximum_is_counted_without_projection)
                 {3.9, 3.9, true}, {4.1, 4.1, false}, {2.1, 1e6, false}};
     const double x[4] = {0};
     for (int i = 0; i < 6; i++) {
-        create_pair(rows[i].m0, rows[i].m1, 1);
+        create_spring_pair(rows[i].m0, rows[i].m1, 1);
         create_newton_for_pair(1, 1e-3, PROJECTION_NONE);
         CHECK_OK(minimise_pair(x, 1));
         CHECK(newton.counters.indefinite_ends == rows[i].maximum);
@@ -151,7 +149,7 @@ TEST(nearly_singular_steps_end_or_say_why_not)
     for (int i = 0; i < 3; i++) {
         Real g[4], H[16];
         const Iterate *at = &newton.iterate;
-        create_pair(1, 1, rows[i].k);
+        create_spring_pair(1, 1, rows[i].k);
         pair.pinned[0] = 1;
         create_newton_for_pair(1, 1e-6, rows[i].projection);
         newton.u_tilde[3] = rows[i].pull;
@@ -187,17 +185,17 @@ TEST(tiny_masses_keep_their_velocity)
 {
     double shift = 0;
     Simulation *simulation =
-        simulate_watched(store_shift, &shift, "--segments 3 --stiffness 1e30");
+        simulate_observed(store_shift, &shift, "--segments 3 --stiffness 1e30");
     TimeIntegrator *run = &simulation->run[0];
     double start = system_potential(&simulation->system, run->x);
-    for (int i = 0; i < SIZE; i++)
+    for (int i = 0; i < UNKNOWNS; i++)
         run->v[i] = i % 2 ? 2 : 1;
     make_steps(simulation, 1);
     CHECK(shift > 0);
     CHECK_AT_MOST(shift, 1e-10 * 16e-6 * 1e30);
     double mean[2] = {0, 0};
-    for (int i = 0; i < SIZE; i++)
-        mean[i % 2] += run->v[i] / (SIZE / 2);
+    for (int i = 0; i < UNKNOWNS; i++)
+        mean[i % 2] += run->v[i] / (UNKNOWNS / 2);
     CHECK_NEAR(mean[0], 1, 1e-12); /* a sum of 16 terms of up to 100 m/s */
     CHECK_NEAR(mean[1], 2, 1e-12);
     CHECK_AT_MOST(system_potential(&simulation->system, run->x), 1e-6 * start);
@@ -209,12 +207,11 @@ static bool pause_always(void *unused, const NewtonRecord *record)
     return false;
 }
 
-/* Checks that E never rises, in iterates and steps from rest; 1e-9: rounding.
- */
+/* Checks that E never rises in iterates and steps from rest; 1e-9: rounding. */
 static bool check_energy_falls(void *unused, char *line)
 {
     (void)unused;
-    Simulation *simulation = simulate_watched(pause_always, NULL, "%s", line);
+    Simulation *simulation = simulate_observed(pause_always, NULL, "%s", line);
     TimeIntegrator *run = &simulation->run[0];
     Newton *newton = run->newton;
     const Iterate *at = &newton->iterate;
@@ -240,14 +237,14 @@ static bool check_energy_falls(void *unused, char *line)
 
 TEST(energy_never_rises_without_masses)
 {
-    stress_rows("massless", check_energy_falls, NULL);
+    stress_visit_rows("massless", check_energy_falls, NULL);
 }
 
 /* ---- backtracking ------------------------------------------------------ */
 
-/* A made-up E along p: alphas up to `limit` do not raise it */
+/* A made-up E along p: alphas up to max_alpha do not raise it */
 typedef struct FakeLine {
-    double limit, at_limit, above;
+    double max_alpha, low_value, high_value;
     int calls;
 } FakeLine;
 
@@ -255,7 +252,7 @@ static double fake_line_difference(const void *function, double alpha)
 {
     FakeLine *line = *(FakeLine *const *)function;
     line->calls++;
-    return alpha <= line->limit ? line->at_limit : line->above;
+    return alpha <= line->max_alpha ? line->low_value : line->high_value;
 }
 
 /* Backtracking takes the first of alpha, alpha/2, alpha/4, ... that does not
@@ -297,7 +294,7 @@ TEST(parts_share_one_limit)
     CHECK_STATUS(simulation_step(simulation), STATUS_ITERATION_LIMIT);
     CHECK_AT_MOST(run->newton->counters.updates, 19);
     CHECK(run->moved_part > 0 && run->moved_part < 1);
-    CHECK(smallest_gap(run->system, run->x) > 0);
+    CHECK(find_smallest_gap(run->system, run->x) > 0);
 }
 
 TESTS(NULL, NULL)

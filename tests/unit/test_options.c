@@ -9,21 +9,21 @@
 #include "lesson/pages.h"
 
 /* Sets one option of a square. message [512] */
-static Status set_option(Options *options, const char *name, const char *value,
-                         char *message)
+static Status set_square_option(Options *options, const char *name,
+                                const char *value, char *message)
 {
-    *options = line_options("square");
+    *options = options_from_line("square");
     return options_set(options, option_find(name), value, NAN,
                        (Message){message, 512});
 }
 
-static void check_refused(const char *option, const char *value,
-                          const char *range)
+static void check_option_refused(const char *option, const char *value,
+                                 const char *range)
 {
     Options options;
     char message[512], shown[80];
     snprintf(shown, sizeof shown, "--%s: '%s' is not ", option, value);
-    CHECK_STATUS(set_option(&options, option, value, message),
+    CHECK_STATUS(set_square_option(&options, option, value, message),
                  STATUS_INVALID_INPUT);
     if (strncmp(message, shown, strlen(shown)) != 0 || !strstr(message, range))
         fail_msg("--%s %s: %s", option, value, message);
@@ -50,36 +50,36 @@ TEST(numbers_have_ranges)
             char text[32], beyond[32], message[512];
             Options options;
             option_write(row, border, text, sizeof text);
-            CHECK_OK(set_option(&options, row->name, text, message));
+            CHECK_OK(set_square_option(&options, row->name, text, message));
             CHECK(options.number[row->slot] == border);
             option_write(row,
                          row->kind == OPTION_WHOLE_NUMBER
                              ? border + up
                              : nextafter(border, up * INFINITY),
                          beyond, sizeof beyond);
-            check_refused(row->name, beyond, "a ");
+            check_option_refused(row->name, beyond, "a ");
         }
         for (size_t k = 0; k < sizeof bad / sizeof *bad; k++)
-            check_refused(row->name, bad[k], " from ");
+            check_option_refused(row->name, bad[k], " from ");
     }
     CHECK(numbers > 15);
 }
 
 /* Returns true if a part of a row is about an option, not the message. */
-static bool is_of_option(const char *part)
+static bool part_is_about_option(const char *part)
 {
     return strchr("=+-", part[0]) && part[1] == ' ';
 }
 
 /* Checks a part of a row: "= NAME NUMBER..." is the value of an option, "+
  * NAME" and "- NAME" an option on or off; others are words of the message. */
-static bool part_holds(const char *part, const Options *options,
-                       const char *message)
+static bool row_part_holds(const char *part, const Options *options,
+                           const char *message)
 {
     char name[32];
     int used;
     double wanted;
-    if (!is_of_option(part))
+    if (!part_is_about_option(part))
         return strstr(message, part) != NULL;
     CHECK(sscanf(part + 2, "%31s%n", name, &used) == 1);
     const OptionRow *row = option_find(name);
@@ -103,8 +103,8 @@ TEST(command_lines_are_accepted_or_explained)
     while (fgets(row, sizeof row, file)) {
         char *rest = row;
         row[strcspn(row, "\n")] = '\0';
-        const char *line = next_part(&rest);
-        bool taken = !rest || is_of_option(rest);
+        const char *line = take_next_part(&rest);
+        bool taken = !rest || part_is_about_option(rest);
         if (line[0] == '#')
             continue;
         Options options = {.panes = 1};
@@ -113,8 +113,8 @@ TEST(command_lines_are_accepted_or_explained)
             status = parse_line(line, pane, &options, message);
         bool good = status == (taken ? STATUS_OK : STATUS_INVALID_INPUT) &&
                     !strchr(message, '\n');
-        for (const char *part; (part = next_part(&rest));)
-            good = good && part_holds(part, &options, message);
+        for (const char *part; (part = take_next_part(&rest));)
+            good = good && row_part_holds(part, &options, message);
         if (!good)
             fail_msg("%s: '%s'", line, message);
         count++;
@@ -124,7 +124,7 @@ TEST(command_lines_are_accepted_or_explained)
 }
 
 /* Appends a random piece of a command line. word [80] in/out */
-static void add_piece(Random *random, char *word)
+static void append_random_piece(Random *random, char *word)
 {
     static const char pieces[] =
         "--segments=8|--side=2|--st|--timestep=1/60|--projection|--lo|-h|3|-1|"
@@ -150,9 +150,9 @@ TEST(random_lines_end_well)
         Options options;
         for (int i = 1; i < argc; i++) {
             argv[i] = strcpy(words[i - 1], "");
-            add_piece(&random, argv[i]);
+            append_random_piece(&random, argv[i]);
             if (random_below(&random, 8) == 0)
-                add_piece(&random, strcat(argv[i], "="));
+                append_random_piece(&random, strcat(argv[i], "="));
         }
         Status status =
             options_parse(argc, argv, line % 5, &options, MESSAGE(message));

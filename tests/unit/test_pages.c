@@ -67,7 +67,7 @@ TEST(the_map_is_convex_for_short_steps)
 
 /* Makes one update of the first step, u += p [n], by eigenvectors of the dense
  * H, and returns the smallest |eigenvalue|. */
-static Real update_dense(const Simulation *simulation, int n, double *u)
+static Real update_exactly(const Simulation *simulation, int n, double *u)
 {
     static Real g[50], H[50 * 50], q[50 * 50];
     double x[50] = {0}, resting[50] = {0}, h = simulation->options.timestep;
@@ -80,7 +80,7 @@ static Real update_dense(const Simulation *simulation, int n, double *u)
     for (int i = 0; i < n; i++)
         x[i] = x_n[i] + u[i];
     exact_derivatives(&E, u, x, h, 0, g, H);
-    exact_eigen(n, H, q);
+    exact_eigenvectors(n, H, q);
     for (int k = 0; k < n; k++) {
         Real part = 0, lambda = H[(n + 1) * k];
         least = fminl(least, fabsl(lambda));
@@ -100,7 +100,7 @@ TEST(the_tenth_update_has_a_tiny_eigenvalue)
     double u[32] = {0}, farthest = 0;
     CHECK(simulation->system.nodes == 16);
     for (int update = 1; update <= 10; update++) {
-        Real least = update_dense(simulation, 32, u);
+        Real least = update_exactly(simulation, 32, u);
         CHECK(update == 1 || update == 10 || least > 62);
         if (update == 10)
             CHECK_NEAR(least, 0.0043, 5e-5);
@@ -117,7 +117,7 @@ TEST(the_crack_begins_at_the_slit)
     static bool before[4000];
     Simulation *simulation = make_steps(open_page("fracture", ""), 20);
     const System *system = &simulation->system;
-    const double *rest = rest_x(simulation);
+    const double *rest = get_rest_x(simulation);
     int count = 0;
     for (int s = 0; s < system->springs; s++)
         before[s] = spring_is_broken(system, s);
@@ -151,7 +151,7 @@ static const Race *run_race(const char *options)
 TEST(the_race_measures_errors)
 {
     static const double factor[RACE_METHODS] = {2, 4, 2, 4};
-    enum { VERLET = 1 }; /* index of Verlet's run with h = 8 ms */
+    enum { VERLET_RUN = 1 }; /* index of Verlet's run with h = 8 ms */
     const Race *race = run_race("");
     for (int i = 0; i < RACE_METHODS; i++) {
         const RacePoint *point =
@@ -162,8 +162,8 @@ TEST(the_race_measures_errors)
         CHECK_NEAR((point - RACE_METHODS)->error / point->error, factor[i],
                    0.25 * factor[i]);
     }
-    CHECK(!race->point[VERLET].is_stable);
-    CHECK(race->point[RACE_METHODS + VERLET].is_stable);
+    CHECK(!race->point[VERLET_RUN].is_stable);
+    CHECK(race->point[RACE_METHODS + VERLET_RUN].is_stable);
     race = run_race("--stiffness 1e9 --stretch 1");
     for (int i = 0; i < race->count; i++) {
         const RacePoint *point = &race->point[i];
@@ -218,11 +218,11 @@ TEST(questions_have_answers)
 /* Findings in a frame: smallest letters, pixels, also those of scripts; numbers
  * of texts that end in dots, are cut, or lie over others (in the column, or
  * numbers), and of points outside their axes; all texts, with blanks between */
-enum { WORDS = 512 };
+enum { MAX_WORDS = 512 };
 static struct {
     int smallest, smallest_code, ellipses, cut, over, outside, words;
     char cut_words[80]; /* the last text that leaves its box */
-    Box column, word[WORDS];
+    Box column, word[MAX_WORDS];
     char texts[1 << 15];
 } seen;
 
@@ -267,7 +267,7 @@ int __wrap_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
         seen.over += word.x < seen.word[i].x + seen.word[i].width &&
                      seen.word[i].x < word.x + word.width &&
                      abs(word.y - seen.word[i].y) < word.height;
-    assert_true(seen.words < WORDS);
+    assert_true(seen.words < MAX_WORDS);
     seen.word[seen.words] = word;
     seen.words += counts;
     return __real_text_draw(text, canvas, style, x, y, align, markup);
@@ -285,7 +285,7 @@ void __wrap_plot_curve(const Plot *plot, int count, const double *x,
 }
 
 /* Cards, large cards after and before the answer, code, the list of pages */
-enum { WITH_CARDS, LARGE, LARGE_ASKED, CODE, LIST, KINDS };
+enum { CARDS_VIEW, BIG_VIEW, ASK_VIEW, CODE_VIEW, LIST_VIEW, VIEWS };
 
 /* Returns the first line of a text that is not drawn whole, or NULL. */
 static const char *find_missing_line(const FrameContent *content,
@@ -326,22 +326,22 @@ static void inspect_frame(const FrameContent *content, Paper *paper)
 static void check_frame(const LecturePage *page, Simulation *simulation,
                         int kind, Paper *paper)
 {
-    static const ColumnContent column[KINDS] = {
+    static const ColumnContent column[VIEWS] = {
         COLUMN_CARDS, COLUMN_CARDS, COLUMN_CARDS, COLUMN_CODE, COLUMN_PAGES};
     int width = paper->canvas.width, height = paper->canvas.height;
-    bool large = kind == LARGE || kind == LARGE_ASKED;
+    bool large = kind == BIG_VIEW || kind == ASK_VIEW;
     /* E along p may leave the axis, which spans accepted values */
     bool cuts = strstr("descent algorithm2 closing", page->name);
     const char *missing = NULL;
     FrameContent content;
     simulation->options.big = large;
     frame_create(simulation, &content);
-    content.lecture.hides_answer = kind == LARGE_ASKED && page->question;
+    content.lecture.hides_answer = kind == ASK_VIEW && page->question;
     frame_add_lecture(column[kind], NULL, &content);
     frame_expand_texts(&content);
     inspect_frame(&content, paper);
     bool good = (seen.smallest + 0.5) * (large ? 35 : 55) >= height;
-    if (kind == CODE) { /* the picture and the main card stay */
+    if (kind == CODE_VIEW) { /* the picture and the main card stay */
         Layout beside = layout_create(&content, width, height);
         const Picture *picture = picture_of_scene(simulation->scene);
         int card =
@@ -352,10 +352,10 @@ static void check_frame(const LecturePage *page, Simulation *simulation,
         good = good && (strcmp(page->file, "src/lecture.c") != 0 ||
                         50 * (seen.smallest_code + 0.5) > height);
     }
-    if (kind < CODE)
+    if (kind < CODE_VIEW)
         missing = find_missing_text(&content);
     if (!good || missing || (large && seen.ellipses > 0) ||
-        (kind != LIST && seen.cut > 0) || seen.over > 0 ||
+        (kind != LIST_VIEW && seen.cut > 0) || seen.over > 0 ||
         (!cuts && seen.outside > 0))
         fail_msg(
             "page %s, step %ld, at %d x %d, %d: letters of %d, of code "
@@ -379,12 +379,12 @@ TEST(pages_are_legible_from_the_back_row)
         for (int i = 0; lecture_pages[i].name; i++) {
             const LecturePage *page = &lecture_pages[i];
             Simulation *simulation = open_page(page->name, "");
-            for (int kind = 0; kind < KINDS; kind++)
-                if (kind == LARGE || kind == LARGE_ASKED || (i + kind) % 3 == s)
+            for (int kind = 0; kind < VIEWS; kind++)
+                if (kind == BIG_VIEW || kind == ASK_VIEW || (i + kind) % 3 == s)
                     check_frame(page, simulation, kind, &paper);
             for (int i = 0; i < 5 && !simulation_step(simulation); i++)
                 continue;
-            check_frame(page, simulation, s ? WITH_CARDS : LARGE, &paper);
+            check_frame(page, simulation, s ? CARDS_VIEW : BIG_VIEW, &paper);
             free_simulations();
         }
         paper_free(&paper);

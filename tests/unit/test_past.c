@@ -22,7 +22,7 @@ static uint64_t hash_past(void)
 static void begin_past(const char *line)
 {
     const Command restart = {.kind = COMMAND_RESTART};
-    Options options = line_options(line);
+    Options options = options_from_line(line);
     past_create(true, true, &past);
     CHECK_OK(past_begin_runs(&past, &options, 1, 0, &restart));
 }
@@ -46,14 +46,13 @@ static void edit_past(CommandKind kind, long number, double x, double y)
 enum { STEPS = 48 };
 
 /* Goes to the steps from ... to; hash [to + 1] out. */
-static void go_to_steps(long from, long to, uint64_t *hash)
+static void go_to_each_step(long from, long to, uint64_t *hash)
 {
     for (long step = from; step <= to; step++)
         hash[step] = go_to_step(step);
 }
 
-/* Returns the distance of the tested steps: `all` in long tests, else `some`.
- */
+/* Returns the distance of tested steps: `all` in long tests, else `some`. */
 static int choose_stride(int all, int some)
 {
     return tests_are_long() ? all : some;
@@ -101,7 +100,7 @@ TEST(states_come_back)
         bool thinned = i >= LINES;
         if (thinned)
             past.max_bytes = 5 * past.used_bytes;
-        go_to_steps(0, STEPS, hash);
+        go_to_each_step(0, STEPS, hash);
         CHECK(past.used_bytes <= past.max_bytes);
         CHECK((past.branch[0].stride >= STEPS / 8) == thinned);
         simulation_from_line(lines[i % LINES], NULL, NULL, &plain);
@@ -125,9 +124,9 @@ TEST(a_pane_that_has_ended_comes_back)
     Random random = {7};
     uint64_t hash[STEPS + 1];
     Options options[2];
-    options[0] = line_options("square --integrator symplectic-euler "
-                              "--timestep 0.008");
-    options[1] = line_options("square --timestep 0.008");
+    options[0] = options_from_line("square --integrator symplectic-euler "
+                                   "--timestep 0.008");
+    options[1] = options_from_line("square --timestep 0.008");
     for (int few = 0; few < 2; few++) {
         past_create(true, true, &past);
         CHECK_OK(past_begin_runs(&past, options, 2, 0, &restart));
@@ -256,17 +255,17 @@ static void drag_randomly(Random *random, int step)
 static bool make_step_after_jerk(bool descends)
 {
     const Simulation *simulation = &past.pane[0].simulation;
-    const TimeIntegrator *go_to_steps = &simulation->run[0];
+    const TimeIntegrator *run = &simulation->run[0];
     int size = 2 * simulation->system.nodes;
     Energies energies = simulation_get_energies(simulation, 0);
-    double v[MAX_SIZE * 3], high = energies.total - energies.work;
+    double v[MAX_COORDINATES * 3], high = energies.total - energies.work;
     long before = past.step;
-    memcpy(v, go_to_steps->v, (size_t)size * sizeof *v);
+    memcpy(v, run->v, (size_t)size * sizeof *v);
     past_set_goal(&past, before + 1, false);
     Status status = past_finish_work(&past);
     if (status && !status_is_unconverged(status)) {
-        CHECK(!go_to_steps->newton && status == STATUS_NOT_FINITE);
-        CHECK_SAME_BITS(go_to_steps->v, v, size);
+        CHECK(!run->newton && status == STATUS_NOT_FINITE);
+        CHECK_SAME_BITS(run->v, v, size);
         return false;
     }
     CHECK(past.step == before + 1);
@@ -274,7 +273,7 @@ static bool make_step_after_jerk(bool descends)
     for (int i = 0; i < records->count; i++)
         CHECK(records->record[i].change <= 0);
     for (int k = 0; k < size; k++)
-        CHECK(isfinite(go_to_steps->x[k]) && isfinite(go_to_steps->v[k]));
+        CHECK(isfinite(run->x[k]) && isfinite(run->v[k]));
     Energies now = simulation_get_energies(simulation, 0);
     if (!descends && !(now.total < 1e20))
         return false;
@@ -291,7 +290,7 @@ static bool make_step_after_jerk(bool descends)
  * method with all variations. */
 TEST(random_drags_end)
 {
-    const int steps = choose_count(10000, 150);
+    const int steps = choose_case_count(10000, 150);
     Random random = {2026};
     for (int i = 0; integrator_methods[i / 2].name; i++) {
         const IntegratorMethod *method = &integrator_methods[i / 2];

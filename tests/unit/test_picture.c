@@ -14,7 +14,7 @@
 /* ---- helpers ------------------------------------------------------------ */
 
 /* Returns the ink of a box: the sum over pixels of 1 - green/255. */
-static double count_ink_in_box(const Canvas *canvas, Box box)
+static double sum_ink_in_box(const Canvas *canvas, Box box)
 {
     double sum = 0;
     for (int j = box.y; j < box.y + box.height; j++)
@@ -24,9 +24,9 @@ static double count_ink_in_box(const Canvas *canvas, Box box)
     return sum;
 }
 
-static double count_ink(const Canvas *canvas)
+static double sum_ink(const Canvas *canvas)
 {
-    return count_ink_in_box(canvas, (Box){0, 0, canvas->width, canvas->height});
+    return sum_ink_in_box(canvas, (Box){0, 0, canvas->width, canvas->height});
 }
 
 /* Returns a white canvas, valid until the next call. */
@@ -61,7 +61,7 @@ TEST(shapes_have_their_area)
         area = i % 3 == 0   ? 80 * width
                : i % 3 == 1 ? M_PI * radius * radius
                             : 2 * M_PI * (radius + width) * width;
-        CHECK_NEAR(count_ink(canvas), area, 0.02 * area + (i % 3 ? 0.3 : 1));
+        CHECK_NEAR(sum_ink(canvas), area, 0.02 * area + (i % 3 ? 0.3 : 1));
     }
 }
 
@@ -87,9 +87,9 @@ TEST(shapes_are_clipped)
     canvas_line(canvas, NAN, 1, 2, 3, 2, 0xff000000);
     canvas_line(canvas, -10, -10, -10, 50, 2, 0xff000000);
     canvas_disc(canvas, 1, NAN, 3, 0xff000000);
-    CHECK_NEAR(count_ink(canvas), 0, 0);
+    CHECK_NEAR(sum_ink(canvas), 0, 0);
     canvas_line(canvas, -1e6, 8.5, 1e6, 8.5, 1, 0xff000000);
-    CHECK_NEAR(count_ink(canvas), 31, 0.1);
+    CHECK_NEAR(sum_ink(canvas), 31, 0.1);
 }
 
 /* ---- colours, history, plot ---------------------------------------------- */
@@ -138,8 +138,8 @@ TEST(plots_keep_to_their_axes)
             CHECK(!plot_disc(&plot, out, 9, COLOUR_X));
         if (shape == 4)
             plot_ring(&plot, out, 9, 2, COLOUR_X);
-        double inside = count_ink_in_box(&paper.canvas, plot.box);
-        CHECK_NEAR(count_ink(&paper.canvas), inside, 1e-9);
+        double inside = sum_ink_in_box(&paper.canvas, plot.box);
+        CHECK_NEAR(sum_ink(&paper.canvas), inside, 1e-9);
         CHECK((inside > 100) == (shape < 3));
     }
     paper_free(&paper);
@@ -196,7 +196,7 @@ TEST(words_keep_off_lines_and_words)
             plot_line(&plot, middle, up, 2, COLOUR_P);
             plot_line(&plot, middle, right, 2, COLOUR_P);
         }
-        int count_ink = count_pixels(&paper.canvas, COLOUR_P, &left);
+        int sum_ink = count_pixels(&paper.canvas, COLOUR_P, &left);
         for (int i = 0; i < 5; i++) {
             plot_label(&plot, 1, i ? middle : far, COLOUR_TEXT, "words");
             int letters = count_pixels(&paper.canvas, COLOUR_TEXT, &left);
@@ -204,7 +204,7 @@ TEST(words_keep_off_lines_and_words)
             CHECK(letters == i * one && (i == 0) == (letters == 0));
             CHECK(i != 1 || (left > 200) == !lines);
         }
-        CHECK(count_pixels(&paper.canvas, COLOUR_P, &left) == count_ink);
+        CHECK(count_pixels(&paper.canvas, COLOUR_P, &left) == sum_ink);
         paper_free(&paper);
     }
 }
@@ -223,12 +223,11 @@ static void paint_step(const char *line, int step, Canvas frame[2])
         Status status = player_make_step(&player);
         CHECK(!status || status_is_unconverged(status));
     }
-    paint_frames(frame);
+    paint_frame_pair(frame);
     end_player();
 }
 
-/* The pictures of `make pictures` equal frames of now; those of late steps only
- * with all variations. */
+/* Pictures of `make pictures` equal frames of now; late steps: long tests. */
 TEST(readme_pictures_are_current)
 {
     char name[32], line[128], file[64];
@@ -242,7 +241,7 @@ TEST(readme_pictures_are_current)
         Canvas frame[2];
         paint_step(line, step, frame);
         snprintf(file, sizeof file, "tests/data/%s.png", name);
-        int far = count_far_pixels(file, frame);
+        int far = count_differing_pixels(file, frame);
         if (far)
             print_error("%s differs; if it should: make pictures\n", file);
         different += far > 0;

@@ -1,5 +1,4 @@
-/* test_player.c - curves of E along p and of energies, and the time between
- * steps, without a window */
+/* test_player.c - curves of E along p and of energies, time between steps */
 #include "test.h"
 #include "attended.h"
 
@@ -22,7 +21,7 @@ TEST(the_curve_goes_through_the_step)
             past_set_goal(&player.past, step + 1, true);
             Status status = past_finish_work(&player.past);
             CHECK(!status || status_is_unconverged(status));
-            const StepTrace *kept = &past_pane(0)->trace;
+            const StepTrace *kept = &get_past_pane(0)->trace;
             for (int place = 0; place < kept->position_count; place++) {
                 Trace trace;
                 step_trace_show(kept, place, &trace);
@@ -47,7 +46,7 @@ TEST(the_curve_goes_through_the_step)
         }
         CHECK(seen > 60 && (i == 3 || (rough > 0) == (i > 0)));
         Trace whole;
-        const StepTrace *kept = &past_pane(0)->trace;
+        const StepTrace *kept = &get_past_pane(0)->trace;
         step_trace_show(kept, -1, &whole);
         CHECK(whole.residual > 0);
         end_player();
@@ -91,7 +90,8 @@ TEST(steps_are_due_at_the_speed_that_was_asked_for)
     for (int speed = -5; speed <= 3; speed++) {
         begin_window("square --segments 1 --stretch 1 --velocity 3,4");
         while (player.play.log_speed != speed)
-            CHECK_OK(obey(player.play.log_speed < speed ? "faster" : "slower"));
+            CHECK_OK(
+                obey_line(player.play.log_speed < speed ? "faster" : "slower"));
         CHECK_OK(player_make_frame(&player)); /* the start is a frame, too */
         const double every = ldexp(1, speed < 0 ? -speed : 0) / 60;
         CHECK_NEAR(player_find_wait_time(&player), fmin(1e3 * every, 200), 1);
@@ -112,7 +112,7 @@ TEST(the_overview_is_alive)
 {
     const FrameContent *content = &player.screen.frame.content;
     begin_window("square");
-    CHECK_OK(obey("sheet"));
+    CHECK_OK(obey_line("sheet"));
     pass_time(4 * 8);
     for (int frames = 1; frames < 20; frames++, pass_time(4))
         for (int i = 0; i < content->sheet.cells; i++) {
@@ -139,7 +139,7 @@ TEST(curves_span_what_is_known)
 {
     begin_player("square --segments 1 --stretch 1 --gravity 9.81");
     for (int newest = 1; newest <= 2100; newest++) {
-        CHECK_OK(obey("step"));
+        CHECK_OK(obey_line("step"));
         if (newest % 300)
             continue;
         const History *history = read_history();
@@ -151,11 +151,11 @@ TEST(curves_span_what_is_known)
             CHECK_NEAR(history->time[i], 0.004 * pace * i, 1e-9);
     }
     double before = read_history()->value[1][400];
-    CHECK_OK(obey("goto 30"));
-    CHECK_OK(obey("set stiffness 2e5"));
+    CHECK_OK(obey_line("goto 30"));
+    CHECK_OK(obey_line("set stiffness 2e5"));
     CHECK(read_history()->count == 31);
-    CHECK_OK(obey("step"));
-    CHECK_OK(obey("undo"));
+    CHECK_OK(obey_line("step"));
+    CHECK_OK(obey_line("undo"));
     CHECK(read_history()->count == 2100 / 4 + 1);
     CHECK(read_history()->value[1][400] == before);
     end_player();

@@ -9,7 +9,7 @@
 enum { STEPS = 36 }; /* not a multiple of 37, see check_steps_are_pure */
 
 /* Makes a step and saves the state. bytes out */
-static void make_step(Simulation *simulation, void *bytes)
+static void make_saved_step(Simulation *simulation, void *bytes)
 {
     Status status = simulation_step(simulation);
     CHECK(!status || status_is_unconverged(status));
@@ -59,7 +59,7 @@ static void check_step_is_pure(const Options *options, Simulation *old,
         if (i == 2)
             make_other_step(options, old);
         state_restore(from, simulation);
-        make_step(simulation, bytes);
+        make_saved_step(simulation, bytes);
         if (memcmp(bytes, from + size, size) != 0)
             fail_msg("%s, %s: step %d has other bits after %s",
                      options->scene->name, old->run[0].method->label, first + 1,
@@ -82,7 +82,7 @@ static bool check_steps_are_pure(const Options *options)
     if (!status)
         state_save(&simulation, states);
     for (int i = 0; i < STEPS && !status; i++)
-        make_step(&simulation, states + (size_t)(i + 1) * size);
+        make_saved_step(&simulation, states + (size_t)(i + 1) * size);
     for (int i = 0; i < STEPS && !status; i++)
         check_step_is_pure(options, &simulation, states, size, i * 37 % STEPS);
     simulation_free(&simulation);
@@ -100,7 +100,7 @@ TEST(steps_are_pure)
                  scene->parts & HAS_MESH ? " --segments 4" : "");
         if (!(scene->parts & HAS_TIME) || scene->step)
             continue;
-        Options options = line_options(line);
+        Options options = options_from_line(line);
         runs += check_steps_are_pure(&options);
         for (const IntegratorMethod *method = integrator_methods; method->name;
              method++) {
@@ -134,7 +134,7 @@ TEST(all_solvers_are_pure)
         "squeeze --segments 4 --projection on-demand",
     };
     for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
-        Options options = line_options(lines[i]);
+        Options options = options_from_line(lines[i]);
         CHECK(check_steps_are_pure(&options));
     }
 }

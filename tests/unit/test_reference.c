@@ -103,13 +103,13 @@ static void check_state(FILE *file, long step, int nodes, const double *x,
 /* ---- the slides' trajectories ------------------------------------------ */
 
 /* A row of the table in tests/data/reference/README.md */
-typedef struct Case {
-    char name[32], who[8], line[320];
-    int every, steps;
+typedef struct ReferenceCase {
+    char name[32], reader[8], line[320];
+    int interval, steps;
     double v; /* m/s, about the largest velocity */
-} Case;
+} ReferenceCase;
 
-static Case cases[32];
+static ReferenceCase cases[32];
 static int count;
 
 static int read_cases(void **unused)
@@ -119,22 +119,22 @@ static int read_cases(void **unused)
     (void)unused;
     assert_non_null(file);
     while (fgets(row, sizeof row, file)) {
-        Case *it = &cases[count];
-        count +=
-            sscanf(row, "| %31s | %7s | %d | %d | %lf | `%319[^`]", it->name,
-                   it->who, &it->every, &it->steps, &it->v, it->line) == 6;
+        ReferenceCase *it = &cases[count];
+        count += sscanf(row, "| %31s | %7s | %d | %d | %lf | `%319[^`]",
+                        it->name, it->reader, &it->interval, &it->steps, &it->v,
+                        it->line) == 6;
     }
     fclose(file);
     return count == 19 ? 0 : -1;
 }
 
-static bool case_is_for(const Case *one, const char *who)
+static bool case_is_for(const ReferenceCase *one, const char *who)
 {
-    return strcmp(one->who, who) == 0;
+    return strcmp(one->reader, who) == 0;
 }
 
 /* Reads the first state of a file; nodes move by at most `most`, m. */
-static void read_start(FILE *file, TimeIntegrator *run, double most)
+static void read_start_state(FILE *file, TimeIntegrator *run, double most)
 {
     for (int i = 0; i < 2 * run->system->nodes; i += 2) {
         double x[2] = {run->x[i], run->x[i + 1]};
@@ -153,7 +153,7 @@ static void read_start(FILE *file, TimeIntegrator *run, double most)
 TEST(the_program_follows_the_slides)
 {
     for (int i = 0; i < count; i++) {
-        const Case *it = &cases[i];
+        const ReferenceCase *it = &cases[i];
         bool solid = case_is_for(it, "solid");
         if (case_is_for(it, "lecture"))
             continue;
@@ -161,11 +161,11 @@ TEST(the_program_follows_the_slides)
         Simulation *scene = simulate("%s --tolerance 1e-9", it->line);
         TimeIntegrator *run = &scene->run[0];
         if (solid)
-            read_start(file, run,
-                       strstr(it->line, "--body") ? 1e-15 : INFINITY);
-        for (int step = solid ? it->every : 0; step <= it->steps;
-             step += it->every) {
-            make_steps(scene, step > 0 ? it->every : 0);
+            read_start_state(file, run,
+                             strstr(it->line, "--body") ? 1e-15 : INFINITY);
+        for (int step = solid ? it->interval : 0; step <= it->steps;
+             step += it->interval) {
+            make_steps(scene, step > 0 ? it->interval : 0);
             check_state(file, step, run->system->nodes, run->x, run->v,
                         solid ? 1e-8 : 1e-6, (solid ? 1e-8 : 1e-6) / run->h);
         }
@@ -224,14 +224,14 @@ TEST(lecture_follows_the_slides)
             solid.x[k].x *= options.stretch;
         double held = 0;
         for (int step = 0; step <= cases[i].steps; step++) {
-            held = step == 2 ? heap_in_use() : held;
+            held = step == 2 ? count_heap_bytes() : held;
             if (step > 0)
                 step_forward(&solid, options.timestep, options.tolerance, step,
                              table);
             check_state(file, step, solid.nodes, &solid.x->x, &solid.v->x, 1e-9,
                         1e-8);
         }
-        CHECK_AT_MOST(heap_in_use() - held, 2e4);
+        CHECK_AT_MOST(count_heap_bytes() - held, 2e4);
         fclose(file);
         rewind(table);
         read_updates(table, &got);
@@ -311,8 +311,8 @@ TEST(the_program_makes_the_updates_of_lecture)
         for (int tight = 0; tight < 2; tight++) {
             got.count = expected.count = 0;
             Simulation *scene =
-                simulate_watched(store_update, &got, "%s %s", cases[i].line,
-                                 tight ? "--tolerance 1e-9" : "");
+                simulate_observed(store_update, &got, "%s %s", cases[i].line,
+                                  tight ? "--tolerance 1e-9" : "");
             const Options *options = &scene->options;
             const TimeIntegrator *run = &scene->run[0];
             double h = options->timestep;

@@ -51,7 +51,7 @@ TEST(scenes_are_complete)
 
 /* Checks that E decreases by the recorded changes, and that projection on
  * demand acts where the Hessian is not positive definite. */
-static void check_path(const Simulation *simulation)
+static void check_descent_path(const Simulation *simulation)
 {
     const Descent *descent = &simulation->descent;
     bool on_demand = simulation->options.projection == PROJECTION_ON_DEMAND;
@@ -92,7 +92,7 @@ TEST(landscape_is_downhill_from_everywhere)
         simulation_set(simulation, OPTION_SLOT(projection),
                        i % 2 ? PROJECTION_CLAMP : PROJECTION_ON_DEMAND);
         CHECK_OK(run_to_end(simulation, 100));
-        check_path(simulation);
+        check_descent_path(simulation);
         CHECK(!descent_classify_hessian(simulation, x[0], x[1]));
         free_simulations();
     }
@@ -201,7 +201,7 @@ TEST(a_body_that_is_pushed_stops_at_another)
     for (int step = 1; step <= 30; step++) {
         CHECK_STATUS(simulation_step(scene),
                      step < 20 ? STATUS_OK : STATUS_BLOCKED);
-        CHECK(exact_crossings(system, x) == 0);
+        CHECK(edge_crossings(system, x) == 0);
     }
     CHECK(x[2 * 9 + 1] > 0.5 && x[2 * 9 + 1] < 0.5 + 1e-3);
 }
@@ -209,7 +209,7 @@ TEST(a_body_that_is_pushed_stops_at_another)
 /* ---- the ledger while hands are on ------------------------------------- */
 
 /* Changes a run between two steps. */
-static Status change_scene(Simulation *scene, int deed)
+static Status change_by_hand(Simulation *scene, int deed)
 {
     const double *x = scene->run[0].x + 2 * 7;
     const Options *now = &scene->options;
@@ -237,8 +237,7 @@ static Status change_scene(Simulation *scene, int deed)
 }
 
 /* A hand, a pin, another time step, stiffness, mu or eta is booked as work and
- * changes no loss. In the steps after it losses only grow, and no broken spring
- * heals. */
+ * changes no loss. Later losses only grow, and no broken spring heals. */
 TEST(changes_by_hand_are_booked_as_work)
 {
     static const char *const lines[] = {"drop --segments 4 --at -0.3,0.4",
@@ -257,7 +256,7 @@ TEST(changes_by_hand_are_booked_as_work)
             Energies before = simulation_get_energies(scene, 0);
             int broken = count_broken_springs(scene);
             Status status =
-                n % 5 ? simulation_step(scene) : change_scene(scene, n / 5);
+                n % 5 ? simulation_step(scene) : change_by_hand(scene, n / 5);
             Energies after = simulation_get_energies(scene, 0);
             double size = fabs(before.total) + fabs(after.total) +
                           fabs(after.work) + fabs(before.dissipated) + 1;
@@ -265,8 +264,8 @@ TEST(changes_by_hand_are_booked_as_work)
             CHECK(count_broken_springs(scene) >= broken);
             CHECK(status == STATUS_OK || (i == 2 && status == STATUS_BLOCKED));
             for (int k = 0; k < 4; k++) {
-                double had = energies_of(&before, lost[k]);
-                double has = energies_of(&after, lost[k]);
+                double had = get_energy(&before, lost[k]);
+                double has = get_energy(&after, lost[k]);
                 CHECK(n % 5 ? has >= had : has == had);
                 size += has;
             }

@@ -12,10 +12,10 @@
 #include <limits.h>
 #include <math.h>
 
-enum { WINDOW_SIDE = 900, MARKS = 16, CHANGES = 80, STEPS = 80 };
+enum { WINDOW_SIDE = 900, MAX_MARKS = 16, MAX_CHANGES = 80, MAX_STEPS = 80 };
 
-static uint64_t marked_hashes[MARKS]; /* by letter, a to p */
-static double mouse[2];               /* pixels, position */
+static uint64_t marked_hashes[MAX_MARKS]; /* by letter, a to p */
+static double mouse[2];                   /* pixels, position */
 static bool player_is_open;
 static double heap_at_start;        /* bytes, at the start of the session */
 static double heap_before_player;   /* bytes, before the session's player */
@@ -31,30 +31,30 @@ static Layout find_layout(void)
     return layout_create(content, canvas->width, canvas->height);
 }
 
-static uint64_t hash_bytes(uint64_t hash, const void *bytes, size_t size)
+static uint64_t add_to_hash(uint64_t hash, const void *bytes, size_t size)
 {
     for (const unsigned char *byte = bytes; size > 0; size--)
         hash = (hash ^ *byte++) * 1099511628211u;
     return hash;
 }
 
-static uint64_t hash_box(const Canvas *canvas, Box box)
+static uint64_t hash_pixels(const Canvas *canvas, Box box)
 {
     uint64_t hash = STATE_HASH_SEED;
     for (int y = box.y; y < box.y + box.height; y++)
-        hash = hash_bytes(hash, &canvas->pixels[y * canvas->width + box.x],
-                          (size_t)box.width * sizeof(Colour));
+        hash = add_to_hash(hash, &canvas->pixels[y * canvas->width + box.x],
+                           (size_t)box.width * sizeof(Colour));
     return hash;
 }
 
 /* Returns a hash of the node positions that the active pane shows. */
-static uint64_t hash_shape(void)
+static uint64_t hash_positions(void)
 {
     player_build_frame(&player);
     const Pane *pane = active_pane(content);
     const int nodes = pane->simulation->system.nodes;
-    return hash_bytes(STATE_HASH_SEED, pane_positions(pane),
-                      2 * sizeof(double) * (size_t)nodes);
+    return add_to_hash(STATE_HASH_SEED, pane_positions(pane),
+                       2 * sizeof(double) * (size_t)nodes);
 }
 
 /* Returns a hash of the picture without message, of the cards, of the state or
@@ -65,16 +65,16 @@ static uint64_t hash_aspect(const char *aspect)
     if (strcmp(aspect, "state") == 0)
         return player_hash(&player);
     if (strcmp(aspect, "shape") == 0)
-        return hash_shape();
+        return hash_positions();
     memcpy(note, player.note, sizeof note);
     player.note[0] = '\0';
     if (player.screen.must_redraw)
         CHECK_STATUS(player_draw(&player), STATUS_OK);
     memcpy(player.note, note, sizeof note);
     const Canvas *canvas = &player_prepare_paper(&player)->canvas;
-    return hash_box(canvas, strcmp(aspect, "cards") == 0
-                                ? find_layout().column
-                                : (Box){0, 0, canvas->width, canvas->height});
+    const Box all = {0, 0, canvas->width, canvas->height};
+    bool cards = strcmp(aspect, "cards") == 0;
+    return hash_pixels(canvas, cards ? find_layout().column : all);
 }
 
 /* Texts of the last frame, a line each: of the window, and of its column */
@@ -120,7 +120,7 @@ static void collect_texts(void)
 
 /* Checks "reads", "lacks" and "list": the window, or the column, has a text
  * with these words. \ stands between two texts that follow each other. */
-static void check_command_words(const char *verb, char *words)
+static void check_window_words(const char *verb, char *words)
 {
     const char *among = strcmp(verb, "list") == 0 ? column_text : window_text;
     bool wanted = strcmp(verb, "lacks") != 0;
@@ -156,7 +156,7 @@ static int find_text(const char *words)
 /* Pixels per metre of the first pane before the last action of the mouse */
 static double scale_before;
 
-static double find_scale(void)
+static double find_pane_scale(void)
 {
     player_build_frame(&player);
     Layout layout = find_layout();
@@ -168,7 +168,7 @@ static void finish_session(void)
     static double lost; /* bytes of all sessions; 1e6: caches keep some */
     if (player_is_open) {
         end_player();
-        lost += heap_in_use() - heap_before_player;
+        lost += count_heap_bytes() - heap_before_player;
         CHECK_AT_MOST(lost, 1e6);
     }
     player_is_open = false;
@@ -177,19 +177,19 @@ static void finish_session(void)
 static void begin_session(const char *line)
 {
     finish_session();
-    heap_before_player = heap_in_use();
-    begin_script("0 pause\n", line);
+    heap_before_player = count_heap_bytes();
+    begin_scripted_player("0 pause\n", line);
     player_is_open = true;
     mouse[0] = mouse[1] = -1;
     player.screen.draws_frames = true;
     player.screen.paper_size[0] = player.screen.paper_size[1] = WINDOW_SIDE;
     CHECK_OK(player_draw(&player)); /* windows draw before any input */
-    heap_at_start = heap_in_use();
-    scale_before = find_scale();
+    heap_at_start = count_heap_bytes();
+    scale_before = find_pane_scale();
 }
 
 /* Shows the message of a refused command as a note. */
-static void show_result(Status status)
+static void show_refusal(Status status)
 {
     CHECK(!status || status == STATUS_INVALID_INPUT ||
           status_is_unconverged(status));
@@ -197,18 +197,18 @@ static void show_result(Status status)
         snprintf(player.note, sizeof player.note, "%.150s", player.message);
 }
 
-static void player_put_input(Input input)
+static void send_input(Input input)
 {
     input.x = mouse[0];
     input.y = mouse[1];
-    show_result(player_obey_input(&player, &input));
+    show_refusal(player_obey_input(&player, &input));
 }
 
 static void press_key(const char *name)
 {
     Input input = {.kind = INPUT_KEY};
     snprintf(input.key, sizeof input.key, "%s", name);
-    player_put_input(input);
+    send_input(input);
 }
 
 /* Presses the key of a letter by its name in the window. */
@@ -234,21 +234,21 @@ static const Setting *find_setting(const char *name, int *place)
 }
 
 /* Moves the mouse to the middle of a box or its empty lower left corner. */
-static void point_into(Box box, bool corner)
+static void move_mouse_into(Box box, bool corner)
 {
     mouse[0] = box.x + (corner ? 0.1 : 0.5) * box.width;
     mouse[1] = box.y + (corner ? 0.95 : 0.5) * box.height;
 }
 
 /* Returns true if the mouse is on this grip. */
-static bool is_grip(const Layout *layout, int grip)
+static bool is_on_grip(const Layout *layout, int grip)
 {
     Pick pick = frame_pick(content, layout, mouse[0], mouse[1]);
     return pick.kind == PICK_HANDLE && pick.index == grip;
 }
 
 /* Moves the mouse to a place in the picture of a pane; false: it is not one. */
-static bool point_at_pane(const char *place, const Layout *layout)
+static bool move_mouse_in_pane(const char *place, const Layout *layout)
 {
     const char *of = strstr(place, " of ");
     int i = 0, p = of ? atoi(of + 4) : 0;
@@ -265,8 +265,8 @@ static bool point_at_pane(const char *place, const Layout *layout)
     Camera camera = camera_of_pane(content, layout, p);
     camera_to_pixel(&camera, at, mouse);
     if (place[0] == 'g' &&
-        !is_grip(layout, i)) /* the grip lies on a curve above the axis */
-        for (mouse[1] = layout->pane[p].y; !is_grip(layout, i); mouse[1]++)
+        !is_on_grip(layout, i)) /* the grip lies on a curve above the axis */
+        for (mouse[1] = layout->pane[p].y; !is_on_grip(layout, i); mouse[1]++)
             assert_true(mouse[1] < layout->height);
     return true;
 }
@@ -289,7 +289,7 @@ static int find_cell(const char *scene)
     return i;
 }
 
-static void point_at(const char *place)
+static void move_mouse(const char *place)
 {
     double x, y;
     int i = 0;
@@ -310,18 +310,18 @@ static void point_at(const char *place)
         mouse[0] = texts[i].x + 2;
         mouse[1] = texts[i].y;
     } else if (strcmp(place, "strip") == 0) {
-        point_into(layout.title_bar, false);
+        move_mouse_into(layout.title_bar, false);
     } else if (strcmp(place, "time") == 0) {
-        point_into(layout.time_line, false);
+        move_mouse_into(layout.time_line, false);
     } else if (strcmp(place, "stage") == 0) {
-        point_into(layout.stage, true);
+        move_mouse_into(layout.stage, true);
     } else if (strncmp(place, "chip ", 5) == 0) {
         assert_true((i = find_chip(place + 5)) >= 0);
-        point_into(layout.chip[i], false);
+        move_mouse_into(layout.chip[i], false);
     } else if (strncmp(place, "cell ", 5) == 0) {
         assert_true((i = find_cell(place + 5)) >= 0);
-        point_into(layout.cell[i], false);
-    } else if (!point_at_pane(place, &layout)) {
+        move_mouse_into(layout.cell[i], false);
+    } else if (!move_mouse_in_pane(place, &layout)) {
         find_setting(place, &i);
         mouse[0] = layout.setting[i].x + 2;
         mouse[1] = layout.setting[i].y + layout.setting[i].height / 2;
@@ -329,7 +329,7 @@ static void point_at(const char *place)
 }
 
 /* Sends an action of the mouse; false: the verb is not one. */
-static bool use_mouse(const char *verb, const char *place)
+static bool send_mouse_action(const char *verb, const char *place)
 {
     static const struct {
         const char *verb;
@@ -346,9 +346,9 @@ static bool use_mouse(const char *verb, const char *place)
         {"leave", {.kind = INPUT_LEAVE}}};
     for (size_t i = 0; i < sizeof actions / sizeof *actions; i++)
         if (strcmp(actions[i].verb, verb) == 0) {
-            point_at(place);
-            scale_before = find_scale();
-            player_put_input(actions[i].input);
+            move_mouse(place);
+            scale_before = find_pane_scale();
+            send_input(actions[i].input);
             return true;
         }
     return false;
@@ -359,15 +359,15 @@ static void resize_window(const char *size)
 {
     int *now = player.screen.paper_size;
     CHECK(sscanf(size, "%d %d", &now[0], &now[1]) == 2);
-    player_put_input((Input){.kind = INPUT_REDRAW});
+    send_input((Input){.kind = INPUT_REDRAW});
     hash_aspect("");
 }
 
-static void run_until(long step)
+static void run_until_step(long step)
 {
     Command pause = {.kind = COMMAND_PAUSE};
     if (player_is_stopped(&player))
-        show_result(obey("play"));
+        show_refusal(obey_line("play"));
     player.setup.script.lines =
         player.setup.script.next_line; /* later lines are dropped */
     CHECK_STATUS(script_add(&player.setup.script, step, &pause, 0), STATUS_OK);
@@ -375,10 +375,10 @@ static void run_until(long step)
 }
 
 /* Begins a step and stops within it, as in a window after a slow frame. */
-static void begin_step(void)
+static void stop_within_step(void)
 {
     Past *past = &player.past;
-    show_result(player_seek(&player, past->step + 1, AFTER_NOTHING));
+    show_refusal(player_seek(&player, past->step + 1, AFTER_NOTHING));
     while (!past->pane[0].is_iterating)
         CHECK_STATUS(past_do_work(past), STATUS_RUNNING);
 }
@@ -399,7 +399,7 @@ static void check_replay(const char *line)
 {
     char script[65536] = "", paused[160];
     glob_t found;
-    show_result(obey("hash")); /* a selected number would take the key Y */
+    show_refusal(obey_line("hash")); /* a selected number would take Y */
     assert_int_equal(glob("elasto_*.script", 0, NULL, &found), 0);
     FILE *file = fopen(found.gl_pathv[0], "r");
     assert_true(file && fread(script, 1, sizeof script - 1, file) > 0);
@@ -409,19 +409,19 @@ static void check_replay(const char *line)
     uint64_t hash = player_hash(&player);
     finish_session();
     snprintf(paused, sizeof paused, "%s --paused", line);
-    begin_script(script, paused);
+    begin_scripted_player(script, paused);
     player_is_open = true;
     player_run(&player); /* some scenes have steps that do not converge */
     CHECK(player_hash(&player) == hash && !player.commands.has_refused_line);
 }
 
 /* Checks the rows of the last step in the file `states` against a new run. */
-static void check_tables(const char *line)
+static void check_state_tables(const char *line)
 {
     char whole[160];
     finish_session();
     snprintf(whole, sizeof whole, "%s --states states2", line);
-    begin_script("0 play\n", whole);
+    begin_scripted_player("0 play\n", whole);
     player_run(&player);
     end_player();
     CHECK(0 ==
@@ -429,10 +429,10 @@ static void check_tables(const char *line)
                  "tail -n $nodes states2 | cmp - rows"));
 }
 
-static void check_mark(const char *verb, const char *rest)
+static void check_hash_mark(const char *verb, const char *rest)
 {
     uint64_t now = hash_aspect(rest[1] ? rest + 2 : ""),
-             *mark = &marked_hashes[(rest[0] - 'a') % MARKS];
+             *mark = &marked_hashes[(rest[0] - 'a') % MAX_MARKS];
     if (strcmp(verb, "mark") == 0)
         *mark = now;
     else if ((now == *mark) != (strcmp(verb, "same") == 0))
@@ -446,10 +446,10 @@ static void check_picture(const char *name)
     Canvas frame[2];
     snprintf(file, sizeof file, "%s/tests/data/%s.png", start_folder, name);
     player_build_frame(&player);
-    paint_frames(frame);
+    paint_frame_pair(frame);
     if (getenv("PICTURES"))
         CHECK_OK(png_file_write(file, NULL, &frame[0]));
-    if (count_far_pixels(file, frame) > 0)
+    if (count_differing_pixels(file, frame) > 0)
         fail_msg("%s differs; if it should: make pictures", file);
 }
 
@@ -473,7 +473,7 @@ static const char *text_or_nothing(const char *text)
 }
 
 /* Returns true if all nodes of a pane are in its box, larger than a dot. */
-static bool pane_has_all(const Layout *layout, int p)
+static bool pane_shows_all_nodes(const Layout *layout, int p)
 {
     const Pane *pane = &content->pane[p];
     const Box *box = &layout->pane[p];
@@ -496,7 +496,7 @@ static void add_facts_of_parts(void)
     char order[512] = "";
     for (int p = 0; p < content->panes; p++) {
         const Trace *trace = content->pane[p].trace;
-        add_fact("inside %d %d", p, pane_has_all(&layout, p));
+        add_fact("inside %d %d", p, pane_shows_all_nodes(&layout, p));
         add_fact("label %d\t%s", p, text_or_nothing(content->pane[p].label));
         add_fact("line %d %d", p, trace ? (int)trace->at_line : 0);
     }
@@ -542,7 +542,7 @@ static void collect_facts(void)
     add_fact("scene %s", player_simulation(&player)->scene->name);
     add_fact("over %s %d", kinds[content->view->hovered.kind],
              content->view->hovered.index);
-    double scale = find_scale();
+    double scale = find_pane_scale();
     add_fact("scale %s", scale < scale_before   ? "smaller"
                          : scale > scale_before ? "larger"
                                                 : "same");
@@ -572,7 +572,7 @@ static void clear_record(void)
 }
 
 /* Adds lines of a text to the record that an earlier text does not have. */
-static void add_changes_to_record(const char *before, const char *now)
+static void add_new_lines(const char *before, const char *now)
 {
     for (size_t length; *now; now += length + (now[length] == '\n')) {
         char line[1024];
@@ -609,12 +609,12 @@ static void add_facts_to_record(const char *line)
                      entry->value[0], entry->value[1]);
     }
     snprintf(head, sizeof head, "> %s\n", line);
-    add_changes_to_record("", head);
-    add_changes_to_record(before, facts);
+    add_new_lines("", head);
+    add_new_lines(before, facts);
 }
 
 /* Returns the name of the card in which a text stands, or "". */
-static const char *find_card(const Layout *layout, double x, double y)
+static const char *find_card_name(const Layout *layout, double x, double y)
 {
     for (int c = 0; c < layout->cards; c++)
         if (box_contains(layout->card[c], x, y))
@@ -644,9 +644,9 @@ static int write_ink(const Canvas *canvas, Box box, const char *name, char *out)
 
 /* Writes how much is drawn besides words: in each of 25 parts of the picture,
  * and in each card unless the text of a page changes the sizes of cards. */
-static int write_shapes(const Layout *layout, char *out)
+static int write_shape_ink(const Layout *layout, char *out)
 {
-    enum { PARTS = 5 };
+    enum { STAGE_PARTS = 5 };
     Paper *paper = &player.screen.paper;
     Text *text = paper->text;
     const Box stage = layout->stage;
@@ -655,13 +655,13 @@ static int write_shapes(const Layout *layout, char *out)
     paper->text = NULL;
     player_paint_frame(&player, paper);
     paper->text = text;
-    for (int i = 0; i < PARTS * PARTS; i++) {
-        const int column = i % PARTS, row = i / PARTS;
-        const int left = stage.width * column / PARTS;
-        const int top = stage.height * row / PARTS;
+    for (int i = 0; i < STAGE_PARTS * STAGE_PARTS; i++) {
+        const int column = i % STAGE_PARTS, row = i / STAGE_PARTS;
+        const int left = stage.width * column / STAGE_PARTS;
+        const int top = stage.height * row / STAGE_PARTS;
         const Box part = {stage.x + left, stage.y + top,
-                          stage.width * (column + 1) / PARTS - left,
-                          stage.height * (row + 1) / PARTS - top};
+                          stage.width * (column + 1) / STAGE_PARTS - left,
+                          stage.height * (row + 1) / STAGE_PARTS - top};
         snprintf(name, sizeof name, "picture %d %d", column, row);
         at += write_ink(&paper->canvas, part, name, at);
     }
@@ -689,7 +689,7 @@ static void add_window_to_record(const char *unused)
     for (int i = 0; i < text_count; i++) {
         const char *text = window_text + texts[i].start;
         const double x = texts[i].x, y = texts[i].y;
-        const char *card = find_card(&layout, x, y);
+        const char *card = find_card_name(&layout, x, y);
         const Colour colour = texts[i].colour & 0xffffff;
         const int length = (int)strcspn(text, "\n");
         const Box *places = layout.has_list ? &layout.column : &layout.stage;
@@ -704,8 +704,8 @@ static void add_window_to_record(const char *unused)
         count++;
     }
     now += sprintf(now, "%d | texts\n", count);
-    write_shapes(&layout, now);
-    add_changes_to_record(before, recorded_texts);
+    write_shape_ink(&layout, now);
+    add_new_lines(before, recorded_texts);
 }
 
 /* Adds a file to the record, without the run times of the log. */
@@ -720,14 +720,14 @@ static void add_file_to_record(const char *name)
         for (int commas = 0; *end != '\n' && (commas += *end == ',') < 11;)
             end++;
         strcpy(end, "\n");
-        add_changes_to_record("", line);
+        add_new_lines("", line);
     }
     fclose(file);
 }
 
 /* Returns true if a line equals that of a record. Numbers at its start are
  * pixels and may differ a little, as versions of the font library do. */
-static bool is_same_line(const char *was, const char *is)
+static bool lines_agree(const char *was, const char *is)
 {
     double a, b;
     int from[2] = {0};
@@ -753,7 +753,7 @@ static void check_record(const char *name)
         if (!fgets(was, sizeof was, file))
             was[0] = '\0';
         was[strcspn(was, "\n")] = '\0';
-        if (!is_same_line(was, is))
+        if (!lines_agree(was, is))
             fail_msg("%s: '%s' is now '%s'; if it should: "
                      "PICTURES=1 build/release/tests/unit/test_session '%s'",
                      path, was, is, "record*");
@@ -784,9 +784,9 @@ static void check_fact(const char *line)
 
 /* ---- numbers ------------------------------------------------------------- */
 
-/* Finds the records of Newton's method, of a descent or of the last step, and
- * returns their number. */
-static int find_records(const Simulation *simulation, const NewtonRecord **row)
+/* Returns the number of records of a descent or of the last step; row: out. */
+static int get_newton_records(const Simulation *simulation,
+                              const NewtonRecord **row)
 {
     const Records *made = &player.past.pane[content->active_pane].records;
     bool descends = simulation->scene->step == step_descent;
@@ -794,38 +794,38 @@ static int find_records(const Simulation *simulation, const NewtonRecord **row)
     return descends ? simulation->descent.count : made->count;
 }
 
-static double count_records(const Simulation *simulation)
+static double count_newton_records(const Simulation *simulation)
 {
     const NewtonRecord *row;
-    return find_records(simulation, &row);
+    return get_newton_records(simulation, &row);
 }
 
 /* Counts the updates in which E does not fall. */
-static double count_rises(const Simulation *simulation)
+static double count_energy_rises(const Simulation *simulation)
 {
     const NewtonRecord *row;
     int rises = 0;
-    for (int i = find_records(simulation, &row) - 1; i >= 0; i--)
+    for (int i = get_newton_records(simulation, &row) - 1; i >= 0; i--)
         rises += !(row[i].change < 0 && row[i].slope < 0);
     return rises;
 }
 
 /* Returns the rise of E in the first updates, J s^2. */
-static double find_rise(const Simulation *simulation, int updates)
+static double find_energy_rise(const Simulation *simulation, int updates)
 {
     const NewtonRecord *row;
     double E = 0;
-    int count = find_records(simulation, &row);
+    int count = get_newton_records(simulation, &row);
     for (int i = 0; i < updates && i < count; i++)
         E += row[i].change;
     return E;
 }
 
-static double find_highest_rise(const Simulation *simulation)
+static double find_highest_energy_rise(const Simulation *simulation)
 {
     double highest = 0;
-    for (int i = (int)count_records(simulation); i > 0; i--)
-        highest = fmax(highest, find_rise(simulation, i));
+    for (int i = (int)count_newton_records(simulation); i > 0; i--)
+        highest = fmax(highest, find_energy_rise(simulation, i));
     return highest;
 }
 
@@ -838,7 +838,7 @@ static double sum_masses(const Simulation *simulation)
 }
 
 /* Returns the height of the lowest node, m. */
-static double find_lowest(const Simulation *simulation)
+static double find_lowest_height(const Simulation *simulation)
 {
     double low = INFINITY;
     for (int i = 0; i < simulation->system.nodes; i++)
@@ -847,7 +847,7 @@ static double find_lowest(const Simulation *simulation)
 }
 
 /* Returns the height of the highest node of the first body, m. */
-static double find_highest(const Simulation *simulation)
+static double find_highest_height(const Simulation *simulation)
 {
     double high = -INFINITY;
     for (int i = 0; i < simulation->mesh.nodes / simulation->mesh.bodies; i++)
@@ -858,7 +858,7 @@ static double find_highest(const Simulation *simulation)
 /* Returns the largest distance of a node from its place at rest, m. */
 static double find_distance_from_rest(const Simulation *simulation)
 {
-    const double *x = simulation->run[0].x, *rest = rest_x(simulation);
+    const double *x = simulation->run[0].x, *rest = get_rest_x(simulation);
     double most = 0;
     for (int i = 0; i < 2 * simulation->mesh.nodes; i += 2)
         most = fmax(most, hypot(x[i] - rest[i], x[i + 1] - rest[i + 1]));
@@ -875,7 +875,7 @@ static double find_mean_vy(const Simulation *simulation)
 }
 
 /* Counts the triangles that are turned over; a cell of springs has four. */
-static double count_turned(const Simulation *simulation)
+static double count_turned_triangles(const Simulation *simulation)
 {
     int turned = 0, node[3], side[3];
     const double *x = simulation->run[0].x;
@@ -891,12 +891,12 @@ static double count_turned(const Simulation *simulation)
 
 static double count_crossings(const Simulation *simulation)
 {
-    return (double)exact_crossings(&simulation->system, simulation->run[0].x);
+    return (double)edge_crossings(&simulation->system, simulation->run[0].x);
 }
 
-static double find_smallest_cell(const Simulation *simulation)
+static double find_smallest_area_ratio(const Simulation *simulation)
 {
-    return smallest_cell(&simulation->system, simulation->run[0].x);
+    return smallest_area_ratio(&simulation->system, simulation->run[0].x);
 }
 
 /* Returns the energy that the run gained without work, J. */
@@ -905,13 +905,13 @@ static double find_gained_energy(const Simulation *simulation)
     return simulation->ledger[0].gained_energy;
 }
 
-static double count_gains(const Simulation *simulation)
+static double count_energy_gains(const Simulation *simulation)
 {
     return (double)simulation->ledger[0].gain_steps;
 }
 
 /* Returns the total energy without the work done, J. */
-static double find_own_energy(const Simulation *simulation)
+static double find_energy_without_work(const Simulation *simulation)
 {
     Energies ledger = simulation_get_energies(simulation, 0);
     return ledger.total - ledger.work;
@@ -932,7 +932,7 @@ static double find_hand_distance(const Simulation *simulation)
 }
 
 /* Returns how far the held node moves in a step, m. */
-static double find_hand_step(const Simulation *simulation)
+static double find_held_node_step(const Simulation *simulation)
 {
     const TimeIntegrator *run = &simulation->run[0];
     const double *v = run->v + 2 * past_control(&player.past, 0)->held_node;
@@ -958,9 +958,9 @@ static double find_distance_from_stop(const Simulation *simulation)
 static void run_until_rest(void)
 {
     if (player_is_stopped(&player))
-        CHECK_OK(obey("play"));
+        CHECK_OK(obey_line("play"));
     for (int i = 0; i < 3000 && !player_is_stopped(&player); i++)
-        show_result(player_make_step(&player));
+        show_refusal(player_make_step(&player));
     CHECK(player_is_stopped(&player));
     const Simulation *simulation = player_simulation(&player);
     size_t size = 2 * sizeof *stopped_x * (size_t)simulation->system.nodes;
@@ -972,11 +972,11 @@ static void run_until_rest(void)
 static double find_heap_growth(const Simulation *simulation)
 {
     (void)simulation;
-    return (heap_in_use() - heap_at_start) / 1e6;
+    return (count_heap_bytes() - heap_at_start) / 1e6;
 }
 
 /* Counts the steps that did not converge. */
-static double count_unconverged(const Simulation *simulation)
+static double count_unconverged_steps(const Simulation *simulation)
 {
     return (double)simulation->unconverged_steps;
 }
@@ -995,31 +995,31 @@ static const struct {
 static const struct {
     const char *name;
     double (*find)(const Simulation *simulation);
-} numbers[] = {{"records", count_records},
-               {"rises", count_rises},
-               {"highest rise", find_highest_rise},
+} numbers[] = {{"records", count_newton_records},
+               {"rises", count_energy_rises},
+               {"highest rise", find_highest_energy_rise},
                {"all masses", sum_masses},
-               {"lowest", find_lowest},
-               {"top", find_highest},
+               {"lowest", find_lowest_height},
+               {"top", find_highest_height},
                {"way from rest", find_distance_from_rest},
                {"mean vy", find_mean_vy},
-               {"turned", count_turned},
+               {"turned", count_turned_triangles},
                {"broken", count_broken_springs},
                {"crossings", count_crossings},
-               {"flattest", find_smallest_cell},
+               {"flattest", find_smallest_area_ratio},
                {"grown", find_heap_growth},
                {"gained", find_gained_energy},
-               {"gains", count_gains},
-               {"own energy", find_own_energy},
+               {"gains", count_energy_gains},
+               {"own energy", find_energy_without_work},
                {"wall", find_wall_height},
                {"hand distance", find_hand_distance},
-               {"hand step", find_hand_step},
+               {"hand step", find_held_node_step},
                {"way from stop", find_distance_from_stop},
-               {"unconverged", count_unconverged}};
+               {"unconverged", count_unconverged_steps}};
 
 /* Finds a number by its name: of a table above, a coordinate of a node, a field
  * of a record, an entry of the ledger, or a value of texts; NaN: unknown. */
-static double find_number(const char *name)
+static double find_value_by_name(const char *name)
 {
     static const char *const fields[] = {"alpha",  "residual", "projected",
                                          "change", "slope",    "to"};
@@ -1038,10 +1038,10 @@ static double find_number(const char *name)
                                            counters[n].place);
     if (strncmp(name, "gap", 3) == 0) {
         const TimeIntegrator *run = &simulation->run[atoi(name + 3)];
-        return smallest_gap(run->system, run->x);
+        return find_smallest_gap(run->system, run->x);
     }
     if (sscanf(name, "rise %d", &i) == 1)
-        return find_rise(simulation, i);
+        return find_energy_rise(simulation, i);
     if (sscanf(name, "radius %d", &i) == 1)
         return hypot(simulation->run[i].x[0], simulation->run[i].x[1]);
     if (sscanf(name, "x %d", &i) == 1)
@@ -1049,7 +1049,7 @@ static double find_number(const char *name)
     if (sscanf(name, "y %d", &i) == 1)
         return pane_positions(pane)[2 * i + 1];
     if (sscanf(name, "update %d %15s", &i, field) == 2) {
-        CHECK(i >= 1 && i <= find_records(simulation, &row));
+        CHECK(i >= 1 && i <= get_newton_records(simulation, &row));
         row += i - 1;
         while (strcmp(fields[k], field) != 0)
             k++;
@@ -1063,8 +1063,7 @@ static double find_number(const char *name)
     return values_find_number(&pane->values, name);
 }
 
-/* Returns true if a number has these digits ("0.966", "6.0e-5"), or lies within
- * this bound ("<8", ">0.1"). */
+/* Returns true if a number has these digits ("6.0e-5") or this bound ("<8"). */
 static bool has_digits(double number, const char *digits)
 {
     double wanted = strtod(digits + strspn(digits, "<>"), NULL);
@@ -1077,13 +1076,13 @@ static bool has_digits(double number, const char *digits)
 }
 
 /* Checks that the value NAME is NUMBER, for the line "NAME NUMBER". */
-static void check_value(const char *line)
+static void check_named_value(const char *line)
 {
     char name[64];
     const char *digits = strrchr(line, ' ') + 1;
     snprintf(name, sizeof name, "%.*s", (int)(digits - line) - 1, line);
     player_build_frame(&player);
-    double number = find_number(name);
+    double number = find_value_by_name(name);
     if (!has_digits(number, digits))
         fail_msg("%s is %.12g at step %ld, not %s", name, number,
                  player.past.step, digits);
@@ -1093,19 +1092,19 @@ static void check_value(const char *line)
 static void check_value_in_steps(const char *line)
 {
     for (long left = atol(line); left > 0; left--) {
-        show_result(player_make_step(&player));
-        check_value(strchr(line, ' ') + 1);
+        show_refusal(player_make_step(&player));
+        check_named_value(strchr(line, ' ') + 1);
     }
 }
 
-static void run_line(const char *line)
+static void run_session_line(const char *line)
 {
     static const struct {
         const char *verb;
         void (*act)(const char *rest);
     } acts[] = {{"begin", begin_session},       {"size", resize_window},
-                {"value", check_value},         {"keeps", check_value_in_steps},
-                {"replays", check_replay},      {"tables", check_tables},
+                {"value", check_named_value},   {"keeps", check_value_in_steps},
+                {"replays", check_replay},      {"tables", check_state_tables},
                 {"file", add_file_to_record},   {"picture", check_picture},
                 {"words", add_window_to_record}};
     char verb[16] = "", rest[192] = "";
@@ -1124,39 +1123,39 @@ static void run_line(const char *line)
         for (const char *letter = rest; *letter; letter++)
             press_letter(*letter);
     else if (strcmp(verb, "do") == 0)
-        show_result(obey(rest));
+        show_refusal(obey_line(rest));
     else if (strcmp(verb, "run") == 0)
-        run_until(atol(rest));
+        run_until_step(atol(rest));
     else if (strcmp(verb, "rest") == 0)
         run_until_rest();
     else if (strcmp(verb, "go") == 0)
         for (long left = atol(rest); left > 0; left--)
-            show_result(player_make_step(&player));
+            show_refusal(player_make_step(&player));
     else if (strcmp(verb, "half") == 0)
-        begin_step();
+        stop_within_step();
     else if (strcmp(verb, "whole") == 0)
-        show_result(player_continue(&player));
+        show_refusal(player_continue(&player));
     else if (strcmp(verb, "asks") == 0)
         player.setup.asks_guess = player.screen.must_redraw = true;
     else if (strstr("reads lacks list", verb))
-        check_command_words(verb, rest);
+        check_window_words(verb, rest);
     else if (strstr("mark same other", verb))
-        check_mark(verb, rest);
-    else if (!use_mouse(verb, rest))
+        check_hash_mark(verb, rest);
+    else if (!send_mouse_action(verb, rest))
         check_fact(line);
 }
 
 /* ---- sessions ----------------------------------------------------------- */
 
-enum { SESSIONS = 512, LINES = 16384 };
+enum { MAX_SESSIONS = 512, MAX_LINES = 16384 };
 
 typedef struct Session {
     const char *name, **line;
 } Session;
 
-static Session sessions[SESSIONS + 1]; /* the last has no name */
+static Session sessions[MAX_SESSIONS + 1]; /* the last has no name */
 /* Lines of all sessions; NULL ends each session */
-static const char *lines[LINES];
+static const char *lines[MAX_LINES];
 static char session_text[1 << 18];
 
 /* Number of sessions and of lines */
@@ -1173,12 +1172,12 @@ static void read_sessions(const char *name)
     fclose(file);
     for (char *row = strtok(text, "\n"); row; row = strtok(NULL, "\n"))
         if (row[0] == '=') {
-            assert_true(session_count < SESSIONS);
+            assert_true(session_count < MAX_SESSIONS);
             sessions[session_count++] =
                 (Session){row + 2, lines + ++line_count};
         } else if (row[0] != '#') {
-            while ((lines[line_count] = next_part(&row)))
-                assert_true(++line_count + 2 < LINES);
+            while ((lines[line_count] = take_next_part(&row)))
+                assert_true(++line_count + 2 < MAX_LINES);
         }
     line_count++;
 }
@@ -1199,7 +1198,7 @@ static void run_session(void **state)
     const bool records = strncmp(session->name, "record ", 7) == 0;
     clear_record();
     for (const char **line = session->line; *line; line++) {
-        run_line(current_line = *line);
+        run_session_line(current_line = *line);
         if (records && player_is_open)
             add_facts_to_record(current_line);
     }
@@ -1222,14 +1221,13 @@ static int end_session(void **unused)
 
 /* ---- a hand in every scene ---------------------------------------------- */
 
-/* Scenes with the place where a drag starts, its length in pixels, and letters
- * for what applies to the scene: g the hand pulls, d a point is dragged, p
- * pins, k the stiffness k, l lines of Algorithm 3, f the projection, s the line
- * search, m other methods */
+/* Scenes with the start of a drag, its length in pixels, and letters for what
+ * applies to the scene: g the hand pulls, d a point is dragged, p pins, k the
+ * stiffness k, l lines of Algorithm 3, f projection, s line search, m method */
 static const struct SceneRow {
-    const char *scene, *start;
+    const char *scene, *drag_start;
     int dx, dy;
-    const char *can;
+    const char *action_letters;
 } rows[] = {
     {"square", "node 12", 60, -60, "gpklfsm"},
     {"circle", "m 1,0", 40, -60, "g"},
@@ -1249,16 +1247,16 @@ static const struct SceneRow {
     {"dial", "grip 0", 60, 60, "d"},
     {"spring", "grip 0", 40, 40, "dlfsm"},
 };
-enum { SCENES = sizeof rows / sizeof *rows };
+enum { SCENE_ROWS = sizeof rows / sizeof *rows };
 
 /* Fills the places of a scene into a line. Returns false if the line is for
  * other scenes: "[k] " needs the letter k, "[-k] " its absence. */
-static bool fill_pattern(const char *pattern, const struct SceneRow *row,
-                         char *line, size_t size)
+static bool fill_action_line(const char *pattern, const struct SceneRow *row,
+                             char *line, size_t size)
 {
     if (pattern[0] == '[') {
         bool lacks = pattern[1] == '-';
-        if (lacks != !strchr(row->can, pattern[1 + lacks]))
+        if (lacks != !strchr(row->action_letters, pattern[1 + lacks]))
             return false;
         pattern += 4 + lacks;
     }
@@ -1270,7 +1268,7 @@ static bool fill_pattern(const char *pattern, const struct SceneRow *row,
                  half * row->dy / 2);
     else
         snprintf(line, size, "%.*s%s", verb, pattern,
-                 strcmp(place, "START") == 0 ? row->start : place);
+                 strcmp(place, "START") == 0 ? row->drag_start : place);
     return true;
 }
 
@@ -1279,10 +1277,10 @@ static void drag_in_scene(void **state)
     static char line[128];
     const struct SceneRow *row = *state;
     snprintf(line, sizeof line, "begin %s --paused", row->scene);
-    run_line(current_line = line);
+    run_session_line(current_line = line);
     for (const char **act = find_session("hand")->line; *act; act++)
-        if (fill_pattern(*act, row, line, sizeof line))
-            run_line(line);
+        if (fill_action_line(*act, row, line, sizeof line))
+            run_session_line(line);
     check_replay(row->scene);
     current_line = NULL;
 }
@@ -1299,12 +1297,12 @@ static void grips_go_where_they_are_dragged(void **unused)
             double at[SCENE_MAX_HANDLES][2];
             bool flat = scene->parts & HAS_ONE_COORDINATE; /* y is ignored */
             snprintf(line, sizeof line, "begin %s --paused", scene->name);
-            run_line(line);
+            run_session_line(line);
             snprintf(line, sizeof line, "press grip %d", i);
-            run_line(current_line = line);
-            run_line("move +9 +9");
-            run_line("move m 0.4,-0.3");
-            run_line("release +0 +0");
+            run_session_line(current_line = line);
+            run_session_line("move +9 +9");
+            run_session_line("move m 0.4,-0.3");
+            run_session_line("release +0 +0");
             exhibit_list_handles(player_simulation(&player), at);
             CHECK_NEAR(at[i][0], 0.4, 1e-9);
             CHECK(flat || fabs(at[i][1] + 0.3) < 1e-9);
@@ -1316,19 +1314,18 @@ static void grips_go_where_they_are_dragged(void **unused)
 /* ---- random keys -------------------------------------------------------- */
 
 /* Hashes the state, the step, and all settings but one. */
-static uint64_t hash_all_but(int place)
+static uint64_t hash_all_but_setting(int place)
 {
     uint64_t hash = hash_aspect("state") + (uint64_t)player.past.step;
     player_build_frame(&player);
     for (int i = 0; i < content->settings.count; i++)
         if (i != place)
-            hash = hash_bytes(hash, content->settings.item[i].value,
-                              strlen(content->settings.item[i].value));
+            hash = add_to_hash(hash, content->settings.item[i].value,
+                               strlen(content->settings.item[i].value));
     return hash;
 }
 
-/* Checks that random keys in an open field change its number alone; after
- * Escape not even this number. */
+/* Random keys in an open field change its number alone; after Escape, none. */
 static void random_keys_stay_in_their_field(void **unused)
 {
     (void)unused;
@@ -1338,23 +1335,23 @@ static void random_keys_stay_in_their_field(void **unused)
         "Delete", "Ctrl+R", "Tab+M",     "Shift+N",   "Ctrl+5", "Keypad 5",
         "Insert", "\u00dc", "Shift+Tab", "Backspace",
     };
-    enum { OTHERS = sizeof others / sizeof *others, ROUNDS = 150 };
+    enum { OTHER_KEYS = sizeof others / sizeof *others, ROUNDS = 150 };
     Random random = {19};
     int set = 0, refused = 0;
     for (int round = 0; round < ROUNDS; round++) {
         if (round == 0 || set > 0) { /* a number was set: begin anew */
-            run_line("begin square --segments 2 --paused");
-            run_line("key N N");
+            run_session_line("begin square --segments 2 --paused");
+            run_session_line("key N N");
         }
         uint64_t before = hash_aspect("");
         int place = random_below(&random, player.screen.frame.options);
         for (int i = 0; i <= place; i++)
             press_key("Tab");
-        uint64_t rest = hash_all_but(place);
+        uint64_t rest = hash_all_but_setting(place);
         press_letter("0123456789.,+-"[random_below(&random, 14)]);
         for (int i = random_below(&random, 12); i > 0; i--)
             if (random_below(&random, 4) == 0)
-                press_key(others[random_below(&random, OTHERS)]);
+                press_key(others[random_below(&random, OTHER_KEYS)]);
             else if (random_below(&random, 2) == 0)
                 press_letter((char)(' ' + random_below(&random, 95)));
             else
@@ -1369,7 +1366,7 @@ static void random_keys_stay_in_their_field(void **unused)
         CHECK(!player.hands.selected && past_panes(&player.past) == 1 &&
               player_is_stopped(&player));
         if (set && player.past.step == 2) /* a mesh size begins a new run */
-            CHECK(hash_all_but(place) == rest);
+            CHECK(hash_all_but_setting(place) == rest);
         if (!set)
             CHECK(hash_aspect("") == before);
         assert_string_equal(player_simulation(&player)->scene->name, "square");
@@ -1379,54 +1376,54 @@ static void random_keys_stay_in_their_field(void **unused)
 }
 
 /* Returns a hash of the states, times and ledgers of all panes. */
-static uint64_t hash_run(void)
+static uint64_t hash_panes(void)
 {
     uint64_t hash = STATE_HASH_SEED;
     for (int p = 0; p < past_panes(&player.past); p++)
-        hash = hash_with_ledger(&past_pane(p)->simulation, hash);
+        hash = hash_with_ledger(&get_past_pane(p)->simulation, hash);
     return hash;
 }
 
 /* Goes to each step, backwards, and stores its hash; or, `again`, forwards, and
  * checks that its hash is the stored one. */
-static void visit_steps(uint64_t *hash, bool again)
+static void hash_each_step(uint64_t *hash, bool again)
 {
     const long newest = past_newest(&player.past);
-    CHECK(newest < STEPS);
+    CHECK(newest < MAX_STEPS);
     for (long i = 0; i <= newest; i++) {
         char line[32];
         long step = again ? i : newest - i;
         snprintf(line, sizeof line, "goto %ld", step);
-        show_result(obey(line));
-        const uint64_t now = hash_run();
+        show_refusal(obey_line(line));
+        const uint64_t now = hash_panes();
         CHECK(!again || hash[step] == now);
         hash[step] = now;
     }
 }
 
 /* Undoes and redoes all changes, which must restore the bits of every step. */
-static void undo_and_redo(uint64_t started)
+static void undo_and_redo_all(uint64_t started)
 {
-    static uint64_t hash[CHANGES][STEPS];
+    static uint64_t hash[MAX_CHANGES][MAX_STEPS];
     int back = 0;
-    run_line("release 350 300");
+    run_session_line("release 350 300");
     const uint64_t end = player_hash(&player);
     const long step = player.past.step;
     for (; player.past.current > 0; back++) {
-        CHECK(back + 1 < CHANGES);
-        visit_steps(hash[back], false);
-        show_result(obey("undo"));
+        CHECK(back + 1 < MAX_CHANGES);
+        hash_each_step(hash[back], false);
+        show_refusal(obey_line("undo"));
     }
-    visit_steps(hash[back], false);
+    hash_each_step(hash[back], false);
     CHECK(player_hash(&player) == started);
     for (; back >= 0; back--) {
-        visit_steps(hash[back], true);
+        hash_each_step(hash[back], true);
         if (back > 0)
-            show_result(obey("redo"));
+            show_refusal(obey_line("redo"));
     }
     char line[32];
     snprintf(line, sizeof line, "goto %ld", step);
-    show_result(obey(line));
+    show_refusal(obey_line(line));
     CHECK(player_hash(&player) == end);
 }
 
@@ -1436,7 +1433,7 @@ static void undo_and_redo(uint64_t started)
 static void record_of_random_hands(void **unused)
 {
     (void)unused;
-    enum { ROUNDS = 60, LENGTH = 40 };
+    enum { ROUNDS = 60, ACTIONS = 40 };
     static const char *const scene[] = {
         "square --segments 2", "square --segments 2 --integrator sdirk2",
         "drop --segments 2", "square --segments 2 --integrator bdf2"};
@@ -1450,15 +1447,15 @@ static void record_of_random_hands(void **unused)
     for (int round = 0; round < ROUNDS; round++) {
         char line[80];
         snprintf(line, sizeof line, "begin %s --paused", scene[round % 4]);
-        run_line(line);
+        run_session_line(line);
         player.past.max_bytes = states[round % 3] * player.past.used_bytes;
         const uint64_t started = player_hash(&player);
-        for (int i = 0; i < LENGTH; i++) {
-            run_line(current_line = acts[random_below(&random, count)]);
+        for (int i = 0; i < ACTIONS; i++) {
+            run_session_line(current_line = acts[random_below(&random, count)]);
             player.is_quitting = false; /* Escape may quit */
             add_facts_to_record(current_line);
         }
-        undo_and_redo(started);
+        undo_and_redo_all(started);
         check_replay(scene[round % 4]);
         count_files(true);
     }
@@ -1475,15 +1472,15 @@ static void pages_are_the_same_when_they_are_entered_again(void **unused)
         char line[64];
         if (strcmp(lecture_pages[i].name, "order") == 0)
             continue;
-        run_line("begin square --paused");
+        run_session_line("begin square --paused");
         snprintf(line, sizeof line, "do page %s", lecture_pages[i].name);
-        run_line(current_line = line);
-        run_line("mark a");
-        run_line("key N N");
-        show_result(obey("page-back"));
-        show_result(obey("page-on"));
-        run_line(line);
-        run_line("same a");
+        run_session_line(current_line = line);
+        run_session_line("mark a");
+        run_session_line("key N N");
+        show_refusal(obey_line("page-back"));
+        show_refusal(obey_line("page-on"));
+        run_session_line(line);
+        run_session_line("same a");
         current_line = NULL;
     }
 }
@@ -1504,7 +1501,7 @@ static void each_page_has_its_sessions(void **unused)
 
 int main(int argc, char **argv)
 {
-    struct CMUnitTest tests[5 + SESSIONS + SCENES] = {
+    struct CMUnitTest tests[5 + MAX_SESSIONS + SCENE_ROWS] = {
         cmocka_unit_test_teardown(grips_go_where_they_are_dragged, end_session),
         cmocka_unit_test_teardown(random_keys_stay_in_their_field, end_session),
         cmocka_unit_test_teardown(record_of_random_hands, end_session),
@@ -1521,7 +1518,7 @@ int main(int argc, char **argv)
             tests[count++] =
                 (struct CMUnitTest){sessions[i].name, run_session, NULL,
                                     end_session, (void *)&sessions[i]};
-    for (int i = 0; i < SCENES; i++)
+    for (int i = 0; i < SCENE_ROWS; i++)
         tests[count++] = (struct CMUnitTest){rows[i].scene, drag_in_scene, NULL,
                                              end_session, (void *)&rows[i]};
     assert_int_equal(chdir(folder), 0);

@@ -61,7 +61,7 @@ static int end_show(void **unused)
     return 0;
 }
 
-static void draw(void)
+static void draw_picture(void)
 {
     int width = paper.canvas.width, height = paper.canvas.height;
     frame_compute_values(&content);
@@ -74,10 +74,10 @@ static void draw_without_words(void)
 {
     text_free(paper.text);
     paper.text = NULL;
-    draw();
+    draw_picture();
 }
 
-static Colour pixel(int x, int y)
+static Colour get_pixel(int x, int y)
 {
     return paper.canvas.pixels[y * paper.canvas.width + x];
 }
@@ -88,11 +88,11 @@ static int count_colour(Box box, Colour colour)
     int count = 0;
     for (int j = box.y; j < box.y + box.height; j++)
         for (int i = box.x; i < box.x + box.width; i++)
-            count += pixel(i, j) == colour;
+            count += get_pixel(i, j) == colour;
     return count;
 }
 
-static int count_on_stage(Colour colour)
+static int count_stage_pixels(Colour colour)
 {
     return count_colour(layout.stage, colour);
 }
@@ -107,7 +107,7 @@ static Pick pick_at(double x, double y, double right, double down)
     return frame_pick(&content, &layout, at[0] + right, at[1] + down);
 }
 
-static bool is_pick(Pick pick, PickKind kind, int index)
+static bool pick_is(Pick pick, PickKind kind, int index)
 {
     return pick.kind == kind && pick.index == index;
 }
@@ -138,13 +138,13 @@ TEST(every_size_is_drawn)
                 }
                 set_paper_size(sizes[i][0], sizes[i][1]);
                 frame_expand_texts(&content);
-                draw();
+                draw_picture();
             }
 }
 
 /* ---- what is seen -------------------------------------------------------- */
 
-enum { ENERGIES = 4 };
+enum { ENERGY_CARD = 4 };
 
 #define ALL_ENERGIES " --segments 6 --yield 0.05 --tear 0.5 --damping 0.01"
 
@@ -155,17 +155,17 @@ TEST(fine_squares_are_faces)
     begin_show("square --segments 90 --turn 17 --stretch 1.3", 0);
     set_paper_size(400, 400);
     content.is_bare = true;
-    draw();
+    draw_picture();
     int white = 0, covered = 0, blue = 0;
     for (int j = 0; j < 400; j++) {
         int left = 0, right = 399;
-        while (left < 400 && pixel(left, j) == COLOUR_WHITE)
+        while (left < 400 && get_pixel(left, j) == COLOUR_WHITE)
             left++;
-        while (right > left && pixel(right, j) == COLOUR_WHITE)
+        while (right > left && get_pixel(right, j) == COLOUR_WHITE)
             right--;
         for (int i = left; i < right; i++) {
-            white += pixel(i, j) == COLOUR_WHITE;
-            blue += (pixel(i, j) >> 16 & 255) < 150;
+            white += get_pixel(i, j) == COLOUR_WHITE;
+            blue += (get_pixel(i, j) >> 16 & 255) < 150;
         }
         covered += right > left ? right - left + 1 : 0;
     }
@@ -173,7 +173,7 @@ TEST(fine_squares_are_faces)
         400 / 1.75; /* width of the square; the outline adds a pixel */
     CHECK(white == 0 && blue > 3 * width);
     CHECK_NEAR(covered, width * width / 1.3, 8 * width);
-    CHECK(count_on_stage(COLOUR_FOLDED) == 0);
+    CHECK(count_stage_pixels(COLOUR_FOLDED) == 0);
     double *x = simulation.run[0].x;
     int row = 91, middle = 45 * row + 45;
     for (int k = 0; k < 2; k++) { /* two nodes are exchanged */
@@ -181,13 +181,13 @@ TEST(fine_squares_are_faces)
         x[2 * middle + k] = x[2 * (middle + 3 * row) + k];
         x[2 * (middle + 3 * row) + k] = kept;
     }
-    draw();
-    int dark = count_on_stage(COLOUR_FOLDED);
+    draw_picture();
+    int dark = count_stage_pixels(COLOUR_FOLDED);
     CHECK(dark > 10 && dark < 400);
     content.shows_strain = true;
-    draw();
-    CHECK(count_on_stage(COLOUR_FOLDED) == dark);
-    Colour stretched = pixel(200, 150);
+    draw_picture();
+    CHECK(count_stage_pixels(COLOUR_FOLDED) == dark);
+    Colour stretched = get_pixel(200, 150);
     CHECK((stretched >> 16 & 255) > (stretched & 255));
 }
 
@@ -200,23 +200,23 @@ TEST(distant_nodes_are_drawn_or_reported)
     int size = 2 * simulation.system.nodes;
     for (double far = 1e10; far < 1e301; far *= 1e10) {
         for (int i = 0; i < size; i++)
-            x[i] = far * rest_x(&simulation)[i];
-        draw();
-        CHECK(count_on_stage(COLOUR_X) > 500 &&
-              count_on_stage(COLOUR_WARNING) == 0);
+            x[i] = far * get_rest_x(&simulation)[i];
+        draw_picture();
+        CHECK(count_stage_pixels(COLOUR_X) > 500 &&
+              count_stage_pixels(COLOUR_WARNING) == 0);
     }
     for (int i = 0; i < size; i++) /* only two nodes are far above and below */
         x[i] = i == 2 * 11 + 1 ? 1e220 : i == 2 * 13 + 1 ? -1e220 : 0;
-    draw();
-    CHECK(count_on_stage(COLOUR_X) > 300);
+    draw_picture();
+    CHECK(count_stage_pixels(COLOUR_X) > 300);
     view.hovered = (Pick){.kind = PICK_SPRING, .index = 0};
-    draw();
-    CHECK(count_on_stage(COLOUR_NOTE) > 1000);
+    draw_picture();
+    CHECK(count_stage_pixels(COLOUR_NOTE) > 1000);
     for (int part = 0; part < 2; part++) { /* first one node, then all nodes */
         for (int i = 0; i < (part ? size : 1); i++)
             x[i] = i % 2 ? INFINITY : NAN;
-        draw();
-        CHECK(count_on_stage(COLOUR_WARNING) > 20);
+        draw_picture();
+        CHECK(count_stage_pixels(COLOUR_WARNING) > 20);
     }
 }
 
@@ -272,18 +272,18 @@ TEST(the_mouse_finds_nodes_and_springs)
             camera_to_pixel(&camera, x + 2 * i, at);
             if (!box_contains(layout.stage, at[0] - 2, at[1] + 3))
                 continue;
-            CHECK(is_pick(pick, PICK_NODE, i));
+            CHECK(pick_is(pick, PICK_NODE, i));
             CHECK_NEAR(pick.point[0], x[2 * i] - 2 / camera.scale[0], 1e-12);
         }
         camera_to_pixel(&camera, middle, at);
-        CHECK(is_pick(pick_at(middle[0], middle[1], 0, 1), PICK_SPRING, 0));
+        CHECK(pick_is(pick_at(middle[0], middle[1], 0, 1), PICK_SPRING, 0));
         lens_zoom(&view.lens, layout.pane[0], at[0], at[1], 2.5);
     }
     view.lens = LENS_FITS;
     for (int s = 0; s < system->springs; s++) { /* also where diagonals cross */
         const double *p = x + 2 * system->e[2 * s];
         const double *q = x + 2 * system->e[2 * s + 1];
-        CHECK(is_pick(
+        CHECK(pick_is(
             pick_at(0.54 * p[0] + 0.46 * q[0], 0.54 * p[1] + 0.46 * q[1], 0, 0),
             PICK_SPRING, s));
     }
@@ -293,7 +293,7 @@ TEST(the_mouse_finds_nodes_and_springs)
     while (system->e[2 * left] != 0 || system->e[2 * left + 1] != 1)
         left++;
     double column = 0.5 * (x[0] + x[2]), height = 0.5 * (x[1] + x[3]);
-    CHECK(is_pick(pick_at(column, height, -6, 0), PICK_SPRING, left));
+    CHECK(pick_is(pick_at(column, height, -6, 0), PICK_SPRING, left));
     CHECK(pick_at(column, height, -12, 0).kind == PICK_NONE);
     system->k[left] = 0;
     CHECK(pick_at(column, height, -6, 0).kind == PICK_NONE);
@@ -302,7 +302,7 @@ TEST(the_mouse_finds_nodes_and_springs)
     content.time_line.is_paused = true;
     for (int side = 0; side < 2; side++)
         CHECK(
-            is_pick(pick_at(side ? 0.7 : -0.7, 0.125, 0, 0), PICK_EDGE, side));
+            pick_is(pick_at(side ? 0.7 : -0.7, 0.125, 0, 0), PICK_EDGE, side));
 }
 
 /* ---- what is written ----------------------------------------------- */
@@ -326,10 +326,10 @@ int __wrap_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
 }
 
 /* Draws the frame, and returns true if one of its texts begins so. */
-static bool is_drawn(const char *text)
+static bool text_is_drawn(const char *text)
 {
     text_count = 0;
-    draw();
+    draw_picture();
     for (int i = 0; i < text_count; i++)
         if (strncmp(texts[i], text, strlen(text)) == 0)
             return true;
@@ -380,7 +380,7 @@ TEST(maps_of_inertia_label_their_contours)
     content.lecture.page = lecture_find_page("parts");
     lecture_apply_page(content.lecture.page, &simulation.options);
     simulation.exhibit.switches = PART_INERTIA;
-    CHECK(is_drawn("0.6"));
+    CHECK(text_is_drawn("0.6"));
     Plot stage = stage_create(&paper, &content, &layout, 0);
     const double *target = simulation.exhibit.x_tilde;
     for (int k = 0; k < 3; k++) {
@@ -398,8 +398,8 @@ TEST(maps_of_inertia_label_their_contours)
         int darkest = -9;
         plot_to_pixel(&stage, (double[]){target[0], target[1] - far}, at);
         for (int i = -9; i < 9; i++)
-            if ((pixel((int)at[0], (int)at[1] + i) & 255) <
-                (pixel((int)at[0], (int)at[1] + darkest) & 255))
+            if ((get_pixel((int)at[0], (int)at[1] + i) & 255) <
+                (get_pixel((int)at[0], (int)at[1] + darkest) & 255))
                 darkest = i;
         CHECK_AT_MOST(abs(darkest), 1);
     }
@@ -430,12 +430,12 @@ TEST(the_plot_of_energies_stays_high)
             content.pane[k] = content.pane[0];
         for (int k = 0; k < content.panes; k++)
             content.pane[k].label = "turned by 30 \u00b0, h 0.02 s";
-        content.cards.closed_cards &= ~(1u << ENERGIES);
-        content.cards.enlarged = strstr(rows[i].line, "big") ? ENERGIES : -1;
+        content.cards.closed_cards &= ~(1u << ENERGY_CARD);
+        content.cards.enlarged = strstr(rows[i].line, "big") ? ENERGY_CARD : -1;
         set_paper_size(rows[i].wide, rows[i].high);
         text_count = 0;
-        draw();
-        const Box card = layout.card[ENERGIES];
+        draw_picture();
+        const Box card = layout.card[ENERGY_CARD];
         double legend = 0, below = 0;
         int numbers = 0;
         for (int k = 0; k < text_count && k < 500; k++) {

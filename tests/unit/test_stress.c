@@ -9,7 +9,7 @@ TEST(named_cases_keep_the_promise)
     for (const StressCase *row = stress_cases; row->name; row++) {
         char reason[512] = "";
         VerdictTally tally = {0};
-        if (row->slow)
+        if (row->is_slow)
             continue;
         bool good = row->run(&tally, reason);
         if (!good)
@@ -26,21 +26,21 @@ TEST(random_scenes_keep_the_promise)
     for (int i = 0; i < 5; i++) {
         VerdictTally tally = {0};
         char reason[512] = "";
-        const long count = choose_count(1000, 32) / (i == 3 ? 3 : 1);
-        bool good =
-            stress_scenes(kinds[i], 1, count, i % 2 ? 10 : 2, &tally, reason);
+        const long count = choose_case_count(1000, 32) / (i == 3 ? 3 : 1);
+        bool good = stress_run_scenes(kinds[i], 1, count, i % 2 ? 10 : 2,
+                                      &tally, reason);
         if (!good)
             print_error("build/stress --line '%s': %s\n", stress_line, reason);
         CHECK(good);
         CHECK(tally.steps[VERDICT_CONVERGED] >
               2 * tally.steps[VERDICT_REPORTED]);
-        CHECK(i > 0 ||
-              (tally.judged > count && tally.undecided * 10 < tally.judged));
+        CHECK(i > 0 || (tally.judged_residuals > count &&
+                        tally.undecided * 10 < tally.judged_residuals));
     }
 }
 
 /* Steps of an integrator that break one promise each */
-static void reduce_step(TimeIntegrator *run)
+static void shorten_motion(TimeIntegrator *run)
 {
     integrator_methods[0].set_state(run);
     for (size_t i = 0; i < run->x_length; i++)
@@ -90,8 +90,8 @@ TEST(broken_promises_are_noticed)
         void (*set_target)(TimeIntegrator *), (*finish)(TimeIntegrator *);
         const char *why;
     } rows[] = {
-        {"--segments 2", NULL, reduce_step, "E rises"},
-        {"--segments 2 --integrator midpoint", NULL, reduce_step, "E rises"},
+        {"--segments 2", NULL, shorten_motion, "E rises"},
+        {"--segments 2 --integrator midpoint", NULL, shorten_motion, "E rises"},
         {"--segments 2", loosen_tolerance, restore_tolerance,
          "the residual is"},
         {"--segments 12", loosen_tolerance, restore_tolerance,
@@ -103,7 +103,7 @@ TEST(broken_promises_are_noticed)
          "angular"},
     };
     for (int i = 0; i < 7; i++) {
-        Watch watch;
+        RunWatch watch;
         VerdictTally tally = {0};
         TimeIntegrator *run =
             &simulate("%s --tolerance 1e-6", rows[i].line)->run[0];
@@ -135,10 +135,10 @@ TEST(interruptions_leave_no_trace)
              integrator_methods[i].is_implicit && stops; record++) {
             int left = 0, never = 0;
             const char *line = "--integrator %s --tolerance 1e-8";
-            Simulation *one = simulate_watched(stop_at_record, &left, line,
-                                               integrator_methods[i].name);
-            Simulation *other = simulate_watched(stop_at_record, &never, line,
-                                                 integrator_methods[i].name);
+            Simulation *one = simulate_observed(stop_at_record, &left, line,
+                                                integrator_methods[i].name);
+            Simulation *other = simulate_observed(stop_at_record, &never, line,
+                                                  integrator_methods[i].name);
             make_steps(one, 2);
             make_steps(other, 2);
             left = record;
@@ -157,8 +157,7 @@ TEST(interruptions_leave_no_trace)
         }
 }
 
-/* The test of large squares rejects an iterate before the end (test_multigrid
- * has whole steps). */
+/* The test of large squares rejects an iterate before the end. */
 TEST(an_unfinished_search_is_noticed)
 {
     Simulation *simulation = simulate("--segments 12 --solver multigrid");
@@ -166,11 +165,11 @@ TEST(an_unfinished_search_is_noticed)
     newton_start(newton, simulation->run[0].x, NULL, 1.6e-5, 0.01);
     CHECK(test_large_residual(&newton->iterate.E, newton->iterate.u,
                               newton->settings.h,
-                              newton->tolerance) == LARGE_FAILED);
+                              newton->tolerance) == TEST_FAILED);
     CHECK_OK(newton_minimise(newton));
     CHECK(test_large_residual(&newton->iterate.E, newton->iterate.u,
                               newton->settings.h,
-                              newton->tolerance) == LARGE_PASSED);
+                              newton->tolerance) == TEST_PASSED);
 }
 
 TESTS(NULL, NULL)

@@ -1,6 +1,5 @@
 /* test_terms.c - the promises of term.h, tested for each term at random points
- * against the oracle. A new term needs a formula there, and a row here unless
- * an option brings it alone. */
+ * against the oracle. A new term without an option needs a row here. */
 #include "oracle.h"
 
 #include <float.h>
@@ -20,52 +19,52 @@
 enum { SIZE = 2 * 40 };
 
 /* A system of a few nodes with one kind of energy, or two */
-typedef struct Row {
+typedef struct TermRow {
     const char *name;
     enum { SPRING, GRAPH, WALL, BALL, FREE_BALL, CORNER, GRID, PAIR } shape;
     double yield, hardening; /* adjacent: plastic_energy.configure reads both */
     double damping, pull;    /* 0: none; pull in J/m^2 */
     bool rubs, flat;         /* flat: springs have no rest length */
-    bool solid;              /* triangles instead of springs */
-    double far;              /* largest alpha, if no term limits it */
+    bool is_solid;           /* triangles instead of springs */
+    double reach;            /* largest alpha, if no term limits it */
     const OptionRow
         *option; /* row of the option that brings the term, or NULL */
-} Row;
+} TermRow;
 
-static const Row rows[] = {
-    {"one spring", SPRING, .far = 1e6},
-    {"springs", GRAPH, .far = 1e3},
-    {"spring of no length", SPRING, .flat = true, .far = 1e3},
-    {"springs of next to no length", GRAPH, .flat = true, .far = 1e3},
-    {"field and hand", GRAPH, .pull = 3, .far = 1e3},
-    {"damped springs", GRAPH, .damping = 0.3, .far = 1e3},
-    {"flowing spring", SPRING, .yield = 0.1, .hardening = 0.3, .far = 1e3},
+static const TermRow rows[] = {
+    {"one spring", SPRING, .reach = 1e6},
+    {"springs", GRAPH, .reach = 1e3},
+    {"spring of no length", SPRING, .flat = true, .reach = 1e3},
+    {"springs of next to no length", GRAPH, .flat = true, .reach = 1e3},
+    {"field and hand", GRAPH, .pull = 3, .reach = 1e3},
+    {"damped springs", GRAPH, .damping = 0.3, .reach = 1e3},
+    {"flowing spring", SPRING, .yield = 0.1, .hardening = 0.3, .reach = 1e3},
     {"flowing springs, damped", GRAPH, .yield = 0.1, .hardening = 0.3,
-     .damping = 0.3, .far = 1e3},
-    {"perfectly plastic spring", SPRING, .yield = 0.1, .far = 1e6},
-    {"wall", WALL, .far = 1e3},
-    {"wall that rubs", WALL, .rubs = true, .far = 1e3},
-    {"ball", BALL, .far = 1e3},
-    {"ball that rubs", BALL, .rubs = true, .far = 1e3},
-    {"free ball", FREE_BALL, .far = 1e3},
-    {"free ball that rubs", FREE_BALL, .rubs = true, .far = 1e3},
-    {"corner", CORNER, .far = 1e3},
-    {"cells with springs", GRID, .far = 1e3},
-    {"triangles", GRID, .solid = true, .far = 1e3},
-    {"two bodies", PAIR, .far = 1e3},
-    {"two bodies that rub", PAIR, .rubs = true, .far = 1e3},
+     .damping = 0.3, .reach = 1e3},
+    {"perfectly plastic spring", SPRING, .yield = 0.1, .reach = 1e6},
+    {"wall", WALL, .reach = 1e3},
+    {"wall that rubs", WALL, .rubs = true, .reach = 1e3},
+    {"ball", BALL, .reach = 1e3},
+    {"ball that rubs", BALL, .rubs = true, .reach = 1e3},
+    {"free ball", FREE_BALL, .reach = 1e3},
+    {"free ball that rubs", FREE_BALL, .rubs = true, .reach = 1e3},
+    {"corner", CORNER, .reach = 1e3},
+    {"cells with springs", GRID, .reach = 1e3},
+    {"triangles", GRID, .is_solid = true, .reach = 1e3},
+    {"two bodies", PAIR, .reach = 1e3},
+    {"two bodies that rub", PAIR, .rubs = true, .reach = 1e3},
 };
-enum { ROWS = sizeof rows / sizeof *rows };
+enum { TERM_ROWS = sizeof rows / sizeof *rows };
 
 /* One random point of a row, with directions p and q */
-typedef struct Case {
+typedef struct TermCase {
     System system;
     EvalPoint at;
     double x_n[SIZE], u[SIZE], x[SIZE], p[SIZE], q[SIZE], h;
-    int size;
-} Case;
+    int unknowns;
+} TermCase;
 
-static void make_contact(const Row *row, Random *random, Case *c)
+static void make_node_contact(const TermRow *row, Random *random, TermCase *c)
 {
     double angle = random_uniform(random, 0, 6.28);
     Obstacle it = {.kind = row->shape == WALL ? OBSTACLE_WALL : OBSTACLE_BALL,
@@ -89,8 +88,8 @@ static void make_contact(const Row *row, Random *random, Case *c)
 }
 
 /* Configures the term of an option with random numbers. */
-static void set_option(const OptionRow *option, Random *random,
-                       const SquareMesh *mesh, System *system)
+static void configure_option(const OptionRow *option, Random *random,
+                             const SquareMesh *mesh, System *system)
 {
     double number[8];
     for (int i = 0; i < 8; i++)
@@ -99,7 +98,7 @@ static void set_option(const OptionRow *option, Random *random,
     CHECK_OK(option->term->configure(system, mesh, number));
 }
 
-static void make_grid(const Row *row, Random *random, Case *c)
+static void make_cell_grid(const TermRow *row, Random *random, TermCase *c)
 {
     int n = row->shape == CORNER ? 1 : 2;
     const SquareMesh mesh = square_mesh_create(n, n, 1, 1);
@@ -113,12 +112,12 @@ static void make_grid(const Row *row, Random *random, Case *c)
     }
     const double material[3] = {1, random_logarithmic(random, 0.1, 10),
                                 random_uniform(random, 0, 0.49)};
-    CHECK_OK(row->solid
+    CHECK_OK(row->is_solid
                  ? neo_hookean_energy.configure(&c->system, &mesh, material)
                  : cells_configure(&c->system, &mesh, 5));
     if (row->option)
-        set_option(row->option, random, &mesh, &c->system);
-    if (row->shape == GRID && !row->solid && random_below(random, 2))
+        configure_option(row->option, random, &mesh, &c->system);
+    if (row->shape == GRID && !row->is_solid && random_below(random, 2))
         c->system.k[random_below(random, c->system.springs)] = 0;
     if (row->shape == CORNER) { /* one triangle remains, without springs */
         const CellBarriers *cells =
@@ -132,7 +131,7 @@ static void make_grid(const Row *row, Random *random, Case *c)
 
 /* Makes two cells whose springs have no energy: a corner of the second, turned
  * cell is near the right edge of the first, or beyond its end. */
-static void make_pair(const Row *row, Random *random, Case *c)
+static void make_cell_pair(const TermRow *row, Random *random, TermCase *c)
 {
     const Barrier barrier = {.d_hat = 0.2, .c = 24};
     const SquareMesh mesh = square_mesh_create(1, 1, 1, 2);
@@ -162,7 +161,7 @@ static void make_pair(const Row *row, Random *random, Case *c)
 }
 
 /* Creates the nodes, springs and contacts of a row, at x_n. */
-static void make_shape(const Row *row, Random *random, Case *c)
+static void make_shape(const TermRow *row, Random *random, TermCase *c)
 {
     if (row->shape == GRAPH) {
         random_system(random, row->flat ? SPRINGS_NEAR_ZERO : SPRINGS_MIXED,
@@ -170,18 +169,18 @@ static void make_shape(const Row *row, Random *random, Case *c)
         return;
     }
     if (row->shape == PAIR) {
-        make_pair(row, random, c);
+        make_cell_pair(row, random, c);
         return;
     }
     if (row->shape == GRID || row->shape == CORNER) {
-        make_grid(row, random, c);
+        make_cell_grid(row, random, c);
         return;
     }
     CHECK_OK(system_create(2, row->shape == SPRING, &c->system));
     for (int i = 0; i < 4; i++)
         c->x_n[i] = random_uniform(random, -1, 1);
     if (row->shape != SPRING) {
-        make_contact(row, random, c);
+        make_node_contact(row, random, c);
         return;
     }
     c->system.e[1] = 1;
@@ -190,7 +189,7 @@ static void make_shape(const Row *row, Random *random, Case *c)
 }
 
 /* Adds a field and a hand, which pull one node each. */
-static void set_pulls(Random *random, double strength, System *system)
+static void add_pulls(Random *random, double strength, System *system)
 {
     const NodePull all = {.node = random_below(random, system->nodes),
                           .k = strength};
@@ -203,10 +202,10 @@ static void set_pulls(Random *random, double strength, System *system)
 }
 
 /* Adds the pulls, the flow and the damping of a row. */
-static void add_terms(const Row *row, Random *random, System *system)
+static void add_terms(const TermRow *row, Random *random, System *system)
 {
     if (row->pull > 0)
-        set_pulls(random, row->pull, system);
+        add_pulls(random, row->pull, system);
     if (row->yield > 0) {
         CHECK_OK(plastic_energy.configure(system, NULL, &row->yield));
         Plasticity *flow = system_term_data(system, &plastic_energy);
@@ -220,7 +219,7 @@ static void add_terms(const Row *row, Random *random, System *system)
 }
 
 /* Draws random u that all terms allow, and random directions. */
-static void make_positions(const Row *row, Random *random, Case *c)
+static void draw_positions(const TermRow *row, Random *random, TermCase *c)
 {
     double shake = row->flat            ? 1e-8
                    : row->shape == PAIR ? 0.05
@@ -230,7 +229,7 @@ static void make_positions(const Row *row, Random *random, Case *c)
     for (int k = 0; !good; k++, shake *= 0.7) {
         CHECK(k < 100);
         good = true;
-        for (int i = 0; i < c->size; i++) {
+        for (int i = 0; i < c->unknowns; i++) {
             int from = row->flat && row->shape == SPRING ? i % 2 : i;
             c->u[i] = shake * random_uniform(random, -1, 1);
             c->u[i] = c->u[from];
@@ -243,13 +242,13 @@ static void make_positions(const Row *row, Random *random, Case *c)
             c->at.term = &c->system.term[t];
             if (c->at.term->kind->element)
                 good = good && elements_are_feasible(&c->at) &&
-                       exact_crossings(&c->system, c->x) == 0;
+                       edge_crossings(&c->system, c->x) == 0;
         }
     }
     c->at.term = NULL; /* evaluation starts with the first term */
 }
 
-static void make_case(const Row *row, Random *random, Case *c)
+static void make_case(const TermRow *row, Random *random, TermCase *c)
 {
     System *system = &c->system;
     memset(c, 0, sizeof *c);
@@ -257,7 +256,7 @@ static void make_case(const Row *row, Random *random, Case *c)
     for (int i = 0; i < system->nodes; i++)
         system->m[i] = random_logarithmic(random, 0.1, 10);
     add_terms(row, random, system);
-    c->size = 2 * system->nodes;
+    c->unknowns = 2 * system->nodes;
     c->h = random_logarithmic(random, 1e-3, 1);
     for (int i = 0; i < system->terms; i++)
         if (system->term[i].kind->begin_step)
@@ -265,36 +264,36 @@ static void make_case(const Row *row, Random *random, Case *c)
                 &(TermStep){system, &system->term[i], c->x_n, c->u, c->h}));
     c->at = make_eval_point(system, c->x_n, c->u, c->x);
     c->at.weight = random_logarithmic(random, 0.1, 10);
-    make_positions(row, random, c);
+    draw_positions(row, random, c);
 }
 
 /* Multiplies by the Hessian of a term: out += H q; a constant force has none.
  * Returns the number of changed blocks. */
-static int multiply_hessian(const Case *c, const TermKind *kind,
-                            Projection projection, const double *q, double *out)
+static int apply_hessian(const TermCase *c, const TermKind *kind,
+                         Projection projection, const double *q, double *out)
 {
     return kind->hessian ? kind->hessian(&c->at, projection, NULL, q, out) : 0;
 }
 
-static double dot(const Case *c, const double *a, const double *b)
+static double case_dot(const TermCase *c, const double *a, const double *b)
 {
     double sum = 0;
-    for (int i = 0; i < c->size; i++)
+    for (int i = 0; i < c->unknowns; i++)
         sum += a[i] * b[i];
     return sum;
 }
 
-static const Row *row;   /* row of the running test */
-static long comparisons; /* number of comparisons */
+static const TermRow *row; /* row of the running test */
+static long comparisons;   /* number of comparisons */
 
 /* Returns energy and derivatives by the oracle; noise: errors by an ulp. */
-static Jet evaluate_oracle(const Case *c, const TermKind *kind, Real alpha,
+static Jet evaluate_oracle(const TermCase *c, const TermKind *kind, Real alpha,
                            Jet *noise)
 {
     Random random = {1};
     Probe probe = {
         .at = &c->at, .h = c->h, .alpha = alpha, .p = c->p, .q = c->q};
-    Jet part = oracle_energy(&probe, kind), size = probe.size;
+    Jet part = oracle_energy(&probe, kind), size = probe.abs_sum;
     *noise = (Jet){1e-12L * size.f, 1e-12L * size.p, 0, 1e-12L * size.pq};
     probe.jitter = &random;
     for (int i = 0; i < 8; i++) {
@@ -318,60 +317,60 @@ static void compare(const char *what, Real got, Real expected, Real tolerance)
 
 /* Returns two ulps of the sum of |a_i b_i|.  An ulp in a coordinate changes a.b
  * by less, also where a and b are nearly orthogonal. */
-static Real dot_noise(const Case *c, const double *a, const double *b)
+static Real dot_noise(const TermCase *c, const double *a, const double *b)
 {
     Real sum = 0;
-    for (int i = 0; i < c->size; i++)
+    for (int i = 0; i < c->unknowns; i++)
         sum += fabs(a[i] * b[i]);
     return 4 * DBL_EPSILON * sum;
 }
 
 /* Returns two ulps of each product in p H q. */
-static Real product_noise(Case *c, const TermKind *kind)
+static Real hessian_noise(TermCase *c, const TermKind *kind)
 {
     Real sum = 0;
-    for (int i = 0; i < c->size; i++) {
+    for (int i = 0; i < c->unknowns; i++) {
         double unit[SIZE] = {0}, column[SIZE] = {0};
         unit[i] = c->q[i];
-        multiply_hessian(c, kind, PROJECTION_NONE, unit, column);
+        apply_hessian(c, kind, PROJECTION_NONE, unit, column);
         sum += dot_noise(c, c->p, column);
     }
     return sum;
 }
 
 /* Checks value, gradient and Hessian against the oracle. */
-static void check_derivatives(Case *c, const TermKind *kind)
+static void check_derivatives(TermCase *c, const TermKind *kind)
 {
     Jet noise;
     double g[SIZE] = {0}, Hq[SIZE] = {0}, Hp[SIZE] = {0};
     Jet formula = evaluate_oracle(c, kind, 0, &noise);
     kind->gradient(&c->at, g);
     noise.p += dot_noise(c, g, c->p);
-    noise.pq += product_noise(c, kind);
-    multiply_hessian(c, kind, PROJECTION_NONE, c->q, Hq);
-    multiply_hessian(c, kind, PROJECTION_NONE, c->p, Hp);
+    noise.pq += hessian_noise(c, kind);
+    apply_hessian(c, kind, PROJECTION_NONE, c->q, Hq);
+    apply_hessian(c, kind, PROJECTION_NONE, c->p, Hp);
     if (!(system_term_data(&c->system, &damping) && !kind->is_external))
         compare("value", c->at.weight * kind->value(&c->at), formula.f,
                 noise.f);
-    compare("gradient", dot(c, g, c->p), formula.p, noise.p);
-    compare("Hessian", dot(c, Hq, c->p), formula.pq, noise.pq);
-    compare("symmetry", dot(c, Hp, c->q), formula.pq, noise.pq);
+    compare("gradient", case_dot(c, g, c->p), formula.p, noise.p);
+    compare("Hessian", case_dot(c, Hq, c->p), formula.pq, noise.pq);
+    compare("symmetry", case_dot(c, Hp, c->q), formula.pq, noise.pq);
     for (int f = 0; f < PROJECTION_COUNT; f++) { /* the result counts changes */
         double projected[SIZE] = {0};
         bool differs = false;
-        int changed = multiply_hessian(c, kind, (Projection)f, c->q, projected);
-        for (int i = 0; i < c->size; i++)
+        int changed = apply_hessian(c, kind, (Projection)f, c->q, projected);
+        for (int i = 0; i < c->unknowns; i++)
             differs = differs || projected[i] != Hq[i];
         CHECK((changed > 0) == differs);
     }
-    for (int i = 0; i < c->size && kind->is_diagonal; i++) /* H is constant */
+    for (int i = 0; kind->is_diagonal && i < c->unknowns; i++)
         compare("curvature", fabs(Hq[i]), 0,
                 c->at.weight * kind->curvature_bound(&c->at) * fabs(c->q[i]) *
                     (1 + 4 * DBL_EPSILON));
     if (kind->is_external)
         return;
     Real sum[3] = {0}, size = 0;
-    for (int i = 0; i < c->size; i++) {
+    for (int i = 0; i < c->unknowns; i++) {
         double arm = i % 2 ? c->x[i - 1] : -c->x[i + 1];
         sum[i % 2] += g[i];
         sum[2] += (Real)arm * g[i];
@@ -383,12 +382,12 @@ static void check_derivatives(Case *c, const TermKind *kind)
 }
 
 /* Checks E along p: large changes exactly, tiny ones to their last digits. */
-static void check_line(Case *c, const TermKind *kind, Random *random)
+static void check_line_change(TermCase *c, const TermKind *kind, Random *random)
 {
     double q[3] = {0}, g[SIZE] = {0}, reach = INFINITY;
     if (kind->element)
         reach = elements_max_step(&c->at, c->p);
-    double most = fmin(reach, row->far);
+    double most = fmin(reach, row->reach);
     if (random_below(random, 2))
         most *= random_logarithmic(random, 1e-6, 1);
     double alpha = random_below(random, 4) == 0
@@ -414,7 +413,7 @@ static void check_line(Case *c, const TermKind *kind, Random *random)
 }
 
 /* Returns the smallest share that is left of a gap or a triangle's area. */
-static double find_remaining_share(const Case *c, const double *x)
+static double find_remaining_share(const TermCase *c, const double *x)
 {
     const Contact *contact = get_contact(&c->system);
     double least = INFINITY;
@@ -422,32 +421,32 @@ static double find_remaining_share(const Case *c, const double *x)
         if (contact_includes_pair(contact, &c->system, i, 0))
             least = fmin(least, exact_gap(&c->system, x, i, 0) /
                                     exact_gap(&c->system, c->x, i, 0));
-    return contact
-               ? least
-               : smallest_cell(&c->system, x) / smallest_cell(&c->system, c->x);
+    return contact ? least
+                   : smallest_area_ratio(&c->system, x) /
+                         smallest_area_ratio(&c->system, c->x);
 }
 
 /* Checks that points before the limit are feasible; a tenth is left there. */
-static void check_max_step(Case *c, const TermKind *kind)
+static void check_max_step(TermCase *c, const TermKind *kind)
 {
     double x[SIZE],
         alpha = kind->element ? elements_max_step(&c->at, c->p) : INFINITY;
-    Case other = *c;
+    TermCase other = *c;
     if (!isfinite(alpha))
         return;
     for (int k = 1; k <= 20; k++) {
-        for (int i = 0; i < c->size; i++)
+        for (int i = 0; i < c->unknowns; i++)
             x[i] = c->x[i] + alpha * k / 20 * c->p[i];
         other.at.x = x;
         CHECK(elements_are_feasible(&other.at) &&
-              exact_crossings(&c->system, x) == 0);
+              edge_crossings(&c->system, x) == 0);
     }
     long crossings = 0;
     for (int k = 2; k < 8; k++) { /* this step uses up the last tenth */
         double behind = (1 + pow(10, -k)) * alpha / 0.9;
-        for (int i = 0; i < c->size; i++)
+        for (int i = 0; i < c->unknowns; i++)
             other.x[i] = c->x[i] + behind * c->p[i];
-        crossings += exact_crossings(&c->system, other.x);
+        crossings += edge_crossings(&c->system, other.x);
     }
     if (row->shape == PAIR)
         CHECK(crossings > 0);
@@ -457,13 +456,13 @@ static void check_max_step(Case *c, const TermKind *kind)
 
 /* Checks that the matrix agrees with products, and that projection cuts or
  * mirrors the negative eigenvalues of its blocks. */
-static void check_projection(Case *c, Random *random)
+static void check_projection(TermCase *c, Random *random)
 {
     IncrementalPotential E = {&c->system, c->at.weight, c->x_n, c->u};
     Iterate iterate = {.E = E, .u = c->u, .x = c->x};
     static double plain[SIZE * SIZE], H[SIZE * SIZE];
     static Real g[SIZE], exact_plain[SIZE * SIZE], exact_H[SIZE * SIZE];
-    int n = c->size;
+    int n = c->unknowns;
     Sparse A;
     bool grown;
     CHECK_OK(incremental_potential_extend_pattern(&iterate, &grown));
@@ -508,27 +507,28 @@ static void check_projection(Case *c, Random *random)
 }
 
 /* Checks E of a step, with inertia and all terms, and its derivatives. */
-static void check_whole_step(Case *c, Random *random)
+static void check_whole_step(TermCase *c, Random *random)
 {
     double u_tilde[SIZE], g[SIZE], Hq[SIZE];
-    for (int i = 0; i < c->size; i++)
+    for (int i = 0; i < c->unknowns; i++)
         u_tilde[i] = random_uniform(random, -1, 1);
     IncrementalPotential E = {&c->system, c->at.weight, c->x_n, u_tilde};
     Probe probe = {.at = &c->at, .h = c->h, .p = c->p, .q = c->q};
-    Jet noise, part = oracle_step(&probe, u_tilde), size = probe.size;
+    Jet noise, part = oracle_step_energy(&probe, u_tilde), size = probe.abs_sum;
     evaluate_oracle(c, NULL, 0, &noise);
     Iterate iterate = {.E = E, .u = c->u, .x = c->x, .g = g, .p = c->p};
     incremental_potential_gradient(&E, c->u, c->x, g);
     incremental_potential_apply_hessian(&iterate, PROJECTION_NONE, c->q, Hq);
-    compare("E's gradient", dot(c, g, c->p), part.p, noise.p + 1e-13L * size.p);
-    compare("E's Hessian", dot(c, Hq, c->p), part.pq,
+    compare("E's gradient", case_dot(c, g, c->p), part.p,
+            noise.p + 1e-13L * size.p);
+    compare("E's Hessian", case_dot(c, Hq, c->p), part.pq,
             noise.pq + dot_noise(c, Hq, c->p) + 1e-13L * size.pq);
     if (!system_term_data(&c->system, &damping))
         compare("E", incremental_potential_value(&E, c->u, c->x), part.f,
                 noise.f + 1e-13L * size.f);
     const LineEnergy along = incremental_potential_prepare_line(&iterate);
     probe.alpha = 1e-3L;
-    Real change = oracle_step(&probe, u_tilde).f - part.f;
+    Real change = oracle_step_energy(&probe, u_tilde).f - part.f;
     compare("E along p", line_energy_difference(&along, 1e-3), change,
             2 * noise.f + noise.p + 1e-13L * size.f);
 }
@@ -538,8 +538,8 @@ static void terms_match_the_oracle(void **state)
     row = *state;
     comparisons = 0;
     Random random = {strlen(row->name) + (uint64_t)row->shape};
-    for (int n = 0; n < choose_count(2000, 150); n++) {
-        static Case c;
+    for (int n = 0; n < choose_case_count(2000, 150); n++) {
+        static TermCase c;
         make_case(row, &random, &c);
         for (const TermKind *kind; (kind = eval_point_next_term(&c.at));) {
             if (!kind->value)
@@ -547,7 +547,7 @@ static void terms_match_the_oracle(void **state)
             CHECK(!(kind->value(&c.at) < 0)); /* tolerances are relative to E */
             check_derivatives(&c, kind);
             check_max_step(&c, kind);
-            check_line(&c, kind, &random);
+            check_line_change(&c, kind, &random);
         }
         check_projection(&c, &random);
         check_whole_step(&c, &random);
@@ -562,33 +562,33 @@ static void accelerations_are_forces_over_masses(void **unused)
     (void)unused;
     Random random = {77};
     System system;
-    double x[MAX_SIZE], a[MAX_SIZE];
+    double x[MAX_COORDINATES], a[MAX_COORDINATES];
     random_system(&random, SPRINGS_MIXED, &system, x);
     EvalPoint at = make_eval_point(&system, x, NULL, x);
     system_acceleration(&system, x, a);
     for (int i = 0; i < 2 * system.nodes; i++) {
-        double one[MAX_SIZE] = {0};
+        double one[MAX_COORDINATES] = {0};
         one[i] = 1;
         Probe probe = {.at = &at, .p = one};
         Real force = -oracle_energy(&probe, NULL).p;
-        CHECK_NEAR(a[i] * system.m[i / 2], force, 1e-12L * probe.size.p);
+        CHECK_NEAR(a[i] * system.m[i / 2], force, 1e-12L * probe.abs_sum.p);
     }
     system_free(&system);
 }
 
 int main(int argc, char **argv)
 {
-    static Row all[ROWS + OPTIONS_MAX_ROWS];
-    static struct CMUnitTest tests[ROWS + OPTIONS_MAX_ROWS + 1] = {
+    static TermRow all[TERM_ROWS + OPTIONS_MAX_ROWS];
+    static struct CMUnitTest tests[TERM_ROWS + OPTIONS_MAX_ROWS + 1] = {
         cmocka_unit_test(accelerations_are_forces_over_masses)};
-    int count = ROWS;
+    int count = TERM_ROWS;
     memcpy(all, rows, sizeof rows);
     for (const OptionRow *option = option_rows; option->name; option++)
         if (option->term && option->term->configure)
-            all[count++] = (Row){.name = option->name,
-                                 .shape = GRID,
-                                 .far = 1e3,
-                                 .option = option};
+            all[count++] = (TermRow){.name = option->name,
+                                     .shape = GRID,
+                                     .reach = 1e3,
+                                     .option = option};
     for (int i = 0; i < count; i++)
         tests[1 + i] = (struct CMUnitTest){all[i].name, terms_match_the_oracle,
                                            NULL, NULL, &all[i]};

@@ -11,15 +11,15 @@
 
 /* ---- checks ------------------------------------------------------------ */
 
-enum { MAX_RUNS = 1024 };
+enum { MAX_SIMULATIONS = 1024 };
 
 static struct {
-    Simulation *run[MAX_RUNS];
+    Simulation *run[MAX_SIMULATIONS];
     int count;
     char line[400]; /* command line of the newest simulation */
 } tested;
 
-static void end_test(const char *file, int line)
+static void fail_test(const char *file, int line)
 {
     if (tested.count > 0)
         print_error("in: %s\n", tested.line);
@@ -34,7 +34,7 @@ void check_near(const char *what, long double got, long double expected,
     print_error("%s: got %.21Lg, expected %.21Lg, differs by %.3Lg, "
                 "tolerance %.3Lg\n",
                 what, got, expected, got - expected, tolerance);
-    end_test(file, line);
+    fail_test(file, line);
 }
 
 void check_at_most(const char *what, long double got, long double limit,
@@ -43,7 +43,7 @@ void check_at_most(const char *what, long double got, long double limit,
     if (got <= limit)
         return;
     print_error("%s: got %.21Lg, expected at most %.21Lg\n", what, got, limit);
-    end_test(file, line);
+    fail_test(file, line);
 }
 
 void check_same_bits(const char *what, const double *got,
@@ -55,7 +55,7 @@ void check_same_bits(const char *what, const double *got,
             continue;
         print_error("%s[%d]: got %a, expected the same bits as %a\n", what, i,
                     got[i], expected[i]);
-        end_test(file, line);
+        fail_test(file, line);
     }
 }
 
@@ -66,7 +66,7 @@ void check_status(const char *what, Status got, Status expected,
         return;
     print_error("%s: got %s, expected %s\n", what, status_name(got),
                 status_name(expected));
-    end_test(file, line);
+    fail_test(file, line);
 }
 
 void check_true(bool condition, const char *what, const char *file, int line)
@@ -74,7 +74,7 @@ void check_true(bool condition, const char *what, const char *file, int line)
     if (condition)
         return;
     print_error("not true: %s\n", what);
-    end_test(file, line);
+    fail_test(file, line);
 }
 
 bool tests_are_long(void)
@@ -83,7 +83,7 @@ bool tests_are_long(void)
     return set && *set;
 }
 
-int choose_count(int all, int some)
+int choose_case_count(int all, int some)
 {
 #ifdef __SANITIZE_ADDRESS__
     all /= 5;
@@ -115,7 +115,7 @@ int random_below(Random *random, int limit)
     return (int)(random_bits(random) % (uint64_t)limit);
 }
 
-void random_system(Random *random, SpringState state, System *system, double *x)
+void random_system(Random *random, SpringKind state, System *system, double *x)
 {
     int n = 3 + random_below(random, MAX_NODES - 2);
     int springs = n + random_below(random, MAX_SPRINGS - n + 1);
@@ -150,7 +150,7 @@ void dense_from_sparse(const Sparse *A, double *dense)
         }
 }
 
-char *next_part(char **row)
+char *take_next_part(char **row)
 {
     char *part = *row, *bar = part ? strstr(part, " | ") : NULL;
     *row = bar ? bar + 3 : NULL;
@@ -174,7 +174,7 @@ Status parse_line(const char *line, int pane, Options *options, char *message)
     return options_parse(argc, argv, pane, options, (Message){message, 512});
 }
 
-Options line_options(const char *line)
+Options options_from_line(const char *line)
 {
     char message[512];
     Options options;
@@ -187,16 +187,16 @@ Options line_options(const char *line)
 void simulation_from_line(const char *line, NewtonObserver observer, void *user,
                           Simulation *simulation)
 {
-    const Options options = line_options(line);
+    const Options options = options_from_line(line);
     CHECK_OK(simulation_create(&options, observer, user, simulation));
 }
 
-Simulation *simulate_watched(NewtonObserver observer, void *user,
-                             const char *line, ...)
+Simulation *simulate_observed(NewtonObserver observer, void *user,
+                              const char *line, ...)
 {
     va_list words;
     Simulation *run = calloc(1, sizeof *run);
-    CHECK(run && tested.count < MAX_RUNS);
+    CHECK(run && tested.count < MAX_SIMULATIONS);
     va_start(words, line);
     vsnprintf(tested.line, sizeof tested.line, line, words);
     va_end(words);
@@ -250,7 +250,7 @@ void free_simulations(void)
     }
 }
 
-double energies_of(const Energies *energies, const char *name)
+double get_energy(const Energies *energies, const char *name)
 {
     for (int i = 0; i < energies->rows; i++)
         if (strcmp(energies->row[i].name, name) == 0)
@@ -258,10 +258,10 @@ double energies_of(const Energies *energies, const char *name)
     return 0;
 }
 
-double energy_now(const Simulation *simulation, int run, const char *name)
+double get_run_energy(const Simulation *simulation, int run, const char *name)
 {
     const Energies energies = simulation_get_energies(simulation, run);
-    return energies_of(&energies, name);
+    return get_energy(&energies, name);
 }
 
 static uint64_t hash_number(uint64_t hash, double number)
@@ -293,7 +293,7 @@ double count_broken_springs(const Simulation *simulation)
     return count;
 }
 
-double heap_in_use(void)
+double count_heap_bytes(void)
 {
 #ifdef __GLIBC__
     struct mallinfo2 now = mallinfo2();
@@ -303,7 +303,7 @@ double heap_in_use(void)
 #endif
 }
 
-double *rest_x(const Simulation *simulation)
+double *get_rest_x(const Simulation *simulation)
 {
     static double rest[2 * 2048];
     CHECK(simulation->mesh.nodes <= 2048);

@@ -50,7 +50,7 @@ bool tests_are_long(void);
 
 /* Returns the number of random cases: `some`, or `all` with all variations, of
  * which the slow sanitizers run a fifth. */
-int choose_count(int all, int some);
+int choose_case_count(int all, int some);
 
 /* Random numbers by SplitMix64, equal on every machine */
 typedef struct Random {
@@ -62,38 +62,36 @@ double random_logarithmic(Random *random, double low, double high);
 int random_below(Random *random, int limit);
 
 /* Lengths of random springs over rest lengths: 0.1 ... 2, or 1e-9 ... 1e-7 */
-typedef enum SpringState { SPRINGS_MIXED, SPRINGS_NEAR_ZERO } SpringState;
+typedef enum SpringKind { SPRINGS_MIXED, SPRINGS_NEAR_ZERO } SpringKind;
 
-enum { MAX_NODES = 12, MAX_SIZE = 2 * MAX_NODES, MAX_SPRINGS = 40 };
+enum { MAX_NODES = 12, MAX_COORDINATES = 2 * MAX_NODES, MAX_SPRINGS = 40 };
 
 /* Creates random springs between at most MAX_NODES nodes; masses and
  * stiffnesses cover four powers of ten.
  *   system  out; free it with system_free
- *   x       [MAX_SIZE] out */
-void random_system(Random *random, SpringState state, System *system,
-                   double *x);
+ *   x       [MAX_COORDINATES] out */
+void random_system(Random *random, SpringKind state, System *system, double *x);
 
 /* Writes a sparse matrix to a full one [size size]. */
 void dense_from_sparse(const Sparse *A, double *dense);
 
 /* Returns a row up to " | " and moves the row behind it; NULL: it is empty. */
-char *next_part(char **row);
+char *take_next_part(char **row);
 
-/* Parses the words of a line, separated by single spaces; "''" is an empty
- * word. message [512] out */
+/* Parses words between single spaces; "''" is an empty one. message [512] */
 Status parse_line(const char *line, int pane, Options *options, char *message);
 
 /* Returns the options of a command line, which must be valid. */
-Options line_options(const char *line);
+Options options_from_line(const char *line);
 
 /* Sets up the simulation of a command line; free it with simulation_free. */
 void simulation_from_line(const char *line, NewtonObserver observer, void *user,
                           Simulation *simulation);
 
 /* Creates the simulation of a printf line, which the end of the test frees. */
-#define simulate(...) simulate_watched(NULL, NULL, __VA_ARGS__)
-Simulation *simulate_watched(NewtonObserver observer, void *user,
-                             const char *line, ...)
+#define simulate(...) simulate_observed(NULL, NULL, __VA_ARGS__)
+Simulation *simulate_observed(NewtonObserver observer, void *user,
+                              const char *line, ...)
     __attribute__((format(printf, 3, 4)));
 void free_simulations(void);
 
@@ -105,10 +103,10 @@ Status simulation_hold(Simulation *simulation, int node, double x, double y);
 /* Makes `count` steps, all of which converge; returns the simulation. */
 Simulation *make_steps(Simulation *simulation, int count);
 
-/* Returns the entry `name` of a ledger, J; energy_now: of a run's ledger */
-#define ENERGY(energies, name) energies_of(energies, #name)
-double energies_of(const Energies *energies, const char *name);
-double energy_now(const Simulation *simulation, int run, const char *name);
+/* Returns the entry `name` of a ledger, J; get_run_energy: of a run's ledger */
+#define ENERGY(energies, name) get_energy(energies, #name)
+double get_energy(const Energies *energies, const char *name);
+double get_run_energy(const Simulation *simulation, int run, const char *name);
 
 /* Returns a hash of the states of all runs, the time and the ledgers; `hash` is
  * STATE_HASH_SEED or the hash of the pane before. */
@@ -117,9 +115,9 @@ uint64_t hash_with_ledger(const Simulation *simulation, uint64_t hash);
 double count_broken_springs(const Simulation *simulation);
 
 /* Returns the allocated bytes, or 0 where the C library does not count them. */
-double heap_in_use(void);
+double count_heap_bytes(void);
 
 /* Returns the rest positions of the mesh, [2n] m, valid until the next call. */
-double *rest_x(const Simulation *simulation);
+double *get_rest_x(const Simulation *simulation);
 
 #endif
