@@ -32,7 +32,7 @@ typedef enum BoxEdge { EDGE_TOP, EDGE_BOTTOM, EDGE_LEFT, EDGE_RIGHT } BoxEdge;
 Box box_cut_off(Box *rest, BoxEdge edge, int pixels);
 
 /* Returns the part that two boxes share.  The corner of `a` must be >= 0. */
-Box box_intersection(Box a, Box b);
+Box box_intersect(Box a, Box b);
 
 /* Clips the line {x0, y0, x1, y1} to the box and a margin around it (Liang and
  * Barsky 1984).  Returns false if the line lies outside. */

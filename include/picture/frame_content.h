@@ -34,7 +34,7 @@ typedef enum StepLine {
 
 /* The minimisation of a step, or a descent, up to the present line of the
  * algorithm.  The present update is known from LINE_PROJECT on. */
-typedef struct Trace {
+typedef struct NewtonTrace {
     StepLine at_line;           /* present line of Algorithm 3 */
     double h, tolerance;        /* s, m/s, settings of the step */
     int records;                /* number of records */
@@ -53,9 +53,9 @@ typedef struct Trace {
     double first_alpha;          /* first trial of the line search; 0 means 1 */
     int trials;                  /* number of trials alpha so far */
     bool is_accepted;            /* the last trial was accepted */
-} Trace;
+} NewtonTrace;
 
-enum { MAX_VALUES = 160, VALUES_RUNS = 3 };
+enum { MAX_LIVE_VALUES = 160, VALUES_RUNS = 3 };
 
 /* A value that texts use by its name (live_values.h). */
 typedef struct LiveValue {
@@ -71,7 +71,7 @@ typedef struct LiveValues {
     int count; /* number of values */
     int run;   /* run of the values that are added next; 0: all runs */
     Colour colour[VALUES_RUNS + 1]; /* colours of runs; [0]: of other lines */
-    LiveValue value[MAX_VALUES];
+    LiveValue value[MAX_LIVE_VALUES];
 } LiveValues;
 
 /* ---- the stage ---------------------------------------------------------- */
@@ -95,9 +95,9 @@ typedef struct History {
 void history_add_point(History *history, double time, int rows,
                        const Energy *row);
 
-/* Trace of a descent's last update. */
+/* NewtonTrace of a descent's last update. */
 typedef struct DescentTrace {
-    Trace trace;
+    NewtonTrace trace;
     const Simulation *simulation;
     double start[2], p[2]; /* m, start and direction of the update */
     double start_energy;   /* E at `start`, J s^2 */
@@ -110,13 +110,13 @@ typedef struct Pane {
     const double *ghost_x;   /* [2n] m, outcome with other settings; or NULL */
     const char *ghost_label; /* settings of the ghost, "projection none: ..." */
     const History *history;  /* energies or radii over time */
-    const Trace *trace;      /* trace of the time step, or NULL */
-    const char *label;       /* differences from other panes, "h 0.01, k 5" */
-    Status failure;          /* status of the shown, or a failed next step */
+    const NewtonTrace *trace; /* trace of the time step, or NULL */
+    const char *label;        /* differences from other panes, "h 0.01, k 5" */
+    Status failure;           /* status of the shown, or a failed next step */
     /* frame_compute_values fills values, descent and shown_trace. */
     LiveValues values;
     DescentTrace descent;
-    const Trace *shown_trace; /* trace, or else descent.trace, or NULL */
+    const NewtonTrace *shown_trace; /* trace, or else descent.trace, or NULL */
 } Pane;
 
 /* Part of a picture that the mouse can find. */
@@ -149,13 +149,13 @@ typedef struct DragBounds {
 } DragBounds;
 
 /* How the user looks at a frame. */
-typedef struct View {
+typedef struct FrameView {
     Lens lens;
     Pick hovered;        /* part of the picture under the mouse */
     WindowHit mouse_hit; /* part of the window under the mouse */
     DragBounds drag_bounds;
     int selected_cell; /* index of the selected cell of the overview */
-} View;
+} FrameView;
 
 /* ---- around the stage --------------------------------------------------- */
 
@@ -236,10 +236,10 @@ typedef struct ListRow {
     bool is_heading; /* is a heading, without a key */
 } ListRow;
 
-typedef struct List {
+typedef struct RowList {
     int rows; /* number of rows */
     ListRow row[LAYOUT_MAX_ROWS];
-} List;
+} RowList;
 
 /* A scene in the overview of scenes. */
 typedef struct SheetCell {
@@ -281,7 +281,7 @@ typedef struct FrameContent {
     int panes;       /* number of panes, 1 ... LAYOUT_MAX_PANES */
     int active_pane; /* index of the pane whose numbers the cards show */
     Pane pane[LAYOUT_MAX_PANES];
-    const View *view;
+    const FrameView *view;
     HandGrip hand;      /* hand of the mouse or of a script */
     bool shows_strain;  /* springs are coloured by strain */
     bool is_bare;       /* shows pictures without words */
@@ -295,7 +295,7 @@ typedef struct FrameContent {
     ChipRow chips;
     ColumnContent column;
     CardSets cards;
-    List list; /* shown if `column` is not COLUMN_CARDS or COLUMN_CODE */
+    RowList list; /* shown if `column` is not COLUMN_CARDS or COLUMN_CODE */
     SheetContent sheet;
     LectureContent lecture;
 } FrameContent;
@@ -314,7 +314,7 @@ const double *pane_positions(const Pane *pane);
 
 /* Finds the bounding box of the nodes of the first runs: left, bottom, right,
  * top, m.  Nodes that are not finite are left out. */
-void pane_node_bounds(const Pane *pane, int runs, double bounds[4]);
+void find_node_bounds(const Pane *pane, int runs, double bounds[4]);
 
 /* Counts the cells with a triangle that has turned over. */
 int pane_count_folded_cells(const Pane *pane);
@@ -325,24 +325,24 @@ int pane_count_folded_cells(const Pane *pane);
 Layout layout_create(const FrameContent *content, int width, int height);
 
 /* Returns the camera of a pane. */
-Camera camera_of_pane(const FrameContent *content, const Layout *layout,
-                      int pane);
+Camera make_pane_camera(const FrameContent *content, const Layout *layout,
+                        int pane);
 
-/* Returns the present bounds of a pane's view, for View.drag_bounds. */
-DragBounds frame_view_bounds(const FrameContent *content, const Layout *layout,
-                             int pane);
+/* Returns the present bounds of a pane's view, for FrameView.drag_bounds. */
+DragBounds frame_find_view_bounds(const FrameContent *content,
+                                  const Layout *layout, int pane);
 
 /* Finds the part of a picture at this pixel; PICK_NONE outside of the stage. */
-Pick frame_pick(const FrameContent *content, const Layout *layout, double x,
-                double y);
+Pick frame_find_pick(const FrameContent *content, const Layout *layout,
+                     double x, double y);
 
 /* Finds the row of the list at this pixel; -1: none. */
 int frame_find_row(const FrameContent *content, const Layout *layout, double x,
                    double y);
 
 /* Finds the step 0 ... steps that the time line has at pixel column x. */
-long frame_find_step(const FrameContent *content, const Layout *layout,
-                     double x);
+long frame_find_bar_step(const FrameContent *content, const Layout *layout,
+                         double x);
 
 /* ---- live values --------------------------------------------------------- */
 

@@ -49,7 +49,7 @@ typedef struct Layout {
                                  */
 } Layout;
 
-typedef enum Zone {
+typedef enum WindowZone {
     ZONE_NONE,
     ZONE_TITLE,
     ZONE_STAGE,      /* index: number of the pane */
@@ -61,19 +61,19 @@ typedef enum Zone {
     ZONE_TIME,
     ZONE_CHIP, /* index: number of the chip */
     ZONE_CELL  /* index: number of the cell of the overview */
-} Zone;
+} WindowZone;
 
 typedef struct WindowHit {
-    Zone zone;       /* zone of the window */
+    WindowZone zone; /* zone of the window */
     int index;       /* number of the part of the zone */
     double pixel[2]; /* pixels, position of the mouse */
 } WindowHit;
 
 /* Finds the topmost part of the window at this pixel. */
-WindowHit layout_hit(const Layout *layout, double x, double y);
+WindowHit layout_find_hit(const Layout *layout, double x, double y);
 
 /* Returns the box of the cross that closes a card; -1: the code or list. */
-Box layout_close_box(const Layout *layout, int card);
+Box layout_cross_box(const Layout *layout, int card);
 
 /* ---- stage and world ---------------------------------------------------- */
 
@@ -85,8 +85,8 @@ typedef struct Camera {
 
 /* The user's zoom and pan, relative to the view that fits the scene. */
 typedef struct Lens {
-    double zoom;   /* magnification; 0 means 1 */
-    double pan[2]; /* shift in widths and heights of the box at zoom 1 */
+    double zoom;    /* magnification; 0 means 1 */
+    double pan[2];  /* shift in widths and heights of the box at zoom 1 */
     bool shows_all; /* the view widens to every obstacle, however far away */
 } Lens;
 

@@ -27,7 +27,7 @@ void paper_free(Paper *paper);
 int paper_pixels(const Paper *paper, double ems);
 
 /* Keeps the box of words that labels must not cover. */
-void paper_keep_words(Paper *paper, Box box);
+void paper_keep_word_box(Paper *paper, Box box);
 
 /* Draws markup, formatted as by printf, below y.  Returns its width, pixels. */
 int paper_write(Paper *paper, Face face, double size, Colour colour, double x,
@@ -36,8 +36,8 @@ int paper_write(Paper *paper, Face face, double size, Colour colour, double x,
 /* Replaces the last words of a line by an ellipsis if the line is wider than
  * this in pixels.
  *   words  [room] in/out, markup */
-void paper_shorten(Paper *paper, double size, int width, char *words,
-                   size_t room);
+void paper_shorten_words(Paper *paper, double size, int width, char *words,
+                         size_t room);
 
 /* Draws a line in the middle of a box's height.  A line wider than the box
  * shrinks to at least 0.6 of its size.  Returns the width in pixels. */
@@ -50,7 +50,7 @@ void paper_write_on_panel(Paper *paper, Face face, double size, Colour colour,
                           ...);
 
 /* Returns the width of a line in pixels. */
-int paper_width(Paper *paper, Face face, double size, const char *markup);
+int paper_measure(Paper *paper, Face face, double size, const char *markup);
 
 /* Draws a paragraph in the width of the box, broken at blanks outside of
  * braces. If text is left, the last line ends with an ellipsis.  Returns the

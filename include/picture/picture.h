@@ -25,8 +25,7 @@ typedef struct Card {
     double min_height; /* ems */
     /* Returns the minimum height in ems of a card whose content is `wide` ems
      * wide; an em has `em` pixels.  NULL: min_height. */
-    double (*needed_height)(const FrameContent *content, double wide,
-                            double em);
+    double (*find_height)(const FrameContent *content, double wide, double em);
     double weight;          /* weight with which the card shares free height */
     bool half_width;        /* may stand in one half of a wide column */
     bool halves_on_page;    /* may stand in one half on a page */

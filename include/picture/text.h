@@ -46,7 +46,7 @@ double text_line_height(double size);
 typedef struct TextExtent {
     double width, ascent, descent; /* pixels */
 } TextExtent;
-TextExtent text_extent(Text *text, const TextStyle *style, const char *markup);
+TextExtent text_measure(Text *text, const TextStyle *style, const char *markup);
 
 /* Counts the bytes of a text, fewer than `room`, that fit into this width.  The
  * text is cut at a blank outside of braces; at least one word fits.

@@ -113,7 +113,7 @@ enum { LABEL_SIZE = 64 }; /* bytes */
 typedef struct Frame {
     FrameContent content;
     History history[LAYOUT_MAX_PANES];
-    Trace trace[LAYOUT_MAX_PANES];
+    NewtonTrace trace[LAYOUT_MAX_PANES];
     char label[LAYOUT_MAX_PANES][LABEL_SIZE];   /* values that differ by pane */
     CommandKind chip_command[LAYOUT_MAX_CHIPS]; /* command of a click on it */
     int options; /* number of options in the row */
@@ -137,7 +137,7 @@ typedef struct Screen {
     bool is_black;           /* a black screen is shown */
     unsigned toggled_cards; /* bit c: card c was opened or closed by the user */
     int enlarged_card;      /* index of the enlarged card; -1: none */
-    View view;
+    FrameView view;
     Frame frame;
 } Screen;
 

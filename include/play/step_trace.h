@@ -46,7 +46,7 @@ typedef struct TracePosition {
 } TracePosition;
 
 typedef struct StepTrace {
-    Trace start_trace;         /* h and tolerance, the same at all positions */
+    NewtonTrace start_trace;   /* h and tolerance, the same at all positions */
     int x_length;              /* 2n; 0: no iterates are stored */
     Records records;           /* Newton's record at each iterate */
     TraceIterate *iterate;     /* [records.count] */
@@ -102,4 +102,4 @@ int step_trace_find_peak(const StepTrace *trace);
  * Pointers of `shown` lead into the trace.  Returns positions to draw,
  * [x_length] m; NULL: the positions after the step. */
 const double *step_trace_show(const StepTrace *trace, int position,
-                              Trace *shown);
+                              NewtonTrace *shown);

@@ -125,7 +125,7 @@ bool box_contains(Box box, double x, double y)
            y < box.y + box.height;
 }
 
-Box box_intersection(Box a, Box b)
+Box box_intersect(Box a, Box b)
 {
     return find_touched_pixels(a, b.x, b.y, (double)b.x + b.width,
                                (double)b.y + b.height);
@@ -134,7 +134,7 @@ Box box_intersection(Box a, Box b)
 Box canvas_set_clip(Canvas *canvas, Box box)
 {
     Box before = canvas->clip, whole = {0, 0, canvas->width, canvas->height};
-    canvas->clip = box_intersection(whole, box);
+    canvas->clip = box_intersect(whole, box);
     return before;
 }
 
@@ -158,7 +158,7 @@ static void blend_span(uint32_t *row, int left, int right, Colour colour,
 
 void canvas_fill(Canvas *canvas, Box box, Colour colour)
 {
-    Box seen = box_intersection(canvas->clip, box);
+    Box seen = box_intersect(canvas->clip, box);
     for (int j = seen.y; j < seen.y + seen.height; j++)
         blend_span(get_pixel_row(canvas, j), seen.x, seen.x + seen.width,
                    colour, find_opacity(colour));

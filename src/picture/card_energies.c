@@ -24,21 +24,21 @@ static const double ROW_HEIGHT =
     1.2; /* ems, more height for each curve after the 4th */
 
 /* A quantity of a history over time. */
-typedef struct Curve {
+typedef struct EnergyCurve {
     const Simulation *simulation;
     const History *history;
     int series;    /* index of the curve's quantity */
     bool is_total; /* is a total energy */
     Colour colour;
     const char *name;
-} Curve;
+} EnergyCurve;
 
-typedef struct Curves {
+typedef struct EnergyCurves {
     int count; /* number of curves */
-    Curve curve[HISTORY_SERIES];
+    EnergyCurve curve[HISTORY_SERIES];
     int omitted;  /* number of curves for which the card has no room */
     double t_max; /* s, time of the pane that has come farthest */
-} Curves;
+} EnergyCurves;
 
 /* Whether the history has one energy for each run, followed by the runs'
  * positions, and not all energies of one run. */
@@ -51,10 +51,11 @@ static bool series_are_runs(const Simulation *simulation)
 /* Finds the curves of the card.  With several panes or single masses, each pane
  * or run has one curve.  Otherwise the curves are the first three energies, and
  * all that were ever visible beside the largest one. */
-static Curves find_curves(const FrameContent *content)
+static EnergyCurves find_energy_curves(const FrameContent *content)
 {
-    Curves all = {.t_max = simulation_time(active_pane(content)->simulation)};
-    Curve *curve = all.curve;
+    EnergyCurves all = {.t_max =
+                            simulation_time(active_pane(content)->simulation)};
+    EnergyCurve *curve = all.curve;
     const Pane *active = active_pane(content);
     const History *history = active->history;
     bool runs = series_are_runs(active->simulation);
@@ -62,12 +63,12 @@ static Curves find_curves(const FrameContent *content)
     double most = 0;
     for (int p = 0; content->panes > 1 && p < content->panes; p++)
         if (content->pane[p].history)
-            curve[all.count++] = (Curve){content->pane[p].simulation,
-                                         content->pane[p].history,
-                                         0,
-                                         true,
-                                         colour_of_run(p),
-                                         content->pane[p].label};
+            curve[all.count++] = (EnergyCurve){content->pane[p].simulation,
+                                               content->pane[p].history,
+                                               0,
+                                               true,
+                                               colour_of_run(p),
+                                               content->pane[p].label};
     int series = !history || !history->series ? 0
                  : runs                       ? active->simulation->runs
                                               : history->series;
@@ -79,7 +80,7 @@ static Curves find_curves(const FrameContent *content)
     }
     for (int s = 0; content->panes <= 1 && s < series; s++)
         if (runs || is_visible[s])
-            curve[all.count++] = (Curve){
+            curve[all.count++] = (EnergyCurve){
                 active->simulation,
                 history,
                 s,
@@ -104,7 +105,7 @@ static int find_history_point(const History *history, double time)
 
 /* Returns the present energy of a curve, J: 0 below rounding, NaN without a
  * point, infinity if the energies are not finite. */
-static double find_present_energy(const Curve *curve)
+static double find_present_energy(const EnergyCurve *curve)
 {
     const History *history = curve->history;
     double now = simulation_time(curve->simulation), size = 0, first = 0;
@@ -123,10 +124,9 @@ static double find_present_energy(const Curve *curve)
     return fabs(value) < 1e-15 * fmin(size, first) ? 0 : value;
 }
 
-double energies_needed_height(const FrameContent *content, double wide,
-                              double em)
+double energies_find_height(const FrameContent *content, double wide, double em)
 {
-    int count = find_curves(content).count;
+    int count = find_energy_curves(content).count;
     return MIN_HEIGHT + ROW_HEIGHT * fmin(fmax(count - 4, 0), 3);
 }
 
@@ -143,13 +143,13 @@ static double find_energy_rounding(const Simulation *simulation)
  * the energy has grown a millionfold and none is far below 0, and for the panes
  * of a page.
  *   last  out, s, upper limit of the times of the curves */
-static Axis make_energies_axis(const Simulation *simulation, const Curves *all,
-                               double *last)
+static Axis make_energies_axis(const Simulation *simulation,
+                               const EnergyCurves *all, double *last)
 {
     double first = 0, least = INFINITY, low = 0, high = 0;
     double lowest = 0, highest = 0; /* ends of the energies in the whole run */
     *last = MIN_STEPS * simulation->options.timestep;
-    for (const Curve *curve = all->curve; curve < all->curve + all->count;
+    for (const EnergyCurve *curve = all->curve; curve < all->curve + all->count;
          curve++) {
         const History *history = curve->history;
         int point = find_history_point(history, all->t_max);
@@ -186,17 +186,17 @@ static Axis make_energies_axis(const Simulation *simulation, const Curves *all,
                   plot_round_axis_end(high), .label = "J"};
 }
 
-static void draw_curves(const Plot *plot, const Curves *all)
+static void draw_energy_curves(const Plot *plot, const EnergyCurves *all)
 {
     for (int c = all->count - 1; c >= 0; c--) {
-        const Curve *curve = &all->curve[c];
+        const EnergyCurve *curve = &all->curve[c];
         plot_curve(plot, curve->history->count, curve->history->time,
                    curve->history->value[curve->series],
                    curve->is_total ? 1.8 : 1.4, curve->colour);
     }
 }
 
-static NumberText format_present_value(const Curve *one)
+static NumberText format_present_value(const EnergyCurve *one)
 {
     double value = find_present_energy(one);
     bool is_zero = fabs(value) < find_energy_rounding(one->simulation);
@@ -204,11 +204,11 @@ static NumberText format_present_value(const Curve *one)
 }
 
 /* Fills a row with the name and the present value of a curve. */
-bool energies_legend_row(const FrameContent *content, int row,
-                         CardTableRow *cells)
+bool energies_make_legend_row(const FrameContent *content, int row,
+                              CardTableRow *cells)
 {
-    const Curves all = find_curves(content);
-    const Curve *one = &all.curve[row];
+    const EnergyCurves all = find_energy_curves(content);
+    const EnergyCurve *one = &all.curve[row];
     if (row >= all.count)
         return false;
     *cells = (CardTableRow){2, one->colour, {""}};
@@ -220,37 +220,37 @@ bool energies_legend_row(const FrameContent *content, int row,
 /* Writes the names and present values of the curves, or only measures them.
  * Returns the height in pixels.
  *   named  false: the names are left out, which stand on the panes */
-static int write_legend(const Plot *card, const Curves *all, bool named,
+static int write_legend(const Plot *card, const EnergyCurves *all, bool named,
                         bool draw)
 {
     Paper *paper = card->paper;
     const double size = fmax(LEGEND_SIZE, paper->min_letter);
     int at[2] = {0, 0}, used = 0;
     for (int c = 0; c < all->count; c++) {
-        const Curve *one = &all->curve[c];
+        const EnergyCurve *one = &all->curve[c];
         TextLine line = {.colour = one->colour};
         char name[SENTENCE_SIZE] = "", sum[60];
         if (named && one->name)
             snprintf(name, sizeof name, "%s%s ", one->name,
                      card->content->panes > 1 ? ":" : "");
         snprintf(sum, sizeof sum, "%s J", format_present_value(one).text);
-        paper_shorten(paper, size,
-                      card->box.width -
-                          paper_width(paper, FACE_REGULAR, size, sum),
-                      name, sizeof name);
+        paper_shorten_words(paper, size,
+                            card->box.width -
+                                paper_measure(paper, FACE_REGULAR, size, sum),
+                            name, sizeof name);
         snprintf(line.text, sizeof line.text, "%.150s%s", name, sum);
-        used = card_write_flow(card, at, size, LEGEND_GAP * size, &line, draw);
+        used = card_write_lines(card, at, size, LEGEND_GAP * size, &line, draw);
     }
     if (all->omitted > 0) {
         TextLine line = {.colour = COLOUR_GREY};
         snprintf(line.text, sizeof line.text, "+ %d smaller", all->omitted);
-        used = card_write_flow(card, at, size, LEGEND_GAP * size, &line, draw);
+        used = card_write_lines(card, at, size, LEGEND_GAP * size, &line, draw);
     }
     return used;
 }
 
 /* Leaves out the curve, not the first one, whose largest value is smallest. */
-static void omit_smallest_curves(Curves *all)
+static void omit_smallest_curves(EnergyCurves *all)
 {
     double least = INFINITY;
     int smallest = all->count - 1;
@@ -272,9 +272,9 @@ static void omit_smallest_curves(Curves *all)
 
 /* Draws the curves with their names and present values above.  In a low card
  * the smallest curves are left out. */
-void energies_draw(const Plot *card)
+void draw_energies_card(const Plot *card)
 {
-    Curves all = find_curves(card->content);
+    EnergyCurves all = find_energy_curves(card->content);
     Plot rest = *card;
     double last;
     int room = card->box.height - paper_pixels(card->paper, MIN_PLOT);
@@ -292,12 +292,12 @@ void energies_draw(const Plot *card)
     if (all.t_max < plot.x.high)
         plot_line(&plot, (double[2]){all.t_max, plot.y.low},
                   (double[2]){all.t_max, plot.y.high}, 1, COLOUR_BORDER);
-    draw_curves(&plot, &all);
+    draw_energy_curves(&plot, &all);
 }
 
 /* Draws a bar for the energy at the start plus the work since then, and a bar
  * for each of its parts.  Each part's bar begins where the part before ends. */
-void energy_budget_draw(const Plot *card)
+void draw_energy_budget_card(const Plot *card)
 {
     static const double NAME = 7, VALUE = 5.2; /* ems, widths of columns */
     Paper *paper = card->paper;
@@ -337,11 +337,11 @@ void energy_budget_draw(const Plot *card)
 
 /* Draws the radius of each run on a logarithmic axis, and marks the step at
  * which the first run's radius has doubled, if h never changed. */
-void radius_draw(const Plot *card)
+void draw_radius_card(const Plot *card)
 {
     const Simulation *simulation = card->simulation;
     const FrameContent *content = card->content;
-    const Curves all = find_curves(content);
+    const EnergyCurves all = find_energy_curves(content);
     double last =
         fmax(simulation_time(simulation), 100 * simulation->options.timestep);
     double most = 0.4; /* powers of ten, half of the axis around 1 m */
@@ -355,7 +355,7 @@ void radius_draw(const Plot *card)
     const double twice[2] = {steps * simulation->options.timestep, 2};
     plot_dashes(&plot, (double[2]){0, 2}, (double[2]){plot.x.high, 2}, 1, NULL,
                 COLOUR_GREY);
-    draw_curves(&plot, &all);
+    draw_energy_curves(&plot, &all);
     const History *history = card->pane->history;
     double end = history ? history->time[history->count - 1] : 0;
     double even = content->time_line.steps * simulation->options.timestep;

@@ -94,7 +94,7 @@ static void draw_pattern(const Plot *card, Box square, bool natural,
 /* Draws the patterns in the nodes' order and in the order of elimination; while
  * the Hessian is assembled the first alone, with the newest spring's triplets
  * at the right of a high card. */
-void hessian_pattern_draw(const Plot *card)
+void draw_hessian_pattern_card(const Plot *card)
 {
     Paper *paper = card->paper;
     const System *system = &card->simulation->system;

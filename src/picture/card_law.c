@@ -24,7 +24,7 @@ typedef struct LawPoint {
     double load;      /* the card shows the element with the largest load */
 } LawPoint;
 
-typedef struct Law {
+typedef struct DrawnLaw {
     const char *name; /* value of Options.law_name */
     const char *x_label, *y_label;
     const TermKind *law_term;     /* term with the law */
@@ -32,7 +32,7 @@ typedef struct Law {
     double (*evaluate)(const void *now, double x);
     double axis_low, axis_high; /* ends of the axis, times axis_unit */
     bool is_milli;              /* the label's unit is mm or mm/s */
-} Law;
+} DrawnLaw;
 
 static double element_energy_at(const void *data, double d)
 {
@@ -77,7 +77,7 @@ static double breaking_force_ratio(const void *now, double part)
     return part > 1 ? 0 : part;
 }
 
-static const Law laws[] = {
+static const DrawnLaw laws[] = {
     {"barrier", "gap \u03b4 in mm", "W in J", &contact_energy, &contact_energy,
      element_energy_at, 0, 1.2, true},
     {"pair", "", "", &self_contact_energy, &self_contact_energy,
@@ -111,7 +111,7 @@ static void set_spring_law(LawPoint *now, int s)
 
 /* Returns the law's value at the dot.  A spring beyond its strength keeps its
  * force until it breaks, since a neighbour may break first. */
-static double law_value_at(const Law *law, const LawPoint *now)
+static double evaluate_law(const DrawnLaw *law, const LawPoint *now)
 {
     return law->evaluate == breaking_force_ratio ? now->x
                                                  : law->evaluate(now, now->x);
@@ -120,12 +120,12 @@ static double law_value_at(const Law *law, const LawPoint *now)
 /* Finds the law that the scene draws, and the point of the most loaded element
  * on its curve; for friction the point of the mean slip speed of all contacts,
  * weighted by normal force.  Returns NULL if the scene has no law. */
-static const Law *find_law(const Simulation *simulation, LawPoint *most)
+static const DrawnLaw *find_law(const Simulation *simulation, LawPoint *most)
 {
     const char *name = simulation->options.law_name;
     const System *system = &simulation->system;
     const double *x = simulation->run[0].x, *v = simulation->run[0].v;
-    const Law *law = name ? laws : NULL;
+    const DrawnLaw *law = name ? laws : NULL;
     while (law && strcmp(law->name, name) != 0)
         law++;
     const EnergyTerm *term =
@@ -175,10 +175,10 @@ static const Law *find_law(const Simulation *simulation, LawPoint *most)
     return law;
 }
 
-bool law_find_gap(const Simulation *simulation, NodeContact *gap)
+bool law_find_contact(const Simulation *simulation, NodeContact *gap)
 {
     LawPoint now;
-    const Law *law = find_law(simulation, &now);
+    const DrawnLaw *law = find_law(simulation, &now);
     if (!law || isnan(now.x) || law->evaluate != element_energy_at)
         return false;
     bool self = law->element_term == &self_contact_energy;
@@ -231,10 +231,10 @@ bool law_find_slip(const Simulation *simulation, int body, double distance[2])
     return options->law_name && strcmp(options->law_name, "rub") == 0;
 }
 
-void law_add_values(const Simulation *simulation, LiveValues *values)
+void list_law_values(const Simulation *simulation, LiveValues *values)
 {
     LawPoint now;
-    const Law *law = find_law(simulation, &now);
+    const DrawnLaw *law = find_law(simulation, &now);
     if (!law)
         return;
     bool self = law->element_term == &self_contact_energy;
@@ -256,7 +256,7 @@ void law_add_values(const Simulation *simulation, LiveValues *values)
     values_add(values, "law x", now.x);
     values_add(values, "law mm", 1e3 * now.x);
     if (!isnan(now.x))
-        values_add(values, "law y", law_value_at(law, &now));
+        values_add(values, "law y", evaluate_law(law, &now));
     if (flows)
         values_add(values, "s_p", now.spring.ep);
     Energies energies = simulation_get_energies(simulation, 0);
@@ -269,10 +269,10 @@ void law_add_values(const Simulation *simulation, LiveValues *values)
 /* Draws the law's curve for the shown element.  A contact also has the tangent,
  * whose slope is the force; a spring its plastic flow and strain.  The dot of
  * the element is at the end of the axis if its value lies beyond. */
-void law_draw(const Plot *card)
+void draw_law_card(const Plot *card)
 {
     LawPoint point, *now = &point;
-    const Law *law = find_law(card->simulation, now);
+    const DrawnLaw *law = find_law(card->simulation, now);
     if (!law)
         return;
     bool both = law->axis_low < 0;
@@ -281,7 +281,7 @@ void law_draw(const Plot *card)
     double most = both ? 1.4 * now->spring.yield_strain
                        : fmax(law->evaluate(now, 0.9 * low + 0.1 * high),
                               law->evaluate(now, 0.25 * low + 0.75 * high));
-    double x = now->x, y = law_value_at(law, now);
+    double x = now->x, y = evaluate_law(law, now);
     const double rest[2] = {now->spring.ep, 0};
     const double dot[2] = {fmin(fmax(x, low), high), y};
     most = plot_round_axis_end(1.1 * fmax(most, fabs(y)));

@@ -21,7 +21,7 @@ typedef struct LineCurves {
     double low, high;              /* ends of the axis of E */
 } LineCurves;
 
-static double line_energy_at(const Trace *trace, double alpha)
+static double line_energy_at(const NewtonTrace *trace, double alpha)
 {
     double value = trace->energy_difference(trace->difference_data, alpha);
     return isfinite(value) ? value : NAN;
@@ -30,8 +30,8 @@ static double line_energy_at(const Trace *trace, double alpha)
 /* Fills the curves and the ends of the axis, from the minimum of the curves to
  * slightly above 0. The quadratic model has its minimum at alpha = 1: since H^
  * p = -g, its curvature p H^ p is minus the slope. */
-static void compute_curves(const Trace *trace, const Trace *other,
-                           LineCurves *curves)
+static void compute_line_curves(const NewtonTrace *trace,
+                                const NewtonTrace *other, LineCurves *curves)
 {
     double end = (other ? PAGE_END : AXIS_END) * trace_step_length(trace, 1);
     double low = 0, high = 0;
@@ -81,7 +81,7 @@ static void draw_trial_step(const Plot *plot, double alpha, double value,
 }
 
 /* Writes the legend above the plot, in a room of fixed height. */
-static void draw_legend(const Plot *card, Box *rest)
+static void draw_line_legend(const Plot *card, Box *rest)
 {
     Paper *paper = card->paper;
     int rows = card->box.width / paper->em < WORDS_WIDTH ? 2 : 1;
@@ -93,16 +93,16 @@ static void draw_legend(const Plot *card, Box *rest)
     words.height += air;
     Box before = canvas_set_clip(&paper->canvas, words);
     while (text_next_line(&line))
-        card_write_flow(card, at, WORD_SIZE, 1, &line, true);
+        card_write_lines(card, at, WORD_SIZE, 1, &line, true);
     canvas_set_clip(&paper->canvas, before);
 }
 
 /* Draws the curves and the trials.  A page about projection also shows E along
  * the projected p until the first step is made. */
-void line_energy_draw(const Plot *card)
+void draw_line_energy_card(const Plot *card)
 {
     const Pane *pane = card->pane;
-    const Trace *trace = pane->shown_trace;
+    const NewtonTrace *trace = pane->shown_trace;
     LineCurves curves;
     DescentTrace other = pane->descent;
     if (!trace || !trace->energy_difference || !isfinite(trace->slope) ||
@@ -115,12 +115,12 @@ void line_energy_draw(const Plot *card)
         descent_direction(card->simulation, PROJECTION_CLAMP, other.start,
                           other.p);
     other.trace.difference_data = &other;
-    compute_curves(trace, both ? &other.trace : NULL, &curves);
+    compute_line_curves(trace, both ? &other.trace : NULL, &curves);
     Axis x = {0, curves.alpha[LINE_POINTS - 1], .label = "{alpha}"};
     Axis y = {curves.low, curves.high, .label = NULL};
     Plot rest = *card;
     if (!card->content->has_document)
-        draw_legend(card, &rest.box);
+        draw_line_legend(card, &rest.box);
     Plot plot = plot_create(&rest, x, y);
     plot_curve(&plot, LINE_POINTS, curves.alpha, curves.model, 1.3, COLOUR_P);
     plot_curve(&plot, LINE_POINTS, curves.alpha, curves.projected, 2,

@@ -12,7 +12,7 @@ static const double TABLE_PART = 0.68;
 ShownRow listing_make_row(const Pane *pane, const ListingRow *row)
 {
     const LiveValues *values = &pane->values;
-    const Trace *trace = pane->shown_trace;
+    const NewtonTrace *trace = pane->shown_trace;
     bool reached = trace && (trace->at_line == LINE_NONE ||
                              trace->at_line >= row->at_line);
     bool struck = text_has_known_line(values, row->crossed_out_if);
@@ -32,13 +32,13 @@ static void draw_listing_row(const Plot *card, Box box, const ListingRow *row,
     char digits[12];
     double size = box.height < 0.95 * PAGE_PITCH * paper->em ? 1 : 1.2;
     int indent = paper_pixels(paper, 2 + 1.2 * row->indented);
-    int wide = paper_width(paper, FACE_REGULAR, 0.88 * size, now.value.text);
+    int wide = paper_measure(paper, FACE_REGULAR, 0.88 * size, now.value.text);
     Box count = {box.x, box.y, paper_pixels(paper, 1.2), box.height};
     Box room = {box.x + indent, box.y,
                 box.width - indent - wide - paper_pixels(paper, 1.4),
                 box.height};
-    bool both = paper_width(paper, FACE_REGULAR, paper->min_letter,
-                            now.text.text) <= room.width;
+    bool both = paper_measure(paper, FACE_REGULAR, paper->min_letter,
+                              now.text.text) <= room.width;
     room.width += both ? 0 : wide;
     if (now.is_highlighted)
         canvas_fill(&paper->canvas, box, COLOUR_LIT);
@@ -82,15 +82,14 @@ static double find_row_pitch(const FrameContent *content)
     return content->lecture.page ? PAGE_PITCH : PITCH;
 }
 
-double listing_needed_height(const FrameContent *content, double wide,
-                             double em)
+double listing_find_height(const FrameContent *content, double wide, double em)
 {
     return find_row_pitch(content) *
                lay_out_listing(content, rows_listing, NULL, (Box){0}) +
            2.6;
 }
 
-void card_write_rows(const Plot *card, const ListingRow *row)
+void card_write_listing(const Plot *card, const ListingRow *row)
 {
     double pitch = card->em * find_row_pitch(card->content);
     int count = lay_out_listing(card->content, row, NULL, (Box){0});
@@ -103,7 +102,7 @@ void card_write_rows(const Plot *card, const ListingRow *row)
 bool residuals_make_row(const FrameContent *content, int row,
                         CardTableRow *cells)
 {
-    const Trace *trace = active_pane(content)->shown_trace;
+    const NewtonTrace *trace = active_pane(content)->shown_trace;
     int count = trace ? trace->records : 0;
     if (count == 0 || row == 0)
         return count > 0;
@@ -125,20 +124,20 @@ bool residuals_make_row(const FrameContent *content, int row,
 }
 
 /* Draws the table; a page's main card also plots the residuals, below it. */
-void residual_log_draw(const Plot *card)
+void draw_residual_log_card(const Plot *card)
 {
     static const int order[CARD_COLUMNS] = {0, 1, 3, 2};
     Plot above = *card, below = *card;
-    const Trace *trace = card->pane->shown_trace;
+    const NewtonTrace *trace = card->pane->shown_trace;
     if (card->content->has_document) {
-        residual_draw(card);
+        draw_residual_card(card);
         return;
     }
     if (trace && card->box.height > 14 * card->em) {
         above.box = box_cut_off(&below.box, EDGE_TOP,
                                 (int)(TABLE_PART * card->box.height));
         above.box.height -= paper_pixels(card->paper, 0.7);
-        residual_draw(&below);
+        draw_residual_card(&below);
     }
     if (trace && trace->records > 0)
         card_draw_table(&above, &card_prints, order);

@@ -109,7 +109,7 @@ static int measure_page(Paper *paper, Box inside, double size,
 /* The letters are as large as all texts fit.  The question stays beside the
  * answer; the page's text is left out then if it would make the letters small.
  */
-void page_draw(const Plot *card)
+void draw_page_card(const Plot *card)
 {
     const double most =
         fmin(fmax(card->box.width / (LINE_WIDTH * card->em), LETTERS), LARGEST);
@@ -149,7 +149,7 @@ static double find_card_height(const FrameContent *content, double wide,
     return measure_page(&paper, box, size, content, keeps_text) / em + around;
 }
 
-double page_needed_height(const FrameContent *content, double wide, double em)
+double page_find_height(const FrameContent *content, double wide, double em)
 {
     return find_card_height(content, wide, em, LETTERS, true);
 }

@@ -73,7 +73,7 @@ static Corner find_edge_crossing(const Corner *a, const Corner *b, double E)
 }
 
 /* Finds the contour of a value in a triangle; returns false without one. */
-static bool find_contour(const Corner corner[3], double E, Corner end[2])
+static bool find_contour_piece(const Corner corner[3], double E, Corner end[2])
 {
     int ends = 0;
     for (int k = 0; k < 3 && ends < 2; k++) {
@@ -85,7 +85,7 @@ static bool find_contour(const Corner corner[3], double E, Corner end[2])
 }
 
 /* Returns a colour: bright in the light, yellow where E is not convex. */
-static Colour colour_of_face(const Relief *relief, const Corner corner[3])
+static Colour shade_surface_face(const Relief *relief, const Corner corner[3])
 {
     const Corner *o = &corner[0], *a = &corner[1], *b = &corner[2];
     double scale = HEIGHT / relief->rim_E;
@@ -104,7 +104,7 @@ static Colour colour_of_face(const Relief *relief, const Corner corner[3])
 
 /* Draws the part of a triangle below the rim, with its contour lines.  A face
  * seen from below is left out: the front wall would hide the valleys. */
-static void draw_face(const Relief *relief, const Corner corner[3])
+static void draw_surface_face(const Relief *relief, const Corner corner[3])
 {
     const Plot *plot = &relief->plot;
     Corner inside[4], end[2];
@@ -125,13 +125,13 @@ static void draw_face(const Relief *relief, const Corner corner[3])
     const double *const face[] = {at[0].xy, at[1].xy, at[2].xy,
                                   at[count > 3 ? 3 : 2].xy};
     if (above)
-        plot_quad(plot, face, colour_of_face(relief, corner));
+        plot_quad(plot, face, shade_surface_face(relief, corner));
     for (int k = 1;
          k < MAX_CONTOURS && k * relief->contour_step < relief->rim_E; k++)
-        if (above && find_contour(corner, k * relief->contour_step, end))
+        if (above && find_contour_piece(corner, k * relief->contour_step, end))
             plot_line(plot, project_corner(relief, &end[0]).xy,
                       project_corner(relief, &end[1]).xy, 0.8, LEVEL_COLOUR);
-    if (find_contour(corner, relief->rim_E, end))
+    if (find_contour_piece(corner, relief->rim_E, end))
         plot_line(plot, project_corner(relief, &end[0]).xy,
                   project_corner(relief, &end[1]).xy, 1.6, COLOUR_FAINT);
 }
@@ -148,8 +148,8 @@ static void draw_surface(const Relief *relief)
         for (int j = SURFACE_CELLS - 1; j >= 0 && i > 0; j--) {
             const Corner far[3] = {left[j], right[j + 1], left[j + 1]};
             const Corner near[3] = {left[j], right[j], right[j + 1]};
-            draw_face(relief, far);
-            draw_face(relief, near);
+            draw_surface_face(relief, far);
+            draw_surface_face(relief, near);
         }
     }
 }
@@ -236,7 +236,7 @@ static void draw_relief_axes(const Relief *relief)
                 format_number(relief->contour_step).text);
 }
 
-void relief_draw(const Plot *card)
+void draw_relief_card(const Plot *card)
 {
     static const double bounds[4] = {-1.62, -0.75, 1.88, 2.2}; /* m */
     Relief relief = {card->simulation, *card, rim_height(card->simulation), 0};

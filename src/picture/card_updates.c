@@ -8,7 +8,7 @@
 
 /* Draws E and its parts along the line from x^n to x_tilde, and E at x, beside
  * the point of the line that is nearest to x. */
-void step_energy_draw(const Plot *card)
+void draw_step_energy_card(const Plot *card)
 {
     enum { POINTS = 31, START = 5, END = 25 }; /* points with t = 0 and 1 */
     static const struct {
@@ -20,7 +20,7 @@ void step_energy_draw(const Plot *card)
                  {"h\u00b2 P", COLOUR_SHADED, 20, 0.72},
                  {"E", COLOUR_X, 3, 1}};
     double t[POINTS + 1], part[3][POINTS + 1], along = 0, square = 0;
-    const Trace *trace = card->pane->trace;
+    const NewtonTrace *trace = card->pane->trace;
     if (!trace || !trace->x_tilde || !trace->x_n) {
         card_write_hint(card, text_undrawn);
         return;
@@ -70,9 +70,9 @@ void step_energy_draw(const Plot *card)
 }
 
 /* Draws the residuals of the updates, and of the next update if p is known. */
-void residual_draw(const Plot *card)
+void draw_residual_card(const Plot *card)
 {
-    const Trace *trace = card->pane->shown_trace;
+    const NewtonTrace *trace = card->pane->shown_trace;
     if (!trace || (trace->records == 0 && !(trace->residual > 0))) {
         card_write_hint(card, text_undrawn);
         return;
@@ -117,7 +117,7 @@ void residual_draw(const Plot *card)
 bool updates_make_row(const FrameContent *content, int row, CardTableRow *cells)
 {
     const Pane *pane = active_pane(content);
-    const Trace *trace = pane->trace;
+    const NewtonTrace *trace = pane->trace;
     bool raw = pane->simulation->options.projection == PROJECTION_NONE;
     if (!trace || row == 0)
         return trace;
@@ -150,14 +150,13 @@ bool updates_make_row(const FrameContent *content, int row, CardTableRow *cells)
 }
 
 /* Returns the height of the card in ems; the table has at least six rows. */
-double updates_needed_height(const FrameContent *content, double wide,
-                             double em)
+double updates_find_height(const FrameContent *content, double wide, double em)
 {
-    const Trace *trace = active_pane(content)->trace;
+    const NewtonTrace *trace = active_pane(content)->trace;
     return CARD_ROW * (1 + fmax(6, trace ? trace->records : 0)) + 2.8;
 }
 
-void updates_draw(const Plot *card)
+void draw_updates_card(const Plot *card)
 {
     static const int order[2][CARD_COLUMNS] = {{0, 1, 2, 4, 3},
                                                {0, 1, 4, 5, 2, 3}};

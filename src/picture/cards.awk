@@ -67,7 +67,7 @@ function end_row()
 BEGIN {
     texts["title"] texts["legend"] texts["words"] texts["column_heads"]
     texts["text"] texts["value"] texts["crossed_out_if"]
-    values["min_height"] values["needed_height"] values["weight"] values["default_bounds"]
+    values["min_height"] values["find_height"] values["weight"] values["default_bounds"]
     values["draw"] values["make_row"] values["bounds"] values["add_values"] values["pick"]
     values["draw_hover"] values["sample"] values["legend_row"]
     switches["has_no_curves"] switches["half_width"] switches["halves_on_page"]

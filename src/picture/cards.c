@@ -7,7 +7,7 @@
 
 static const double CODE_LETTER = 0.7; /* ems, width of a letter of code */
 
-double trace_step_length(const Trace *trace, int trial)
+double trace_step_length(const NewtonTrace *trace, int trial)
 {
     return ldexp(trace->first_alpha > 0 ? trace->first_alpha : 1, 1 - trial);
 }
@@ -51,7 +51,7 @@ typedef struct ListGrid {
     double row_height; /* pixels, height of a row */
 } ListGrid;
 
-static ListGrid arrange_list_grid(const List *list, Box inside, double em)
+static ListGrid arrange_list_grid(const RowList *list, Box inside, double em)
 {
     const double line = 1.5, least = 1.3, wide = 24; /* ems */
     ListGrid grid = {list->rows > 0 ? list->rows : 1, 1, line * em};
@@ -80,7 +80,7 @@ int frame_find_row(const FrameContent *content, const Layout *layout, double x,
 
 /* Draws the key and the text of each row, all in letters of one size.  A text
  * that is too wide even in the smallest letters loses its last words. */
-static void draw_list(Paper *paper, Box inside, const List *list)
+static void draw_list(Paper *paper, Box inside, const RowList *list)
 {
     const double smallest = 0.85; /* smallest size over the usual size */
     const ListGrid grid = arrange_list_grid(list, inside, paper->em);
@@ -88,9 +88,9 @@ static void draw_list(Paper *paper, Box inside, const List *list)
     double key = 0, longest = 1, column = inside.width / (double)grid.columns;
     for (int i = 0; i < list->rows; i++) {
         const ListRow *row = &list->row[i];
-        key = fmax(key, paper_width(paper, FACE_BOLD, size, row->key));
+        key = fmax(key, paper_measure(paper, FACE_BOLD, size, row->key));
         longest =
-            fmax(longest, paper_width(paper, FACE_REGULAR, size, row->text));
+            fmax(longest, paper_measure(paper, FACE_REGULAR, size, row->text));
     }
     key += 0.6 * size * em;
     const int wide = (int)(column - key - 0.6 * em);
@@ -102,7 +102,7 @@ static void draw_list(Paper *paper, Box inside, const List *list)
                     (int)(inside.y + i % grid.rows * grid.row_height),
                     (int)column, (int)fmax(grid.row_height, 1.3 * size * em)};
         snprintf(text, sizeof text, "%s", row->text);
-        paper_shorten(paper, size, wide, text, sizeof text);
+        paper_shorten_words(paper, size, wide, text, sizeof text);
         paper_write_in_box(paper, FACE_BOLD, size, COLOUR_TEXT, room,
                            ALIGN_LEFT, row->key);
         room.x += row->is_heading ? 0 : (int)key;
@@ -123,7 +123,7 @@ static double measure_code(const LecturePage *page, int *lines)
     return widest;
 }
 
-double code_needed_width(const LecturePage *page)
+double code_find_width(const LecturePage *page)
 {
     int lines;
     const double margins = 4.4; /* ems */
@@ -135,7 +135,7 @@ double code_needed_width(const LecturePage *page)
 static void draw_code(Paper *paper, Box inside, const FrameContent *content)
 {
     const char *const *code = content->lecture.page->code;
-    const char *mark = lecture_find_lit_text(content);
+    const char *mark = lecture_find_highlight(content);
     const double letter = 0.603, high = 1.3, low = 1.17, most = 1.9; /* ems */
     int lines;
     double letters = measure_code(content->lecture.page, &lines);
@@ -201,8 +201,8 @@ void card_draw_table(const Plot *card, const Card *table, const int *order)
     for (; card_make_row(card->content, table, rows, &cells); rows++)
         for (int c = 0; c < cells.columns && cells.cell[0][0]; c++)
             wide[c] = fmax(wide[c],
-                           paper_width(paper, rows ? FACE_REGULAR : FACE_BOLD,
-                                       1, cells.cell[c]));
+                           paper_measure(paper, rows ? FACE_REGULAR : FACE_BOLD,
+                                         1, cells.cell[c]));
     for (int c = 0; c < cells.columns; c++)
         all += wide[c] + gap;
     double size = fmin(box->width / all, box->height / (rows * CARD_ROW * em));
@@ -244,7 +244,7 @@ void card_draw(Paper *paper, Box inside, const FrameContent *content, int card)
     else if (row->words)
         card_write_text(&plot, &pane->values, row->words);
     else
-        card_write_rows(&plot, row->listing);
+        card_write_listing(&plot, row->listing);
 }
 
 static void draw_code_or_list(Paper *paper, const Layout *layout,

@@ -43,29 +43,33 @@ typedef void StageBounds(const Plot *stage, double bounds[4]);
 typedef void StageDraw(Plot *stage);
 typedef void StageAddValues(const Simulation *simulation, LiveValues *values);
 typedef void StagePick(const Plot *stage, double x, double y, Pick *pick);
-typedef int StageSample(const Simulation *simulation, Energy *row);
+typedef int StageEnergies(const Simulation *simulation, Energy *row);
 typedef void CardDraw(const Plot *card);
-typedef bool CardTable(const FrameContent *content, int row,
-                       CardTableRow *cells);
+typedef bool CardMakeRow(const FrameContent *content, int row,
+                         CardTableRow *cells);
 typedef double CardHeight(const FrameContent *content, double wide, double em);
-extern StageBounds square_bounds, circle_bounds, mass_bounds, tangent_bounds,
-    spring_bounds, race_bounds;
-extern StageDraw square_draw, circle_draw, scalar_draw, landscape_draw,
-    mass_draw, tangent_draw, dial_draw, spring_draw, race_draw, envelope_draw,
-    square_hover;
-extern StageAddValues square_add_values, circle_add_values, scalar_add_values,
-    landscape_add_values, mass_add_values, dial_add_values, spring_add_values,
-    race_add_values, envelope_add_values;
+extern StageBounds find_square_bounds, find_circle_bounds, find_mass_bounds,
+    find_tangent_bounds, find_spring_bounds, find_race_bounds;
+extern StageDraw draw_square_picture, draw_circle_picture, draw_scalar_picture,
+    draw_landscape_picture, draw_mass_picture, draw_tangent_picture,
+    draw_dial_picture, draw_spring_picture, draw_race_picture,
+    draw_envelope_picture, draw_square_hover;
+extern StageAddValues list_square_values, list_circle_values,
+    list_scalar_values, list_landscape_values, list_mass_values,
+    list_dial_values, list_spring_values, list_race_values,
+    list_envelope_values;
 extern StagePick square_pick, circle_pick, tangent_pick, envelope_pick;
-extern StageSample square_sample_energies, mass_sample_energies;
-extern CardDraw page_draw, residual_log_draw, line_energy_draw, residual_draw,
-    step_energy_draw, updates_draw, energies_draw, energy_budget_draw,
-    radius_draw, relief_draw, eigenvalues_draw, tangent_numbers_draw, law_draw,
-    hessian_pattern_draw, spring_profile_draw, race_table_draw;
-extern CardTable residuals_make_row, updates_make_row, iterates_make_row,
-    race_make_row, energies_legend_row;
-extern CardHeight page_needed_height, listing_needed_height,
-    energies_needed_height, updates_needed_height;
+extern StageEnergies square_sample_energies, mass_sample_energies;
+extern CardDraw draw_page_card, draw_residual_log_card, draw_line_energy_card,
+    draw_residual_card, draw_step_energy_card, draw_updates_card,
+    draw_energies_card, draw_energy_budget_card, draw_radius_card,
+    draw_relief_card, draw_eigenvalues_card, draw_tangent_numbers_card,
+    draw_law_card, draw_hessian_pattern_card, draw_spring_profile_card,
+    draw_race_table_card;
+extern CardMakeRow residuals_make_row, updates_make_row, iterates_make_row,
+    race_make_row, energies_make_legend_row;
+extern CardHeight page_find_height, listing_find_height, energies_find_height,
+    updates_find_height;
 
 /* Returns the height of the page's card with the smallest letters, ems. */
 CardHeight page_least_height;
@@ -78,7 +82,7 @@ Box page_draw_claim(Paper *paper, Box inside, const FrameContent *content);
 bool landscape_is_convex(const LocalModel *E);
 
 /* Adds the values of the scene's law, for the element with the largest load. */
-void law_add_values(const Simulation *simulation, LiveValues *values);
+void list_law_values(const Simulation *simulation, LiveValues *values);
 
 /* A contact between a node and a wall or an edge. */
 typedef struct NodeContact {
@@ -90,7 +94,7 @@ typedef struct NodeContact {
 
 /* Finds the contact with the largest force.  Returns false if all
  * distances are above d_hat, or the law is of another kind. */
-bool law_find_gap(const Simulation *simulation, NodeContact *gap);
+bool law_find_contact(const Simulation *simulation, NodeContact *gap);
 
 /* Finds how far a body has slid, and how far a rigid body would slide, m.
  * Returns false if the scene does not draw the law of friction. */
@@ -101,7 +105,7 @@ bool frame_has_card(const FrameContent *content, const char *name);
 
 /* Returns the text that a line of the page's code contains if the line is lit.
  * In a walk through Algorithm 3 the text depends on the present line. */
-const char *lecture_find_lit_text(const FrameContent *content);
+const char *lecture_find_highlight(const FrameContent *content);
 
 /* Returns the spring that the present step adds to the Hessian. */
 int find_newest_spring(const Simulation *simulation);
@@ -122,10 +126,10 @@ void card_draw_table(const Plot *card, const Card *table, const int *order);
 ShownRow listing_make_row(const Pane *pane, const ListingRow *row);
 
 /* Writes the rows of a listing that are shown now; the present line is lit. */
-void card_write_rows(const Plot *card, const ListingRow *row);
+void card_write_listing(const Plot *card, const ListingRow *row);
 
 /* Returns the width that the code of a page needs, ems. */
-double code_needed_width(const LecturePage *page);
+double code_find_width(const LecturePage *page);
 
 /* Fills a row of a table; row 0: the heads.  Returns false after the last. */
 bool card_make_row(const FrameContent *content, const Card *card, int row,
@@ -140,7 +144,7 @@ void cards_draw(Paper *paper, const Layout *layout,
 
 /* On a page of the lecture, highlights all pixels in the colour of the term
  * under the mouse, or else of the term that the present line computes. */
-void highlight_draw(Paper *paper, const FrameContent *content);
+void draw_highlight(Paper *paper, const FrameContent *content);
 
 /* Draws title bar, settings, time line and chips. */
 void window_rows_draw(Paper *paper, const Layout *layout,
@@ -150,4 +154,4 @@ void window_rows_draw(Paper *paper, const Layout *layout,
 long time_line_steps(const FrameContent *content);
 
 /* Returns the step length alpha of trial 1, 2, ... of the line search. */
-double trace_step_length(const Trace *trace, int trial);
+double trace_step_length(const NewtonTrace *trace, int trial);

@@ -56,7 +56,7 @@ static void draw_ratio_line(const Plot *plot, double ratio)
 }
 
 /* Draws the cells over the lines of the axes; the selected one has a border. */
-void envelope_draw(Plot *stage)
+void draw_envelope_picture(Plot *stage)
 {
     const EnvelopeMap *map = &stage->simulation->exhibit.envelope;
     Plot plot =
@@ -88,7 +88,7 @@ void envelope_pick(const Plot *stage, double x, double y, Pick *pick)
 
 /* ---- cards -------------------------------------------------------------- */
 
-void envelope_add_values(const Simulation *simulation, LiveValues *values)
+void list_envelope_values(const Simulation *simulation, LiveValues *values)
 {
     const EnvelopeMap *map = &simulation->exhibit.envelope;
     const EnvelopeCell *cell = &map->cell[map->row][map->column];

@@ -12,7 +12,7 @@ static const double HIGHLIGHT_RADIUS = 4; /* units of paper around each pixel */
 static const double MOUSE_REACH = 0.5;    /* ems, from the mouse to a term */
 static const double MIN_COVERAGE = 0.5;   /* least ink in a term's pixel */
 
-static int channel_of(Colour colour, int k)
+static int get_channel(Colour colour, int k)
 {
     return (int)(colour >> 8 * k & 255);
 }
@@ -22,12 +22,12 @@ static bool pixel_has_colour(Colour pixel, Colour colour)
 {
     double ink = 0, off = 0;
     for (int k = 0; k < 3; k++)
-        if (channel_of(colour, k) < 128)
-            ink = fmax(ink, (255.0 - channel_of(pixel, k)) /
-                                (255.0 - channel_of(colour, k)));
+        if (get_channel(colour, k) < 128)
+            ink = fmax(ink, (255.0 - get_channel(pixel, k)) /
+                                (255.0 - get_channel(colour, k)));
     for (int k = 0; k < 3; k++)
-        off = fmax(off, fabs(255 - ink * (255 - channel_of(colour, k)) -
-                             channel_of(pixel, k)));
+        off = fmax(off, fabs(255 - ink * (255 - get_channel(colour, k)) -
+                             get_channel(pixel, k)));
     return ink > MIN_COVERAGE && off < 16;
 }
 
@@ -45,7 +45,7 @@ static void mark_disc_pixels(unsigned char *map, const Canvas *canvas, int x,
     }
 }
 
-static void highlight_colour(Canvas *canvas, Colour colour, int radius)
+static void highlight_pixels(Canvas *canvas, Colour colour, int radius)
 {
     size_t count = (size_t)canvas->width * canvas->height;
     unsigned char *map = calloc(count, 1);
@@ -56,10 +56,10 @@ static void highlight_colour(Canvas *canvas, Colour colour, int radius)
                              (int)(i / canvas->width), radius);
     for (size_t i = 0; i < count && map; i++) {
         Colour pixel = canvas->pixels[i], lit = 0xff000000u;
-        if (!map[i] || channel_of(pixel, 1) < 128)
+        if (!map[i] || get_channel(pixel, 1) < 128)
             continue; /* dark pixels keep their colour */
         for (int k = 0; k < 3; k++) {
-            int part = channel_of(pixel, k) * channel_of(COLOUR_HIGHLIGHT, k);
+            int part = get_channel(pixel, k) * get_channel(COLOUR_HIGHLIGHT, k);
             lit |= (Colour)(part / 255) << 8 * k;
         }
         canvas->pixels[i] = lit;
@@ -68,12 +68,12 @@ static void highlight_colour(Canvas *canvas, Colour colour, int radius)
 }
 
 /* Returns the colour of the nearest term within `reach` pixels; 0: none. */
-static Colour find_term_near(const Canvas *canvas, const double at[2],
-                             int reach)
+static Colour find_term_colour(const Canvas *canvas, const double at[2],
+                               int reach)
 {
     const Box whole = {0, 0, canvas->width, canvas->height};
     int x = (int)at[0], y = (int)at[1], least = reach * reach + 1;
-    Box box = box_intersection(
+    Box box = box_intersect(
         whole, (Box){x - reach, y - reach, 2 * reach + 1, 2 * reach + 1});
     Colour colour, best = 0;
     for (int j = box.y; j < box.y + box.height; j++)
@@ -91,12 +91,12 @@ static Colour find_term_near(const Canvas *canvas, const double at[2],
     return best;
 }
 
-void highlight_draw(Paper *paper, const FrameContent *content)
+void draw_highlight(Paper *paper, const FrameContent *content)
 {
     static const Colour of_line[LINE_COUNT] = {[LINE_PROJECT] = COLOUR_PROJECT,
                                                [LINE_SOLVE] = COLOUR_P,
                                                [LINE_SEARCH] = COLOUR_ALPHA};
-    const Trace *trace = active_pane(content)->trace;
+    const NewtonTrace *trace = active_pane(content)->trace;
     const WindowHit *mouse = &content->view->mouse_hit;
     unsigned layers = active_pane(content)->simulation->options.layers;
     bool stage = mouse->zone == ZONE_STAGE, idle = content->title_bar.state[0];
@@ -105,8 +105,8 @@ void highlight_draw(Paper *paper, const FrameContent *content)
     if (!content->lecture.page)
         return;
     if (idle && (mouse->zone == ZONE_CARD || stage))
-        colour = find_term_near(&paper->canvas, mouse->pixel,
-                                (int)(MOUSE_REACH * paper->em));
+        colour = find_term_colour(&paper->canvas, mouse->pixel,
+                                  (int)(MOUSE_REACH * paper->em));
     bool plain =
         over == PICK_NODE || (over == PICK_SWITCH && !(layers & LAYER_KINDS));
     if (plain || (colour == COLOUR_X && stage) || layers & LAYER_CURVES)
@@ -114,6 +114,6 @@ void highlight_draw(Paper *paper, const FrameContent *content)
     if (!colour && trace && frame_has_card(content, "listing"))
         colour = of_line[trace->at_line];
     if (colour)
-        highlight_colour(&paper->canvas, colour,
+        highlight_pixels(&paper->canvas, colour,
                          (int)(HIGHLIGHT_RADIUS * paper->unit + 0.5));
 }

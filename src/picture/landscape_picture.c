@@ -96,7 +96,7 @@ static void draw_contour_map(const Plot *plot)
 }
 
 /* Writes the contours' levels, J s^2, along a ray from x_tilde. */
-static void write_levels(const Plot *plot)
+static void write_contour_levels(const Plot *plot)
 {
     static const double ray[2] = {0.62, -0.78}, pace = 0.005; /* m */
     const Simulation *simulation = plot->simulation;
@@ -122,7 +122,7 @@ static void write_levels(const Plot *plot)
 }
 
 /* Draws the map, the springs, the pins and x_tilde. */
-static Plot draw_map(const Plot *stage)
+static Plot draw_landscape_map(const Plot *stage)
 {
     const Simulation *simulation = stage->simulation;
     const System *system = &simulation->system;
@@ -132,7 +132,7 @@ static Plot draw_map(const Plot *stage)
     bool curves = simulation->options.layers & LAYER_CURVES;
     draw_contour_map(&plot);
     if (plot.has_text && stage->content->lecture.page)
-        write_levels(&plot);
+        write_contour_levels(&plot);
     plot_springs(&plot, system, x, 3.5, curves ? COLOUR_GRID : COLOUR_REST);
     for (int i = 1; i < system->nodes; i++)
         plot_draw_pin(&plot, x + 2 * i, 5);
@@ -168,7 +168,7 @@ static void mark_stationary_points(const Plot *plot)
 
 /* Draws the direction p of the run, red if uphill.  If `both`, and if inertia
  * and elasticity are on, also draws p with the other choice of projection. */
-static void draw_directions(const Plot *plot, bool both)
+static void draw_newton_directions(const Plot *plot, bool both)
 {
     const Simulation *simulation = plot->simulation;
     const Descent *descent = &simulation->descent;
@@ -202,14 +202,14 @@ static void draw_directions(const Plot *plot, bool both)
 }
 
 /* Returns a length beyond the diagonal of the view, m. */
-static double length_beyond_view(const Plot *plot)
+static double find_length_beyond_view(const Plot *plot)
 {
     return 4 * (plot->box.width + plot->box.height) / plot->camera.scale[0];
 }
 
 /* Draws minus the gradient of each part of E that is on; an arrow of 1 m is a
  * gradient of 1 kg m, as E is in J s^2. */
-static void draw_forces(const Plot *plot, const LocalModel *E)
+static void draw_force_arrows(const Plot *plot, const LocalModel *E)
 {
     const Simulation *simulation = plot->simulation;
     const double *x = simulation->descent.iterate, *m = simulation->system.m;
@@ -267,7 +267,7 @@ static void add_newton_values(const Simulation *simulation, LiveValues *values)
         values_add_point(values, "v end", v);
 }
 
-void landscape_add_values(const Simulation *simulation, LiveValues *values)
+void list_landscape_values(const Simulation *simulation, LiveValues *values)
 {
     static const char *const raw[] = {"Hxx", "Hxy", "Hyy"};
     static const char *const projected[] = {"Pxx", "Pxy", "Pyy"};
@@ -341,7 +341,7 @@ static void draw_linearised_zeros(const Plot *plot, const LocalModel *E)
     for (int k = 0; k < 2; k++) {
         const double *slope = E->H + k, across[2] = {-slope[1], slope[0]};
         double square = slope[0] * slope[0] + slope[1] * slope[1];
-        double far = length_beyond_view(plot) / sqrt(square);
+        double far = find_length_beyond_view(plot) / sqrt(square);
         const Point foot = point_along(x, -E->g[k] / square, slope);
         plot_dashes(plot, point_along(foot.xy, -far, across).xy,
                     point_along(foot.xy, far, across).xy, 2.4, NULL,
@@ -354,11 +354,11 @@ static void draw_linearised_zeros(const Plot *plot, const LocalModel *E)
 }
 
 /* Draws the half plane g . p < 0 of the directions that point downhill. */
-static void draw_downhill(const Plot *plot, const LocalModel *E)
+static void draw_downhill_side(const Plot *plot, const LocalModel *E)
 {
     const double *x = plot->simulation->descent.iterate;
     const double across[2] = {-E->g[1], E->g[0]};
-    double far = length_beyond_view(plot) / vector_length(E->g);
+    double far = find_length_beyond_view(plot) / vector_length(E->g);
     const Point a = point_along(x, far, across),
                 b = point_along(x, -far, across),
                 c = point_along(b.xy, -far, E->g),
@@ -372,18 +372,18 @@ static void draw_downhill(const Plot *plot, const LocalModel *E)
 
 /* Draws the map, the path and the layers that are on.  Each update has a thin
  * arrow for p and a thick line for alpha p, red if uphill. */
-void landscape_draw(Plot *stage)
+void draw_landscape_picture(Plot *stage)
 {
     const Simulation *simulation = stage->simulation;
     const LectureContent *lecture = &stage->content->lecture;
     const Descent *descent = &simulation->descent;
     const LocalModel E = evaluate_energy(simulation, descent->iterate);
-    Plot plot = draw_map(stage);
+    Plot plot = draw_landscape_map(stage);
     unsigned layers = simulation->options.layers;
     bool halves = layers & LAYER_DOWNHILL && !simulation->is_over;
     bool curves = layers & LAYER_CURVES;
     if (halves)
-        draw_downhill(&plot, &E);
+        draw_downhill_side(&plot, &E);
     for (int i = 0; i < descent->count; i++) {
         const NewtonRecord *record = &descent->record[i];
         const double *from = record->x_before, *to = record->x_after;
@@ -401,9 +401,9 @@ void landscape_draw(Plot *stage)
     if (curves && !simulation->is_over)
         draw_linearised_zeros(&plot, &E);
     if (stage->revealed && layers & LAYER_FORCES)
-        draw_forces(&plot, &E);
+        draw_force_arrows(&plot, &E);
     else if (!lecture->hides_answer)
-        draw_directions(&plot, plot.has_text && both);
+        draw_newton_directions(&plot, plot.has_text && both);
     if (halves) {
         double far = 6 * plot.em / plot.camera.scale[0] / vector_length(E.g);
         plot_arrow(&plot, descent->iterate, E.g, -far, 2.2, COLOUR_TEXT);
@@ -420,11 +420,11 @@ void landscape_draw(Plot *stage)
 /* ---- the dial ----------------------------------------------------------- */
 
 /* Draws the path of the minimiser over h, with discs at powers of ten of h. */
-void dial_draw(Plot *stage)
+void draw_dial_picture(Plot *stage)
 {
     const Simulation *simulation = stage->simulation;
     const DialCurve *dial = &simulation->exhibit.dial;
-    Plot plot = draw_map(stage);
+    Plot plot = draw_landscape_map(stage);
     int points = stage->content->lecture.hides_answer ? 0 : DIAL_POINTS;
     for (int i = 1; i < points; i++)
         plot_line(&plot, dial->point[i - 1], dial->point[i], 3, COLOUR_X);
@@ -444,7 +444,7 @@ void dial_draw(Plot *stage)
     }
 }
 
-void dial_add_values(const Simulation *simulation, LiveValues *values)
+void list_dial_values(const Simulation *simulation, LiveValues *values)
 {
     const double *x = simulation->run[0].x, h = simulation->run[0].h;
     double elastic = energy_of_parts(simulation, PART_ELASTICITY, x);

@@ -36,10 +36,10 @@ static const double MIN_SHRINK = 0.7; /* open card over the height it needs */
 static const double SETTINGS_PART = 0.75;
 
 /* Width of the column over that of the window: usually; at most for the texts
- * of a page, in large type, for code and lists of more than MAX_ROWS rows. */
+ * of a page, in large type, for code and lists above MAX_LIST_ROWS rows. */
 static const double COLUMN_PART = 0.38, PAGE_PART = 0.50, BIG_PART = 0.57,
                     WIDE_PART = 0.75, COLUMN_GROWTH = 0.01;
-enum { MAX_ROWS = 30 };
+enum { MAX_LIST_ROWS = 30 };
 
 /* An em has 14 pixels in a window of 1000 x 800, is proportional to the smaller
  * one of width/1000 and height/800, and has at least 9 pixels. */
@@ -52,7 +52,7 @@ static int ems_to_pixels(const Layout *layout, double ems)
 }
 
 /* Returns column `index` of `count` equal columns of the box, `gap` apart. */
-static Box column_of_box(Box box, int index, int count, int gap)
+static Box get_box_column(Box box, int index, int count, int gap)
 {
     int room = box.width - (count - 1) * gap;
     int left = (int)((long)room * index / count) + index * gap;
@@ -198,13 +198,13 @@ static Box place_zones(const FrameContent *content, Layout *layout)
 }
 
 /* Returns the least height of a card, ems, whose content is `wide` ems wide. */
-static double needed_height(const FrameContent *content, const Layout *layout,
-                            int card, double wide)
+static double find_height(const FrameContent *content, const Layout *layout,
+                          int card, double wide)
 {
     const Card *row = active_picture(content)->cards[card];
     double em = layout->em;
-    double least = row->needed_height ? row->needed_height(content, wide, em)
-                                      : row->min_height;
+    double least = row->find_height ? row->find_height(content, wide, em)
+                                    : row->min_height;
     bool graph = card > 0 && row->draw && !row->has_no_curves;
     double high = GRAPH_PART * layout->height / em + GRAPH_AXES +
                   (row->legend_row ? GRAPH_LEGEND : 0);
@@ -248,7 +248,7 @@ static int find_card_rows(const FrameContent *content, const Layout *layout,
                         (card->below_picture || (card->beside_picture && !bar));
         if (sets->hidden_cards >> i & 1 || on_stage)
             continue;
-        double least = bar ? 0 : needed_height(content, layout, i, wide);
+        double least = bar ? 0 : find_height(content, layout, i, wide);
         if (pairs && half && !bar && before == i - 1) {
             rows[count - 1].card_count = 2;
             rows[count - 1].min_height =
@@ -316,7 +316,7 @@ static bool place_cards(const FrameContent *content, Layout *layout)
         box_cut_off(&rest, EDGE_TOP, gap);
         for (int k = 0; k < row->card_count; k++)
             layout->card[row->first_card + k] =
-                column_of_box(box, k, row->card_count, gap);
+                get_box_column(box, k, row->card_count, gap);
     }
     return fits;
 }
@@ -337,7 +337,7 @@ static void place_panes(int count, Layout *layout)
     }
     int rows = (count + columns - 1) / columns;
     for (int i = 0; i < count; i++) {
-        Box column = column_of_box(layout->stage, i % columns, columns, gap);
+        Box column = get_box_column(layout->stage, i % columns, columns, gap);
         int top = layout->stage.height * (i / columns) / rows;
         int bottom = layout->stage.height * (i / columns + 1) / rows;
         column.y += top;
@@ -396,7 +396,7 @@ static void place_card_below(const FrameContent *content, Layout *layout,
     const Box *stage = &layout->stage;
     double em = layout->em;
     double needs =
-        needed_height(content, layout, card, stage->width / em) + 2 * GAP;
+        find_height(content, layout, card, stage->width / em) + 2 * GAP;
     Box box = box_cut_off(
         &layout->stage, EDGE_BOTTOM,
         (int)fmin(fmax(needs * em, least), CARD_BELOW * stage->height));
@@ -494,9 +494,9 @@ Layout layout_create(const FrameContent *content, int width, int height)
         for (double part = COLUMN_PART;; part += COLUMN_GROWTH) {
             double ems = fmax(part * wide, MIN_COLUMN);
             if (content->column == COLUMN_CODE)
-                ems = fmin(fmax(code_needed_width(content->lecture.page), ems),
+                ems = fmin(fmax(code_find_width(content->lecture.page), ems),
                            most);
-            else if (page && content->list.rows > MAX_ROWS)
+            else if (page && content->list.rows > MAX_LIST_ROWS)
                 ems = most;
             layout.stage = whole;
             layout.column = box_cut_off(&layout.stage, EDGE_RIGHT,
@@ -517,7 +517,7 @@ Layout layout_create(const FrameContent *content, int width, int height)
     return layout;
 }
 
-Box layout_close_box(const Layout *layout, int card)
+Box layout_cross_box(const Layout *layout, int card)
 {
     Box box = card >= 0 ? layout->card[card]
                         : box_inset(layout->column, ems_to_pixels(layout, GAP));
@@ -526,10 +526,10 @@ Box layout_close_box(const Layout *layout, int card)
                  box.height < side ? box.height : side};
 }
 
-WindowHit layout_hit(const Layout *l, double x, double y)
+WindowHit layout_find_hit(const Layout *l, double x, double y)
 {
     const struct {
-        Zone zone;
+        WindowZone zone;
         const Box *box;
         int count; /* number of boxes */
     } lists[] = {
@@ -543,9 +543,9 @@ WindowHit layout_hit(const Layout *l, double x, double y)
             if (box_contains(lists[k].box[i], x, y))
                 hit = (WindowHit){lists[k].zone, i, {x, y}};
     if (hit.zone == ZONE_CARD &&
-        box_contains(layout_close_box(l, hit.index), x, y))
+        box_contains(layout_cross_box(l, hit.index), x, y))
         hit.zone = ZONE_CARD_CLOSE;
-    if (hit.zone == ZONE_LIST && box_contains(layout_close_box(l, -1), x, y))
+    if (hit.zone == ZONE_LIST && box_contains(layout_cross_box(l, -1), x, y))
         hit.zone = ZONE_LIST_CLOSE;
     return hit;
 }

@@ -7,10 +7,10 @@
 _Static_assert((int)LINE_COUNT == PAGE_MAX_CODE_LINES,
                "walk has a text for each line");
 
-const char *lecture_find_lit_text(const FrameContent *content)
+const char *lecture_find_highlight(const FrameContent *content)
 {
     const LecturePage *page = content->lecture.page;
-    const Trace *trace = active_pane(content)->trace;
+    const NewtonTrace *trace = active_pane(content)->trace;
     bool walks = page->line_highlight && trace && trace->at_line != LINE_NONE;
     return walks ? page->line_highlight[trace->at_line] : page->highlight;
 }
@@ -46,7 +46,7 @@ static void list_formula_letters(FrameContent *content)
 }
 
 /* Adds the lines of a text with live values, or those without. */
-static void add_list_lines(const char *text, bool live, char *out, size_t size)
+static void add_text_lines(const char *text, bool live, char *out, size_t size)
 {
     while (*text) {
         size_t length = strcspn(text, "\n");
@@ -66,9 +66,9 @@ static void build_answer_text(const LecturePage *page, LectureContent *lecture)
 {
     char *look = lecture->answer_text, others[ANSWER_SIZE] = "";
     look[0] = '\0';
-    add_list_lines(page->answer_text, false, others, sizeof others);
+    add_text_lines(page->answer_text, false, others, sizeof others);
     if (lecture->condition[0]) {
-        add_list_lines(page->answer_text, true, look, ANSWER_SIZE);
+        add_text_lines(page->answer_text, true, look, ANSWER_SIZE);
         if (others[0])
             append(look, ANSWER_SIZE, "%s\n%s", lecture->condition, others);
     } else {

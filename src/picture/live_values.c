@@ -12,8 +12,8 @@
 
 static LiveValue *append_value(LiveValues *values, const char *name)
 {
-    LiveValue *new = &values->value[values->count % MAX_VALUES];
-    values->count += values->count < MAX_VALUES;
+    LiveValue *new = &values->value[values->count % MAX_LIVE_VALUES];
+    values->count += values->count < MAX_LIVE_VALUES;
     *new = (LiveValue){.name = name, .run = values->run};
     return new;
 }
@@ -116,8 +116,8 @@ static void add_setting_values(const Simulation *simulation, LiveValues *values)
 }
 
 /* Adds the values of the current step, or of the last update of a descent. */
-static void add_trace_values(const Simulation *simulation, const Trace *trace,
-                             LiveValues *values)
+static void add_trace_values(const Simulation *simulation,
+                             const NewtonTrace *trace, LiveValues *values)
 {
     bool made = trace->at_line == LINE_NONE || trace->at_line >= LINE_SOLVE;
     bool known = made && isfinite(trace->residual);
@@ -182,8 +182,8 @@ static double compute_energy_change(const void *function, double alpha)
 
 /* Makes the trace of a descent's last update.  Without updates, or if the last
  * one did not move x, makes the trace of the next update. */
-static const Trace *make_descent_trace(const Simulation *simulation,
-                                       DescentTrace *space)
+static const NewtonTrace *make_descent_trace(const Simulation *simulation,
+                                             DescentTrace *space)
 {
     const Descent *descent = &simulation->descent;
     int last = descent->count - 1;
@@ -201,7 +201,7 @@ static const Trace *make_descent_trace(const Simulation *simulation,
     space->start_energy = descent_evaluate(simulation, PROJECTION_NONE,
                                            space->start[0], space->start[1])
                               .energy;
-    space->trace = (Trace){
+    space->trace = (NewtonTrace){
         .at_line = aims && !made ? LINE_SOLVE : LINE_NONE,
         .h = simulation->options.timestep,
         .tolerance = simulation->options.tolerance,
@@ -261,8 +261,8 @@ void frame_compute_values(FrameContent *content)
 /* ---- texts --------------------------------------------------------------- */
 
 /* Finds the value of a run by its name, which a colon or a brace ends. */
-static const LiveValue *find_value(const LiveValues *values, int run,
-                                   const char *name)
+static const LiveValue *find_live_value(const LiveValues *values, int run,
+                                        const char *name)
 {
     size_t length = strcspn(name, ":}");
     for (int i = 0; i < values->count; i++) {
@@ -277,7 +277,7 @@ static const LiveValue *find_value(const LiveValues *values, int run,
 
 double values_find_number(const LiveValues *values, const char *name)
 {
-    const LiveValue *one = find_value(values, 0, name);
+    const LiveValue *one = find_live_value(values, 0, name);
     return one && !one->text ? one->value[0] : NAN;
 }
 
@@ -288,8 +288,8 @@ double frame_find_number(FrameContent *content, const char *name)
 }
 
 /* Writes a value.  format: characters after the colon, as in "{length:/}". */
-static void format_value(const LiveValue *one, const char *format, char *out,
-                         size_t size)
+static void format_live_value(const LiveValue *one, const char *format,
+                              char *out, size_t size)
 {
     char *rest;
     int digits = (int)strtol(format, &rest, 10), exponent;
@@ -334,14 +334,14 @@ static bool expand_line(TextLine *line, const char *text, size_t length)
         }
         bool minus = from[1] == '-';
         const LiveValue *found =
-            find_value(values, line->run, from + 1 + minus);
+            find_live_value(values, line->run, from + 1 + minus);
         name = strcspn(from, ":}");
         if (!found)
             return false;
         LiveValue one = *found;
         one.value[0] *= minus ? -1 : 1;
-        format_value(&one, from[name] == ':' ? from + name + 1 : "",
-                     line->text + used, sizeof line->text - used);
+        format_live_value(&one, from[name] == ':' ? from + name + 1 : "",
+                          line->text + used, sizeof line->text - used);
         used += strlen(line->text + used);
         from += strcspn(from, "}") + 1;
     }
@@ -411,7 +411,7 @@ void card_write_text(const Plot *card, const LiveValues *values,
         size = box.width > MAIN_CARD_WIDTH * paper->em ? 1.6 : 1.2;
     const TextLine begin = text_begin(values, text);
     for (TextLine line = begin; text_next_line(&line);) {
-        int width = paper_width(paper, line.face, 1, line.text);
+        int width = paper_measure(paper, line.face, 1, line.text);
         height += draw_text_line(paper, box, 1, &line, false);
         if (width > 0)
             size = fmin(size, 0.97 * box.width / width);
@@ -421,11 +421,11 @@ void card_write_text(const Plot *card, const LiveValues *values,
         box.y += draw_text_line(paper, box, size, &line, true);
 }
 
-int card_write_flow(const Plot *card, int at[2], double size, double gap,
-                    const TextLine *line, bool draw)
+int card_write_lines(const Plot *card, int at[2], double size, double gap,
+                     const TextLine *line, bool draw)
 {
     Paper *paper = card->paper;
-    int width = paper_width(paper, line->face, size, line->text);
+    int width = paper_measure(paper, line->face, size, line->text);
     if (at[0] > 0 && at[0] + width > card->box.width) {
         at[0] = 0;
         at[1] += paper_pixels(paper, 1.35 * size);

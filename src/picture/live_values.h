@@ -65,5 +65,5 @@ void card_write_text(const Plot *card, const LiveValues *values,
  *         0, 0
  *   gap   ems between two lines
  *   draw  false: the line is only measured */
-int card_write_flow(const Plot *card, int at[2], double size, double gap,
-                    const TextLine *line, bool draw);
+int card_write_lines(const Plot *card, int at[2], double size, double gap,
+                     const TextLine *line, bool draw);

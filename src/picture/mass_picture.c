@@ -5,8 +5,8 @@
 #include "picture/cards.h"
 
 enum {
-    TRAIL = 256,       /* most steps of a drawn path */
-    EIGEN_PIECES = 200 /* pieces of the eigenvalues' path over h */
+    TRAIL = 256,            /* most steps of a drawn path */
+    EIGENVALUE_PIECES = 200 /* pieces of the eigenvalues' path over h */
 };
 
 static const double MASS_REACH = 1.9;    /* m, least half side of the view */
@@ -75,7 +75,7 @@ int mass_sample_energies(const Simulation *simulation, Energy *row)
 
 /* Draws the exact path with its radius, the trails, and a disc for each run.
  * On a page after the answer, a dashed circle has twice the radius. */
-void circle_draw(Plot *stage)
+void draw_circle_picture(Plot *stage)
 {
     const Simulation *simulation = stage->simulation;
     plot_ring(stage, origin, stage->camera.scale[0] / stage->paper->unit, 5,
@@ -93,7 +93,7 @@ void circle_draw(Plot *stage)
 }
 
 /* Finds a view of the runs up to CIRCLE_MAX; the exact circle stays visible. */
-void circle_bounds(const Plot *stage, double bounds[4])
+void find_circle_bounds(const Plot *stage, double bounds[4])
 {
     const Simulation *simulation = stage->simulation;
     double most = 0;
@@ -114,8 +114,8 @@ void circle_pick(const Plot *stage, double x, double y, Pick *pick)
  * t = h omega multiplies (x, v/omega).  Returns false unless the method is one
  * of the three Euler methods.
  *   lambda  [2][2] real and imaginary parts, out; real ones ascend */
-static bool find_eigenvalues(const IntegratorMethod *method, double t,
-                             double lambda[2][2])
+static bool find_step_eigenvalues(const IntegratorMethod *method, double t,
+                                  double lambda[2][2])
 {
     bool forward = strcmp(method->name, "forward-euler") == 0;
     double k = 1 / (1 + t * t), xx = forward ? 1 : 1 - t * t, xv = t, vv = 1;
@@ -138,7 +138,7 @@ static void add_eigenvalues(const IntegratorMethod *method, double t,
                             LiveValues *values)
 {
     double lambda[2][2];
-    if (!find_eigenvalues(method, t, lambda))
+    if (!find_step_eigenvalues(method, t, lambda))
         return;
     const double *least = lambda[0], *most = lambda[1];
     bool pair = most[1] > 0;
@@ -155,8 +155,8 @@ static void draw_eigenvalues(const Plot *plot, const IntegratorMethod *method,
 {
     Colour colour = colour_of_name(method->name);
     double before[2][2], now[2][2];
-    for (int i = 0; i <= EIGEN_PIECES; i++) {
-        if (!find_eigenvalues(method, turn * i / EIGEN_PIECES, now))
+    for (int i = 0; i <= EIGENVALUE_PIECES; i++) {
+        if (!find_step_eigenvalues(method, turn * i / EIGENVALUE_PIECES, now))
             return;
         for (int k = 0; k < 2 && i > 0; k++)
             plot_line(plot, before[k], now[k], 1.4, colour);
@@ -175,7 +175,7 @@ static void draw_complex_plane(const Plot *card)
     double bounds[4], lambda[2][2];
     for (int r = 0; r < simulation->runs; r++)
         for (int k = 0; k < 2; k++)
-            if (find_eigenvalues(simulation->run[r].method, turn, lambda))
+            if (find_step_eigenvalues(simulation->run[r].method, turn, lambda))
                 most = fmax(most, vector_length(lambda[k]));
     bounds_make_square(EIGEN_REACH, 1.1 * fmin(most, EIGEN_MAX), 1.2, bounds);
     Plot plot = *card;
@@ -194,7 +194,7 @@ static void draw_complex_plane(const Plot *card)
 
 /* Draws the eigenvalues as numbers, and the complex plane at the right, in a
  * high card below. */
-void eigenvalues_draw(const Plot *card)
+void draw_eigenvalues_card(const Plot *card)
 {
     Plot numbers = *card, plane = *card;
     const Box *box = &card->box;
@@ -218,7 +218,7 @@ void eigenvalues_draw(const Plot *card)
 
 /* Adds name and distance from the origin of each run, and h.  In the scene
  * circle, also adds the eigenvalues of each run's step. */
-void circle_add_values(const Simulation *simulation, LiveValues *values)
+void list_circle_values(const Simulation *simulation, LiveValues *values)
 {
     double turn = simulation->run[0].h * TWO_PI; /* h omega */
     bool circle = simulation->scene->picture == PICTURE_CIRCLE;
@@ -243,7 +243,7 @@ void circle_add_values(const Simulation *simulation, LiveValues *values)
 
 /* Finds a view with all masses and arrows, which grows by factors of sqrt(2)
  * and seldom moves.  On a page about a single step the view is close. */
-void mass_bounds(const Plot *stage, double bounds[4])
+void find_mass_bounds(const Plot *stage, double bounds[4])
 {
     const Simulation *simulation = stage->simulation;
     MassStep first;
@@ -295,7 +295,7 @@ static void draw_step_error(const Plot *stage, const MassStep *step, double h,
 /* Draws what a page explains: the exact end of the step; for forward Euler the
  * error, whose labels have room in the first step; for symplectic Euler with
  * h < 2 the ellipse through the steps. */
-static void draw_mass_lesson(Plot *stage, const MassStep *step)
+static void draw_step_explanation(Plot *stage, const MassStep *step)
 {
     double h = stage->simulation->run[0].h;
     const Point end = find_exact_position(step, h);
@@ -349,7 +349,7 @@ static void draw_mass_step(Plot *stage)
     plot_ring(stage, step.new_x, 9, 2.4, COLOUR_X);
     plot_disc(stage, step.x, 8, COLOUR_X);
     if (stage->content->lecture.page)
-        draw_mass_lesson(stage, &step);
+        draw_step_explanation(stage, &step);
     plot_label(stage, 1, step.new_x, COLOUR_X, "x^{n+1}");
     for (int i = 0; i < 4 + backward; i++) {
         const struct MassArrow *now = &arrow[order[i]];
@@ -363,7 +363,7 @@ static void draw_mass_step(Plot *stage)
 
 /* Draws the exact path, the trails and the next step of each run.  While the
  * page waits for a guess, velocity is the only arrow. */
-void mass_draw(Plot *stage)
+void draw_mass_picture(Plot *stage)
 {
     const Simulation *simulation = stage->simulation;
     const TimeIntegrator *run = simulation->run;
@@ -400,11 +400,11 @@ static double symplectic_invariant(const double *x, const double *v, double h)
     return 2 * compute_energy(x, v) - h * (x[0] * v[0] + x[1] * v[1]);
 }
 
-void mass_add_values(const Simulation *simulation, LiveValues *values)
+void list_mass_values(const Simulation *simulation, LiveValues *values)
 {
     MassStep step;
     bool one = simulation->runs == 1;
-    circle_add_values(simulation, values);
+    list_circle_values(simulation, values);
     for (int r = 0; r < simulation->runs; r++) {
         if (!mass_find_next_step(simulation, r, &step))
             continue;

@@ -32,13 +32,13 @@ int paper_pixels(const Paper *paper, double ems)
     return (int)floor(ems * paper->em + 0.5);
 }
 
-void paper_keep_words(Paper *paper, Box box)
+void paper_keep_word_box(Paper *paper, Box box)
 {
     paper->word_boxes[paper->word_count++ % MAX_WORD_BOXES] = box;
 }
 
-static TextStyle paper_style(const Paper *paper, Face face, double size,
-                             Colour colour)
+static TextStyle paper_make_style(const Paper *paper, Face face, double size,
+                                  Colour colour)
 {
     return (TextStyle){face, fmax(size, paper->min_letter) * paper->em, colour,
                        false, paper->min_letter * paper->em};
@@ -48,15 +48,15 @@ int paper_write(Paper *paper, Face face, double size, Colour colour, double x,
                 double y, Align align, const char *format, ...)
 {
     char words[PAPER_TEXT_SIZE];
-    TextStyle style = paper_style(paper, face, size, colour);
+    TextStyle style = paper_make_style(paper, face, size, colour);
     write_formatted(words, sizeof words, format);
     return text_draw(paper->text, &paper->canvas, &style, x, y, align, words);
 }
 
-int paper_width(Paper *paper, Face face, double size, const char *markup)
+int paper_measure(Paper *paper, Face face, double size, const char *markup)
 {
-    TextStyle style = paper_style(paper, face, size, 0);
-    return (int)text_extent(paper->text, &style, markup).width;
+    TextStyle style = paper_make_style(paper, face, size, 0);
+    return (int)text_measure(paper->text, &style, markup).width;
 }
 
 int paper_write_in_box(Paper *paper, Face face, double size, Colour colour,
@@ -66,12 +66,12 @@ int paper_write_in_box(Paper *paper, Face face, double size, Colour colour,
     Box room = {box.x, box.y - air, box.width, box.height + 2 * air};
     Box before = canvas_set_clip(&paper->canvas, room);
     double least = MIN_FIT * size, wide;
-    while ((wide = paper_width(paper, face, size, markup)) > box.width &&
+    while ((wide = paper_measure(paper, face, size, markup)) > box.width &&
            size > least)
         size = fmax(least, 0.99 * size * box.width / wide);
-    TextStyle style = paper_style(paper, face, size, colour);
-    double over = text_extent(paper->text, &style, markup).ascent -
-                  text_extent(paper->text, &style, "").ascent;
+    TextStyle style = paper_make_style(paper, face, size, colour);
+    double over = text_measure(paper->text, &style, markup).ascent -
+                  text_measure(paper->text, &style, "").ascent;
     double y = fmax(0.5 * box.height - 0.65 * size * paper->em, over);
     int width = paper_write(paper, face, size, colour,
                             box.x + 0.5 * (int)align * box.width, box.y + y,
@@ -86,22 +86,22 @@ void paper_write_on_panel(Paper *paper, Face face, double size, Colour colour,
 {
     char words[PAPER_TEXT_SIZE];
     write_formatted(words, sizeof words, format);
-    int wide = paper_width(paper, face, size, words);
+    int wide = paper_measure(paper, face, size, words);
     int left = pixel_from_coordinate(x) - (int)align * wide / 2;
     int air = paper_pixels(paper, 0.3);
     Box panel = {left - air, pixel_from_coordinate(y), wide + 2 * air,
                  paper_pixels(paper, 1.36 * size)};
     canvas_fill(&paper->canvas, panel, COLOUR_PANEL);
-    paper_keep_words(paper, panel);
+    paper_keep_word_box(paper, panel);
     paper_write(paper, face, size, colour, x, y, align, "%s", words);
 }
 
-void paper_shorten(Paper *paper, double size, int width, char *words,
-                   size_t room)
+void paper_shorten_words(Paper *paper, double size, int width, char *words,
+                         size_t room)
 {
     static const char end[] = " \u2026";
-    TextStyle style = paper_style(paper, FACE_REGULAR, size, 0);
-    int rest = width - paper_width(paper, FACE_REGULAR, size, end);
+    TextStyle style = paper_make_style(paper, FACE_REGULAR, size, 0);
+    int rest = width - paper_measure(paper, FACE_REGULAR, size, end);
     TextExtent extent;
     size_t fits =
         text_break_line(paper->text, &style, width, words, room, &extent);
@@ -115,8 +115,8 @@ int paper_write_paragraph(Paper *paper, Face face, double size, Colour colour,
                           Box box, int lines, const char *markup)
 {
     char part[PAPER_TEXT_SIZE];
-    TextStyle style = paper_style(paper, face, size, colour);
-    double y = box.y, above = text_extent(paper->text, &style, "").ascent;
+    TextStyle style = paper_make_style(paper, face, size, colour);
+    double y = box.y, above = text_measure(paper->text, &style, "").ascent;
     for (int line = 1; *markup && (line <= lines || lines == 0); line++) {
         TextExtent extent;
         size_t count = text_break_line(paper->text, &style, box.width, markup,

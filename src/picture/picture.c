@@ -33,7 +33,7 @@ int picture_find_card(const Picture *picture, const char *name)
 }
 
 /* Returns the cards that the page or scene hides or closes at first. */
-static CardSets find_first_card_sets(const Simulation *simulation)
+static CardSets find_start_card_sets(const Simulation *simulation)
 {
     const Picture *picture = picture_of_scene(simulation->scene);
     const LecturePage *page = simulation->options.page;
@@ -51,16 +51,16 @@ static CardSets find_first_card_sets(const Simulation *simulation)
 
 void frame_create(const Simulation *simulation, FrameContent *content)
 {
-    static const View whole = {.lens = {.zoom = 1}};
+    static const FrameView whole = {.lens = {.zoom = 1}};
     *content = (FrameContent){
-        .panes = 1, .view = &whole, .cards = find_first_card_sets(simulation)};
+        .panes = 1, .view = &whole, .cards = find_start_card_sets(simulation)};
     content->pane[0].simulation = simulation;
 }
 
 bool cards_need_line_energy(const Simulation *simulation, unsigned toggled)
 {
     const Picture *picture = picture_of_scene(simulation->scene);
-    const CardSets sets = find_first_card_sets(simulation);
+    const CardSets sets = find_start_card_sets(simulation);
     unsigned shut = sets.hidden_cards | (sets.closed_cards ^ toggled);
     for (int c = 0; c < picture->count; c++)
         if (picture->cards[c]->needs_line_energy && !(shut >> c & 1))
@@ -87,8 +87,9 @@ static Box find_picture_room(const FrameContent *content, const Layout *layout,
 }
 
 /* Finds the part of the world that a pane would show if it were alone. */
-static void find_own_bounds(const FrameContent *content, const Layout *layout,
-                            int pane, double bounds[4])
+static void find_lone_pane_bounds(const FrameContent *content,
+                                  const Layout *layout, int pane,
+                                  double bounds[4])
 {
     const Plot stage =
         plot_of_box(NULL, content, &content->pane[pane],
@@ -113,10 +114,10 @@ static void find_pane_bounds(const FrameContent *content, const Layout *layout,
         memcpy(bounds, held->bounds, sizeof held->bounds);
         return;
     }
-    find_own_bounds(content, layout, last, bounds);
+    find_lone_pane_bounds(content, layout, last, bounds);
     if (last == pane)
         return;
-    find_own_bounds(content, layout, pane, own);
+    find_lone_pane_bounds(content, layout, pane, own);
     if (own[0] < bounds[0] || own[1] < bounds[1] || own[2] > bounds[2] ||
         own[3] > bounds[3])
         memcpy(bounds, own, sizeof own);
@@ -153,14 +154,14 @@ Plot stage_create(Paper *paper, const FrameContent *content,
     return stage;
 }
 
-Camera camera_of_pane(const FrameContent *content, const Layout *layout,
-                      int pane)
+Camera make_pane_camera(const FrameContent *content, const Layout *layout,
+                        int pane)
 {
     return stage_create(NULL, content, layout, pane).camera;
 }
 
-DragBounds frame_view_bounds(const FrameContent *content, const Layout *layout,
-                             int pane)
+DragBounds frame_find_view_bounds(const FrameContent *content,
+                                  const Layout *layout, int pane)
 {
     DragBounds held = {.is_dragging = true, .pane = pane};
     find_pane_bounds(content, layout, pane, held.bounds);
@@ -243,10 +244,10 @@ static void draw_guess(const Plot *stage)
                format_number(guess->error).text);
 }
 
-Pick frame_pick(const FrameContent *content, const Layout *layout, double x,
-                double y)
+Pick frame_find_pick(const FrameContent *content, const Layout *layout,
+                     double x, double y)
 {
-    WindowHit hit = layout_hit(layout, x, y);
+    WindowHit hit = layout_find_hit(layout, x, y);
     Pick pick = {.kind = PICK_NONE, .nearest_node = -1};
     if (hit.zone != ZONE_STAGE || hit.index >= content->panes)
         return pick;
@@ -276,8 +277,8 @@ Pick frame_pick(const FrameContent *content, const Layout *layout, double x,
 
 /* ---- small queries ------------------------------------------------------- */
 
-long frame_find_step(const FrameContent *content, const Layout *layout,
-                     double x)
+long frame_find_bar_step(const FrameContent *content, const Layout *layout,
+                         double x)
 {
     const Box *bars = &layout->bars;
     double step =
@@ -322,17 +323,17 @@ void history_add_point(History *history, double time, int rows,
 
 /* ---- drawing ------------------------------------------------------------- */
 
-enum { LABEL_SIZE = 4 * VALUE_SIZE };
+enum { LABEL_LINE_SIZE = 4 * VALUE_SIZE };
 
 /* Copies the first parts of a label, separated by ", ", that fit into a line
- * [LABEL_SIZE].  Returns the rest of the label. */
+ * [LABEL_LINE_SIZE].  Returns the rest of the label. */
 static const char *cut_label_line(const Plot *stage, const char *label,
                                   char *line)
 {
     int room = (int)(stage->box.width - stage->em);
     char *comma;
-    snprintf(line, LABEL_SIZE, "%s", label);
-    while (paper_width(stage->paper, FACE_BOLD, 1, line) > room &&
+    snprintf(line, LABEL_LINE_SIZE, "%s", label);
+    while (paper_measure(stage->paper, FACE_BOLD, 1, line) > room &&
            (comma = strrchr(line, ',')))
         *comma = '\0';
     label += strlen(line);
@@ -340,7 +341,7 @@ static const char *cut_label_line(const Plot *stage, const char *label,
 }
 
 /* Whether the picture has a scale; low panes only have room for their label. */
-static bool stage_has_scale(const Plot *stage)
+static bool stage_shows_scale(const Plot *stage)
 {
     bool is_low = stage->box.height < LOW_PANE * stage->em &&
                   stage->content->panes > 1 && stage->content->lecture.page;
@@ -352,17 +353,17 @@ static bool stage_has_scale(const Plot *stage)
  * below the picture; a wide label stands above the scale. */
 static void draw_pane_label(const Plot *stage, const char *label)
 {
-    enum { LINES = 3 };
+    enum { MAX_LABEL_LINES = 3 };
     Paper *paper = stage->paper;
     const Box *box = &stage->box;
-    char line[LINES][LABEL_SIZE];
+    char line[MAX_LABEL_LINES][LABEL_LINE_SIZE];
     int lines = 0, wide = 0;
-    while (*label && lines < LINES) {
+    while (*label && lines < MAX_LABEL_LINES) {
         label = cut_label_line(stage, label, line[lines]);
-        int own = paper_width(paper, FACE_BOLD, 1, line[lines++]);
+        int own = paper_measure(paper, FACE_BOLD, 1, line[lines++]);
         wide = own > wide ? own : wide;
     }
-    bool high = wide > box->width - 10 * paper->em && stage_has_scale(stage);
+    bool high = wide > box->width - 10 * paper->em && stage_shows_scale(stage);
     double low = box->y + box->height - (high ? 4.2 : 1.7) * paper->em;
     for (int i = 0; i < lines; i++)
         paper_write_on_panel(
@@ -385,7 +386,7 @@ static void draw_pane(Paper *paper, const Layout *layout,
     TextLine line = text_begin(&stage.pane->values, picture->legend);
     while (stage.has_text && text_next_line(&line))
         plot_legend(&stage, line.colour, "%s", line.text);
-    if (stage_has_scale(&stage))
+    if (stage_shows_scale(&stage))
         plot_scale(&stage);
     if (!picture->draws_handles)
         stage_draw_handles(&stage);
@@ -440,7 +441,7 @@ void frame_draw_card(Paper *paper, const FrameContent *content, int card)
     prepare_paper(paper, content->min_em, content);
     Box inside = box_inset(paper->canvas.clip, paper_pixels(paper, 0.4));
     card_draw(paper, inside, content, card);
-    highlight_draw(paper, content);
+    draw_highlight(paper, content);
 }
 
 void frame_draw(Paper *paper, const FrameContent *content)
@@ -467,7 +468,7 @@ void frame_draw(Paper *paper, const FrameContent *content)
         cards_draw(paper, &layout, content);
     }
     if (!sheet)
-        highlight_draw(paper, content);
+        draw_highlight(paper, content);
     if (!content->is_stage_only)
         window_rows_draw(paper, &layout, content);
 }

@@ -7,10 +7,10 @@
 #include "picture/colour_map.h"
 
 enum {
-    PLOT_INTERVALS = 4,  /* most intervals between the numbers of y */
-    PLOT_MAX_TICKS = 40, /* most ticks of an axis */
-    PLOT_POINTS = 400,   /* points of a graph */
-    PLOT_CORNERS = 120   /* corners of an ellipse */
+    PLOT_MAX_Y_INTERVALS = 4,  /* most intervals between the numbers of y */
+    PLOT_MAX_TICKS = 40,       /* most ticks of an axis */
+    PLOT_GRAPH_POINTS = 400,   /* points of a graph */
+    PLOT_ELLIPSE_CORNERS = 120 /* corners of an ellipse */
 };
 
 static const double TURN = 6.283185307179586; /* 2 pi */
@@ -31,29 +31,29 @@ double plot_round_up(double value)
 
 double plot_round_axis_end(double value)
 {
-    double step = plot_round_up(value / PLOT_INTERVALS);
+    double step = plot_round_up(value / PLOT_MAX_Y_INTERVALS);
     return step * ceil(value / step * (1 - 1e-12));
 }
 
 /* Returns the coordinate of a value, a logarithm on a logarithmic axis. */
-static double axis_coordinate(const Axis *axis, double value)
+static double axis_find_coordinate(const Axis *axis, double value)
 {
     return axis->is_log ? log10(value) : value;
 }
 
 void plot_to_pixel(const Plot *plot, const double *at, double pixel[2])
 {
-    const double on[2] = {axis_coordinate(&plot->x, at[0]),
-                          axis_coordinate(&plot->y, at[1])};
+    const double on[2] = {axis_find_coordinate(&plot->x, at[0]),
+                          axis_find_coordinate(&plot->y, at[1])};
     camera_to_pixel(&plot->camera, on, pixel);
 }
 
 /* Sets the camera so that the box shows axis k from low to high. */
-static void set_camera(Plot *plot, int k, const Axis *axis)
+static void set_plot_camera(Plot *plot, int k, const Axis *axis)
 {
     const Box *box = &plot->box;
-    double low = axis_coordinate(axis, axis->low),
-           high = axis_coordinate(axis, axis->high);
+    double low = axis_find_coordinate(axis, axis->low),
+           high = axis_find_coordinate(axis, axis->high);
     double scale = (k ? box->height : box->width) / (high - low);
     plot->camera.scale[k] = scale;
     plot->camera.origin[k] =
@@ -72,8 +72,8 @@ static NumberText format_tick(const Axis *axis, double value)
  * exponent is such a multiple.  Returns the number of ticks. */
 static int list_ticks(const Axis *axis, double step, double *ticks)
 {
-    double low = axis_coordinate(axis, axis->low),
-           high = axis_coordinate(axis, axis->high);
+    double low = axis_find_coordinate(axis, axis->low),
+           high = axis_find_coordinate(axis, axis->high);
     int count = 0;
     double first =
         axis->is_log ? ceil(low - 1e-9) / step : ceil(low / step - 1e-9);
@@ -90,9 +90,9 @@ static int find_ticks(const Axis *axis, bool upright, double ems, double *ticks)
 {
     double room = upright ? fmax(ems / Y_NUMBER_HEIGHT, 1)
                           : fmax(ems / X_NUMBER_WIDTH, 2);
-    double intervals = fmin(room, (upright ? 1 : 2) * PLOT_INTERVALS);
-    double low = axis_coordinate(axis, axis->low),
-           high = axis_coordinate(axis, axis->high);
+    double intervals = fmin(room, (upright ? 1 : 2) * PLOT_MAX_Y_INTERVALS);
+    double low = axis_find_coordinate(axis, axis->low),
+           high = axis_find_coordinate(axis, axis->high);
     double step = plot_round_up((high - low) / intervals);
     if (!(high - low > 0) || !isfinite(high - low))
         return 0;
@@ -115,7 +115,7 @@ static void write_tick(const Plot *plot, Colour colour, double x, double y,
 
 static int measure_tick(Paper *paper, const char *words)
 {
-    return paper_width(paper, FACE_REGULAR, TICK_SIZE, words);
+    return paper_measure(paper, FACE_REGULAR, TICK_SIZE, words);
 }
 
 /* Draws a light line and a number for each tick of y; the line at 0 is darker.
@@ -184,8 +184,8 @@ Plot plot_create(const Plot *card, Axis x, Axis y)
     plot.x = x;
     plot.y = y;
     plot.box = find_box_inside_axes(card, &y, 0.5, 1.5);
-    set_camera(&plot, 0, &x);
-    set_camera(&plot, 1, &y);
+    set_plot_camera(&plot, 0, &x);
+    set_plot_camera(&plot, 1, &y);
     draw_axes(&plot);
     return plot;
 }
@@ -216,7 +216,7 @@ Plot plot_create_on_stage(const Plot *stage, Axis x, Axis y)
     }
     axis_set_range(&plot.x, low[0], high[0]);
     if (y.high != 0)
-        set_camera(&plot, 1, &y);
+        set_plot_camera(&plot, 1, &y);
     if (stage->has_text)
         draw_axes(&plot);
     return plot;
@@ -231,7 +231,7 @@ static bool has_axes(const Plot *plot)
 }
 
 /* Returns the width of a line in pixels, at least 1. */
-static double line_width_pixels(const Plot *plot, double width)
+static double find_line_width(const Plot *plot, double width)
 {
     return fmax(1, width * plot->paper->unit);
 }
@@ -243,7 +243,7 @@ static void draw_clipped_line(const Plot *plot, const double *a,
     double line[4] = {a[0], a[1], b[0], b[1]};
     if (!has_axes(plot) || box_clip_line(&plot->box, 0, line))
         canvas_line(&plot->paper->canvas, line[0], line[1], line[2], line[3],
-                    line_width_pixels(plot, width), colour);
+                    find_line_width(plot, width), colour);
 }
 
 void plot_line(const Plot *plot, const double *a, const double *b, double width,
@@ -263,8 +263,8 @@ void plot_dashes(const Plot *plot, const double *a, const double *b,
     Box before = canvas_set_clip(canvas, plot->box);
     plot_to_pixel(plot, a, p);
     plot_to_pixel(plot, b, q);
-    canvas_dashes(canvas, p, q, line_width_pixels(plot, width),
-                  plot->paper->unit, phase, colour);
+    canvas_dashes(canvas, p, q, find_line_width(plot, width), plot->paper->unit,
+                  phase, colour);
     canvas_set_clip(canvas, before);
 }
 
@@ -272,8 +272,8 @@ void plot_ellipse(const Plot *plot, const double *middle, const double *a,
                   const double *b, double width, bool dashed, Colour colour)
 {
     double from[2], phase = 0;
-    for (int i = 0; i <= PLOT_CORNERS; i++) {
-        double t = TURN * i / PLOT_CORNERS;
+    for (int i = 0; i <= PLOT_ELLIPSE_CORNERS; i++) {
+        double t = TURN * i / PLOT_ELLIPSE_CORNERS;
         const double to[2] = {middle[0] + a[0] * cos(t) + b[0] * sin(t),
                               middle[1] + a[1] * cos(t) + b[1] * sin(t)};
         if (i > 0 && dashed)
@@ -330,15 +330,15 @@ void plot_curve(const Plot *plot, int count, const double *x, const double *y,
 void plot_graph(const Plot *plot, double (*y)(const void *data, double x),
                 const void *data, double width, Colour colour)
 {
-    double at[PLOT_POINTS + 1], value[PLOT_POINTS + 1];
+    double at[PLOT_GRAPH_POINTS + 1], value[PLOT_GRAPH_POINTS + 1];
     double low = plot->x.low, high = plot->x.high;
-    for (int i = 0; i <= PLOT_POINTS; i++) {
-        double part = (double)i / PLOT_POINTS;
+    for (int i = 0; i <= PLOT_GRAPH_POINTS; i++) {
+        double part = (double)i / PLOT_GRAPH_POINTS;
         at[i] = plot->x.is_log ? low * pow(high / low, part)
                                : low + (high - low) * part;
         value[i] = y(data, at[i]);
     }
-    plot_curve(plot, PLOT_POINTS + 1, at, value, width, colour);
+    plot_curve(plot, PLOT_GRAPH_POINTS + 1, at, value, width, colour);
 }
 
 /* Maps a point to pixels.  Returns whether the point is visible. */
@@ -372,7 +372,7 @@ void plot_ring(const Plot *plot, const double *at, double radius, double width,
     double p[2], unit = plot->paper->unit;
     if (find_visible_pixel(plot, at, p))
         canvas_ring(&plot->paper->canvas, p[0], p[1], radius * unit,
-                    line_width_pixels(plot, width), colour);
+                    find_line_width(plot, width), colour);
 }
 
 /* Draws a dark square with a light middle. */
@@ -400,8 +400,7 @@ void plot_arrow(const Plot *plot, const double *a, const double *d,
     plot_to_pixel(plot, a, p);
     plot_to_pixel(plot, b, q);
     canvas_arrow(&paper->canvas, p[0], p[1], q[0], q[1],
-                 line_width_pixels(plot, width), ARROW_HEAD * paper->em,
-                 colour);
+                 find_line_width(plot, width), ARROW_HEAD * paper->em, colour);
     canvas_set_clip(&paper->canvas, before);
 }
 

@@ -11,7 +11,7 @@ static const double TARGET_ERROR = 0.01; /* m, largest error of a fast run */
 
 /* Returns bounds in powers of ten: h or run time, ms, and error.  Errors
  * below 1e-8 m and above 10 m may be outside. */
-void race_bounds(const Plot *stage, double bounds[4])
+void find_race_bounds(const Plot *stage, double bounds[4])
 {
     const Race *race = &stage->simulation->exhibit.race;
     bool over_h = stage->simulation->exhibit.switches;
@@ -34,7 +34,7 @@ void race_bounds(const Plot *stage, double bounds[4])
 
 /* Draws a curve through the points of each method; points of runs that explode
  * later are hollow.  Over h also draws the slopes of order 1 and 2. */
-void race_draw(Plot *stage)
+void draw_race_picture(Plot *stage)
 {
     const Simulation *simulation = stage->simulation;
     const Race *race = &simulation->exhibit.race;
@@ -78,7 +78,7 @@ void race_draw(Plot *stage)
 }
 
 /* Adds the fastest stable runs, explicit and implicit, within TARGET_ERROR. */
-void race_add_values(const Simulation *simulation, LiveValues *values)
+void list_race_values(const Simulation *simulation, LiveValues *values)
 {
     static const char *const names[2][2] = {{"explicit", "explicit ms"},
                                             {"implicit", "implicit ms"}};
@@ -141,7 +141,7 @@ bool race_make_row(const FrameContent *content, int row, CardTableRow *cells)
     return true;
 }
 
-void race_table_draw(const Plot *card)
+void draw_race_table_card(const Plot *card)
 {
     static const int order[CARD_COLUMNS] = {0, 1, 2, 3};
     card_draw_table(card, &card_race_table, order);

@@ -30,7 +30,7 @@ static LocalModel evaluate_scalar_model(const Simulation *simulation, double x)
 }
 
 /* Returns update i = 0, 1, ...; -1: the next one, from the present iterate. */
-static ScalarUpdate find_update(const Simulation *simulation, int i)
+static ScalarUpdate find_scalar_update(const Simulation *simulation, int i)
 {
     const Descent *descent = &simulation->descent;
     bool whole = simulation->options.line_search == LINE_SEARCH_NONE;
@@ -128,16 +128,16 @@ static void draw_iteration(const Plot *plot, const ScalarUpdate *update,
 }
 
 /* Draws f with the iterates.  The models of earlier full updates are pale. */
-void scalar_draw(Plot *stage)
+void draw_scalar_picture(Plot *stage)
 {
     const Simulation *simulation = stage->simulation;
     bool whole = simulation->options.line_search == LINE_SEARCH_NONE;
     const Colour pale = (COLOUR_P & 0xffffff) | 0x70000000u;
     ScalarUpdate update =
-        find_update(simulation, simulation->descent.count - 1);
+        find_scalar_update(simulation, simulation->descent.count - 1);
     Plot plot = plot_create_on_stage(stage, (Axis){.label = "x"}, (Axis){0});
     for (int i = 0; whole && i + 1 < simulation->descent.count; i++) {
-        ScalarUpdate earlier = find_update(simulation, i);
+        ScalarUpdate earlier = find_scalar_update(simulation, i);
         draw_scalar_model(&plot, &earlier, 1.4, 4, pale);
     }
     draw_iteration(&plot, &update, !stage->content->lecture.hides_answer);
@@ -146,7 +146,7 @@ void scalar_draw(Plot *stage)
 /* Returns the step length that backtracking finds from the present iterate. */
 static double find_first_alpha(const Simulation *simulation)
 {
-    ScalarUpdate from = find_update(simulation, -1);
+    ScalarUpdate from = find_scalar_update(simulation, -1);
     double alpha = 1, p = from.x1 - from.x0;
     while (alpha > DBL_EPSILON &&
            evaluate_scalar_model(simulation, from.x0 + alpha * p).energy >
@@ -155,10 +155,10 @@ static double find_first_alpha(const Simulation *simulation)
     return alpha;
 }
 
-void scalar_add_values(const Simulation *simulation, LiveValues *values)
+void list_scalar_values(const Simulation *simulation, LiveValues *values)
 {
     ScalarUpdate update =
-        find_update(simulation, simulation->descent.count - 1);
+        find_scalar_update(simulation, simulation->descent.count - 1);
     double x = update.x0, p = update.x1 - update.x0;
     double next = x + (update.alpha > 0 ? update.alpha : 1) * p;
     bool tangent = simulation->scene->picture == PICTURE_TANGENT;
@@ -182,7 +182,7 @@ void scalar_add_values(const Simulation *simulation, LiveValues *values)
 
 /* ---- g with tangents, E with parabolas ----------------------------------- */
 
-void tangent_bounds(const Plot *stage, double bounds[4])
+void find_tangent_bounds(const Plot *stage, double bounds[4])
 {
     double x = stage->simulation->descent.iterate[0];
     bounds_make_square(TANGENT_REACH, 1.05 * fabs(x), 2, bounds);
@@ -213,12 +213,12 @@ static Plot create_tangent_plot(const Plot *stage, int half)
     return plot;
 }
 
-void tangent_draw(Plot *stage)
+void draw_tangent_picture(Plot *stage)
 {
     const Simulation *simulation = stage->simulation;
     const double target[2] = {simulation->exhibit.x_tilde[0], 0};
     ScalarUpdate update =
-        find_update(simulation, simulation->descent.count - 1);
+        find_scalar_update(simulation, simulation->descent.count - 1);
     const Plot plot[2] = {create_tangent_plot(stage, 0),
                           create_tangent_plot(stage, 1)};
     bool asked = stage->content->lecture.hides_answer;
@@ -241,7 +241,7 @@ void tangent_draw(Plot *stage)
 }
 
 /* Returns the zero of g that full updates find; NaN: no convergence. */
-static double find_root(const Simulation *simulation)
+static double find_scalar_root(const Simulation *simulation)
 {
     double x = simulation->descent.iterate[0], p = INFINITY;
     for (int i = 0; i < ROOT_UPDATES && fabs(p) > 1e-14 * fmax(1, fabs(x));
@@ -270,7 +270,7 @@ bool iterates_make_row(const FrameContent *content, int row,
     int right = 0;
     if (row == 0 || row > simulation->descent.count + 1)
         return row == 0;
-    write_digits(find_root(simulation), root);
+    write_digits(find_scalar_root(simulation), root);
     write_digits(get_iterate(&simulation->descent, row - 1), x);
     while (x[right] && x[right] == root[right])
         right++;
@@ -295,10 +295,10 @@ static void draw_iterates(const Plot *card)
         int right = (int)strcspn(cells.cell[1], "#");
         char words[2 * CARD_CELL];
         snprintf(words, sizeof words, "%s  ", cells.cell[0]);
-        int left = paper_width(paper, FACE_REGULAR, size, words);
+        int left = paper_measure(paper, FACE_REGULAR, size, words);
         snprintf(words, sizeof words, "%s  %.*s", cells.cell[0], right,
                  cells.cell[1]);
-        int end = paper_width(paper, FACE_REGULAR, size, words);
+        int end = paper_measure(paper, FACE_REGULAR, size, words);
         canvas_fill(&paper->canvas,
                     (Box){card->box.x + left, y + paper_pixels(paper, 0.28),
                           end - left, paper_pixels(paper, 1.2)},
@@ -309,7 +309,7 @@ static void draw_iterates(const Plot *card)
 }
 
 /* Writes the numbers of the shown update, and all iterates at the right. */
-void tangent_numbers_draw(const Plot *card)
+void draw_tangent_numbers_card(const Plot *card)
 {
     Plot left = *card, right = *card;
     right.box = box_cut_off(&left.box, EDGE_RIGHT,

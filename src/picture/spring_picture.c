@@ -11,7 +11,7 @@ static const double SPRING_ARROW = 0.005; /* m/N, scale of the force's arrow */
 static const double SPRING_GAP = 0.13;    /* m, gap from spring to arrow */
 static const double origin[2] = {0, 0};
 
-void spring_bounds(const Plot *stage, double bounds[4])
+void find_spring_bounds(const Plot *stage, double bounds[4])
 {
     const double *x = stage->simulation->run[0].x;
     bounds_make_square(SPRING_REACH, 1.1 * vector_length(x), sqrt(2), bounds);
@@ -76,7 +76,7 @@ static void draw_coil(Plot *stage, const double *x, Colour colour)
 /* Draws the spring and its force.  The spring has another colour if projection
  * changes its block.  On a page about modes the eigenvectors (q, -q) of the
  * block replace the force: longer for larger eigenvalues, red for negative. */
-void spring_draw(Plot *stage)
+void draw_spring_picture(Plot *stage)
 {
     const Simulation *simulation = stage->simulation;
     const FrameContent *content = stage->content;
@@ -135,7 +135,7 @@ static void add_central_differences(const Simulation *simulation,
     values_add_point(values, "force too", force);
 }
 
-void spring_add_values(const Simulation *simulation, LiveValues *values)
+void list_spring_values(const Simulation *simulation, LiveValues *values)
 {
     static const char *const names[2][3] = {{"Hxx", "Hxy", "Hyy"},
                                             {"Pxx", "Pxy", "Pyy"}};
@@ -184,7 +184,7 @@ void spring_add_values(const Simulation *simulation, LiveValues *values)
 typedef double SpringFunction(const void *system, double d);
 
 /* Draws a function of P and one of P_root, with dots at length d. */
-static Plot draw_profile(const Plot *card, double d, Axis y,
+static Plot plot_profile(const Plot *card, double d, Axis y,
                          SpringFunction *of_p, SpringFunction *of_root)
 {
     const System *system = &card->simulation->system;
@@ -201,7 +201,7 @@ static Plot draw_profile(const Plot *card, double d, Axis y,
 
 /* Draws the energies, and below them the forces; in a low card the energies
  * alone, on a page the forces alone, for which the page asks. */
-void spring_profile_draw(const Plot *card)
+void draw_spring_profile_card(const Plot *card)
 {
     const System *system = &card->simulation->system;
     const double *x = card->simulation->run[0].x;
@@ -216,14 +216,14 @@ void spring_profile_draw(const Plot *card)
         upper.box =
             box_cut_off(&lower.box, EDGE_TOP, (int)(0.55 * card->box.height));
     if (!low || page)
-        draw_profile(&lower, d, (Axis){-most, most, .label = "force in N"},
+        plot_profile(&lower, d, (Axis){-most, most, .label = "force in N"},
                      force_at_length, root_force_at_length);
     if (low && page)
         return;
     const Axis y = {0, 1.12 * fmax(tip, energy_at_length(system, d)),
                     .label = NULL};
     Plot plot =
-        draw_profile(&upper, d, y, energy_at_length, root_energy_at_length);
+        plot_profile(&upper, d, y, energy_at_length, root_energy_at_length);
     if (both) {
         plot_label(&plot, 1, (double[2]){0, root_energy_at_length(system, 0)},
                    COLOUR_GHOST, "P_{r} = 2k (|d| \u2212 l)\u00b2");

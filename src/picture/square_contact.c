@@ -42,8 +42,8 @@ static double compute_contact_force(const SquarePen *pen, const EvalPoint *at,
 /* Draws the contact forces of one kind on the nodes of a run.
  *   factor  m/N, length of an arrow over its force; 0: draws nothing
  *   most    N, in and out, the largest force so far */
-static void draw_contact_term(const SquarePen *pen, bool between_bodies,
-                              double factor, double *most)
+static void draw_term_forces(const SquarePen *pen, bool between_bodies,
+                             double factor, double *most)
 {
     const System *system = pen->system;
     EvalPoint at = make_eval_point(system, NULL, NULL, pen->x);
@@ -78,13 +78,13 @@ void square_draw_forces(const SquarePen *pen, int runs)
     Plot *stage = pen->stage;
     double most = 0; /* N, the largest force */
     for (int i = 0; i < 2 * runs; i++)
-        draw_contact_term(&pen[i / 2], i % 2, 0, &most);
+        draw_term_forces(&pen[i / 2], i % 2, 0, &most);
     if (most == 0 || !isfinite(most))
         return;
     double round = plot_round_up(most);
     double factor = FORCE_ARROW * stage->em / stage->camera.scale[0] / round;
     for (int i = 2 * runs - 1; i >= 0; i--)
-        draw_contact_term(&pen[i / 2], i % 2, factor, &most);
+        draw_term_forces(&pen[i / 2], i % 2, factor, &most);
     plot_legend(stage, COLOUR_FORCE, "contact force \u2264 %s N",
                 format_number(round).text);
     if (system_find_term(pen->system, &friction_energy) ||

@@ -81,7 +81,7 @@ static void draw_mouse_note(const Plot *stage, const LiveValues *values,
     double wide = NOTE_WIDTH * paper->em;
     int margin = paper_pixels(paper, 0.7), high = 2 * margin;
     for (TextLine line = text_begin(values, text); text_next_line(&line);) {
-        wide = fmax(wide, paper_width(paper, line.face, size, line.text));
+        wide = fmax(wide, paper_measure(paper, line.face, size, line.text));
         high += paper_write_paragraph(paper, line.face, size, line.colour, *box,
                                       0, line.text);
         high += paper_pixels(paper, 0.2 * size);
@@ -164,7 +164,7 @@ static void describe_spring(Plot *stage, const Pane *pane, int s)
     draw_mouse_note(stage, &values, text_spring);
 }
 
-void square_hover(Plot *stage)
+void draw_square_hover(Plot *stage)
 {
     const Pane *pane = stage->pane;
     const Pick *hover = &stage->content->view->hovered;

@@ -42,7 +42,7 @@ SquarePen square_pen_create(Plot *stage, int run)
 {
     const FrameContent *content = stage->content;
     const Simulation *simulation = stage->simulation;
-    const Trace *trace = stage->pane->trace;
+    const NewtonTrace *trace = stage->pane->trace;
     const System *system = simulation->run[run].system;
     const Plasticity *plasticity = system_term_data(system, &plastic_energy);
     const SquareMesh *mesh = &simulation->mesh;
@@ -89,8 +89,8 @@ SquarePen square_pen_create(Plot *stage, int run)
 
 /* Returns the colour of a spring or face by plastic strain or by strain; 0: no
  * colour.  While projection is shown, short springs have COLOUR_PROJECT. */
-static Colour colour_of_state(const SquarePen *pen, double plastic,
-                              double strain, bool shorter)
+static Colour choose_spring_colour(const SquarePen *pen, double plastic,
+                                   double strain, bool shorter)
 {
     double value = pen->shows_plastic ? plastic : strain;
     double part = fmin(fabs(value) / pen->colour_range, 1);
@@ -102,7 +102,7 @@ static Colour colour_of_state(const SquarePen *pen, double plastic,
     return pen->shows_projected && shorter ? COLOUR_PROJECT : 0;
 }
 
-static const double *node_position(const SquarePen *pen, int node)
+static const double *get_node_position(const SquarePen *pen, int node)
 {
     return pen->x + 2 * (size_t)node;
 }
@@ -115,8 +115,8 @@ void square_draw_spring(const SquarePen *pen, int s, double width,
     bool fixed = node_is_fixed(pen, e[0]);
     if (spring_is_broken(pen->system, s))
         return;
-    camera_to_pixel(&pen->stage->camera, node_position(pen, e[0]), p);
-    camera_to_pixel(&pen->stage->camera, node_position(pen, e[1]), q);
+    camera_to_pixel(&pen->stage->camera, get_node_position(pen, e[0]), p);
+    camera_to_pixel(&pen->stage->camera, get_node_position(pen, e[1]), q);
     canvas_line(&pen->stage->paper->canvas, p[0], p[1], q[0], q[1],
                 (fixed ? 0.7 : 1) * width * unit, fixed ? COLOUR_EDGE : colour);
 }
@@ -128,8 +128,8 @@ void square_draw_springs(const SquarePen *pen)
         const int *e = system->e + 2 * (size_t)s;
         double l2 = system->l2[s], d[2], d2 = spring_vector(e, pen->x, d);
         double strain = pen->colour_range > 0 ? sqrt(d2 / l2) - 1 : 0;
-        Colour colour =
-            colour_of_state(pen, pen->ep ? pen->ep[s] : 0, strain, d2 < l2);
+        Colour colour = choose_spring_colour(pen, pen->ep ? pen->ep[s] : 0,
+                                             strain, d2 < l2);
         square_draw_spring(pen, s,
                            (colour == COLOUR_PROJECT ? 1.15 : 1) * pen->width,
                            colour ? colour : COLOUR_X);
@@ -171,7 +171,7 @@ static void fill_face(const SquarePen *pen, const int node[4], Colour colour)
 {
     const double *corner[4];
     for (int k = 0; k < 4; k++)
-        corner[k] = node_position(pen, node[k]);
+        corner[k] = get_node_position(pen, node[k]);
     plot_quad(pen->stage, corner, colour);
 }
 
@@ -227,7 +227,7 @@ static Colour choose_face_colour(const SquarePen *pen, const int node[4],
         if (fabs(pen->ep[spring[k]]) > fabs(plastic))
             plastic = pen->ep[spring[k]];
     Colour colour =
-        colour_of_state(pen, plastic, strain, d2 < l2 || other2 < l2);
+        choose_spring_colour(pen, plastic, strain, d2 < l2 || other2 < l2);
     double seen = copysign(sqrt(fabs(strain) / pen->shade_strain), strain);
     double turned = (d[1] - d[0]) / sqrt(d2); /* 0 in a face that is upright */
     return colour ? colour : shade_of_blue(0.55 + 0.9 * seen + 0.3 * turned);
@@ -260,17 +260,17 @@ void square_draw_nodes(const SquarePen *pen)
         radius *= 0.75;
     for (int i = 0; i < system->nodes; i++) {
         if (radius >= 0.5 * pen->width && !node_is_fixed(pen, i))
-            plot_disc(pen->stage, node_position(pen, i), radius, colour);
+            plot_disc(pen->stage, get_node_position(pen, i), radius, colour);
         if (system->pinned[i] && !node_is_fixed(pen, i))
-            plot_draw_pin(pen->stage, node_position(pen, i), radius);
+            plot_draw_pin(pen->stage, get_node_position(pen, i), radius);
     }
     for (int k = 0;
          pen->fixed_bodies && k < pen->simulation->mesh.outline_edges; k++) {
         int node[2];
         square_mesh_get_outline_edge(&pen->simulation->mesh, k, node);
         if (node_is_fixed(pen, node[0]))
-            plot_line(pen->stage, node_position(pen, node[0]),
-                      node_position(pen, node[1]), 1.5, COLOUR_EDGE);
+            plot_line(pen->stage, get_node_position(pen, node[0]),
+                      get_node_position(pen, node[1]), 1.5, COLOUR_EDGE);
     }
 }
 

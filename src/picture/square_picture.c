@@ -37,8 +37,8 @@ typedef struct Extent {
 
 /* Returns the view that the scene sets, else the square at the start, at most
  * twice as wide as at rest; a compressed square has room to bulge. */
-static Extent find_first_view(const FrameContent *content,
-                              const Simulation *simulation)
+static Extent find_default_view(const FrameContent *content,
+                                const Simulation *simulation)
 {
     const Options *options = &simulation->options;
     const double *view = simulation->scene->view;
@@ -128,7 +128,7 @@ static void widen_to_obstacles(const Plot *stage, Extent *view)
     }
 }
 
-void pane_node_bounds(const Pane *pane, int runs, double bounds[4])
+void find_node_bounds(const Pane *pane, int runs, double bounds[4])
 {
     const Simulation *simulation = pane->simulation;
     bounds[0] = bounds[1] = INFINITY;
@@ -186,7 +186,7 @@ static double find_view_growth(const double box[4], const Extent *view,
 /* Starts from the first view, which follows a free body.  While nodes are
  * outside, the view grows by factors of 1.5 and moves with the nodes.  At last
  * the view widens to show obstacles in reach, and the target of the hand. */
-void square_bounds(const Plot *stage, double bounds[4])
+void find_square_bounds(const Plot *stage, double bounds[4])
 {
     static const double GROWTH = 1.5;
     const Simulation *simulation = stage->simulation;
@@ -195,9 +195,9 @@ void square_bounds(const Plot *stage, double bounds[4])
     bool is_free = options->grounds + options->balls == 0 &&
                    !simulation->scene->body.obstacle &&
                    options->ceiling[1] == 0 && simulation->runs == 1;
-    Extent view = find_first_view(stage->content, simulation);
+    Extent view = find_default_view(stage->content, simulation);
     double box[4], tall, grown = 1;
-    pane_node_bounds(stage->pane, simulation->runs, box);
+    find_node_bounds(stage->pane, simulation->runs, box);
     if (is_free)
         follow_body(simulation, pane_positions(stage->pane), &view);
     while (grown < find_view_growth(box, &view, &tall) * (1 - 1e-12) &&
@@ -228,10 +228,10 @@ void square_bounds(const Plot *stage, double bounds[4])
 /* Draws p as arrows at all nodes, in a fine mesh at every few nodes.  If the
  * longest arrow is too short or too long, all arrows are scaled by a power of
  * ten, which the legend names. */
-static void draw_direction(const SquarePen *pen)
+static void draw_direction_arrows(const SquarePen *pen)
 {
     Plot *stage = pen->stage;
-    const Trace *trace = pen->stage->pane->trace;
+    const NewtonTrace *trace = pen->stage->pane->trace;
     double scale = stage->camera.scale[0], factor = 1, longest = 0;
     double most = 0.5 * fmin(stage->box.width, stage->box.height);
     double least = fmin(MIN_ARROW * stage->em, 0.1 * most);
@@ -260,7 +260,7 @@ static void draw_direction(const SquarePen *pen)
 
 /* Marks the node or spring under the mouse.  Draws a line to the mouse from the
  * node or ball that the mouse drags. */
-static void mark_under_mouse(const SquarePen *pen)
+static void mark_part_under_mouse(const SquarePen *pen)
 {
     const Plot *stage = pen->stage;
     const FrameContent *content = stage->content;
@@ -305,7 +305,7 @@ static void mark_under_mouse(const SquarePen *pen)
 static int draw_below_springs(const SquarePen *pen)
 {
     const Pane *pane = pen->stage->pane;
-    const Trace *trace = pane->trace;
+    const NewtonTrace *trace = pane->trace;
     if (!scene_sets_view(pen->simulation) && !pen->contact &&
         pen->simulation->options.bodies == 0) {
         square_draw_outline(pen, NULL, false, COLOUR_RULE);
@@ -329,7 +329,7 @@ static int draw_below_springs(const SquarePen *pen)
 }
 
 /* Adds warnings to the legend: nodes that cannot be drawn, folded cells. */
-static void add_warnings(const SquarePen *pen, int folded)
+static void add_legend_warnings(const SquarePen *pen, int folded)
 {
     Plot *stage = pen->stage;
     int nodes = pen->system->nodes, lost = 0;
@@ -473,7 +473,7 @@ static void draw_magnifier(const SquarePen *pen)
     const Box stage = lens.box;
     int air = (int)lens.em, side = (int)(MAGNIFIER_SIDE * lens.em);
     if (!lens.revealed || lens.box.width < 2 * side ||
-        !law_find_gap(pen->simulation, &gap))
+        !law_find_contact(pen->simulation, &gap))
         return;
     for (int i = 0; i < 4; i++) {
         int left = i & 2 ? air : stage.width - side - air;
@@ -532,7 +532,7 @@ static void draw_slid_distance(const Plot *stage, int body)
 
 /* Draws the obstacles, then the bodies of all runs, the first run last, and
  * then the marks and arrows of the first run. */
-void square_draw(Plot *stage)
+void draw_square_picture(Plot *stage)
 {
     SquarePen pen[SIMULATION_MAX_RUNS];
     const FrameContent *content = stage->content;
@@ -579,9 +579,9 @@ void square_draw(Plot *stage)
         mark_tiny_square(stage);
     if (pen->shows_projected)
         plot_legend(stage, COLOUR_PROJECT, "projected spring");
-    draw_direction(pen);
-    mark_under_mouse(pen);
-    add_warnings(pen, folded);
+    draw_direction_arrows(pen);
+    mark_part_under_mouse(pen);
+    add_legend_warnings(pen, folded);
     if (stage->revealed && layers & LAYER_NUMBERS &&
         (simulation->steps == 0 ||
          simulation->options.next_action == NEXT_ADDS_SPRING) &&
@@ -641,7 +641,7 @@ static void add_force_values(const Simulation *simulation, const double *x,
 }
 
 /* Adds the values of mesh, law, fastest mode and forces, which pages use. */
-void square_add_values(const Simulation *simulation, LiveValues *values)
+void list_square_values(const Simulation *simulation, LiveValues *values)
 {
     const System *system = &simulation->system;
     const Options *options = &simulation->options;
@@ -665,7 +665,7 @@ void square_add_values(const Simulation *simulation, LiveValues *values)
     values_add(values, "h", options->timestep);
     if (options->next_action == NEXT_ADDS_SPRING)
         add_block_values(simulation, values);
-    law_add_values(simulation, values);
+    list_law_values(simulation, values);
     if (options->layers & LAYER_MODES && nodes <= SIMULATION_MODE_NODES) {
         compute_rest_positions(simulation, start);
         double omega = simulation_find_fastest_mode(simulation, start, mode);

@@ -9,7 +9,7 @@
 #include "picture/text.h"
 
 enum {
-    TEXT_GLYPHS = 2048, /* letters in the cache, a power of two */
+    TEXT_MAX_GLYPHS = 2048, /* letters in the cache, a power of two */
     FONT_PATH_SIZE = 512
 };
 
@@ -17,7 +17,7 @@ struct Text {
     FT_Library library;
     FT_Face font[FACE_COUNT];
     int glyph_count;
-    Glyph glyph[TEXT_GLYPHS]; /* hash table of the letters in the cache */
+    Glyph glyph[TEXT_MAX_GLYPHS]; /* hash table of the letters in the cache */
 };
 
 /* ---- fonts -------------------------------------------------------------- */
@@ -93,7 +93,7 @@ Status text_create(Text **text)
 
 static void forget_glyphs(Text *text)
 {
-    for (int i = 0; i < TEXT_GLYPHS; i++)
+    for (int i = 0; i < TEXT_MAX_GLYPHS; i++)
         free(text->glyph[i].mask);
     memset(text->glyph, 0, sizeof text->glyph);
     text->glyph_count = 0;
@@ -141,11 +141,11 @@ const Glyph *font_get_glyph(Text *text, Face face, int size, uint32_t letter)
 {
     uint64_t key =
         (uint64_t)letter << 16 | (uint64_t)size << 4 | ((uint64_t)face + 1);
-    if (text->glyph_count > TEXT_GLYPHS / 2)
+    if (text->glyph_count > TEXT_MAX_GLYPHS / 2)
         forget_glyphs(text);
-    size_t place = (size_t)(key * 0x9e3779b97f4a7c15u >> 40) % TEXT_GLYPHS;
+    size_t place = (size_t)(key * 0x9e3779b97f4a7c15u >> 40) % TEXT_MAX_GLYPHS;
     while (text->glyph[place].key && text->glyph[place].key != key)
-        place = (place + 1) % TEXT_GLYPHS;
+        place = (place + 1) % TEXT_MAX_GLYPHS;
     Glyph *glyph = &text->glyph[place];
     if (!glyph->key) {
         *glyph = render_glyph(text, face, size, letter);

@@ -9,11 +9,11 @@
 #include "picture/colour_map.h"
 
 enum {
-    MAX_DEPTH = 6, /* most formulas inside each other */
-    MAX_ROWS = 8,  /* the most rows of a matrix */
-    MAX_COLUMNS = 8,
-    MIN_SIZE = 5,
-    MAX_SIZE = 400
+    MAX_FORMULA_DEPTH = 6, /* most formulas inside each other */
+    MAX_MATRIX_ROWS = 8,   /* the most rows of a matrix */
+    MAX_MATRIX_COLUMNS = 8,
+    MIN_TEXT_SIZE = 5,
+    MAX_TEXT_SIZE = 400
 };
 
 /* Lengths in ems of the letters. */
@@ -55,7 +55,7 @@ static void typeset_markup(Pen *pen, MarkupPart part, int depth);
 /* ---- letters ------------------------------------------------------------ */
 
 /* Reads the next character of UTF-8; an invalid byte gives U+FFFD. */
-static uint32_t read_letter(const char **string)
+static uint32_t read_utf8_letter(const char **string)
 {
     const unsigned char *s = (const unsigned char *)*string;
     int more = s[0] < 0x80 ? 0 : s[0] < 0xe0 ? 1 : s[0] < 0xf0 ? 2 : 3;
@@ -208,18 +208,18 @@ static bool read_matrix_cell(const char **at, const char *end, MarkupPart *cell)
 /* Sets matrix{a & b; c & d}; columns are aligned at their right edge. */
 static void typeset_matrix(Pen *pen, MarkupPart part, int depth)
 {
-    MarkupPart cell[MAX_ROWS][MAX_COLUMNS] = {{{0}}};
-    double em = pen->style.size, above[MAX_ROWS], below[MAX_ROWS],
-           wide[MAX_COLUMNS] = {0};
+    MarkupPart cell[MAX_MATRIX_ROWS][MAX_MATRIX_COLUMNS] = {{{0}}};
+    double em = pen->style.size, above[MAX_MATRIX_ROWS], below[MAX_MATRIX_ROWS],
+           wide[MAX_MATRIX_COLUMNS] = {0};
     double high = -ROW_GAP * em,
            right = pen->x + (3.5 * SPACE - COLUMN_GAP) * em;
     const char *at = part.start;
     int rows = 0;
-    for (; at < part.end && rows < MAX_ROWS; rows++) {
+    for (; at < part.end && rows < MAX_MATRIX_ROWS; rows++) {
         bool last = false;
         above[rows] = LETTER_ASCENT * em;
         below[rows] = LETTER_DESCENT * em;
-        for (int c = 0; c < MAX_COLUMNS && at < part.end && !last; c++) {
+        for (int c = 0; c < MAX_MATRIX_COLUMNS && at < part.end && !last; c++) {
             last = read_matrix_cell(&at, part.end, &cell[rows][c]);
             TextExtent in = measure_markup(pen, cell[rows][c], depth);
             above[rows] = fmax(above[rows], in.ascent);
@@ -230,7 +230,7 @@ static void typeset_matrix(Pen *pen, MarkupPart part, int depth)
     }
     double top = floor(pen->y - AXIS_HEIGHT * em - 0.5 * high) + 0.5;
     double bottom = top + high;
-    for (int c = 0; c < MAX_COLUMNS && wide[c] > 0; c++) {
+    for (int c = 0; c < MAX_MATRIX_COLUMNS && wide[c] > 0; c++) {
         double y = top;
         right += wide[c] + COLUMN_GAP * em;
         for (int r = 0; r < rows; r++) {
@@ -279,13 +279,13 @@ static const struct {
     {"#", typeset_coloured, NULL},      {"{x}", NULL, "#x{x}"},
     {"{xt}", NULL, "#xt{x\u0303}"},     {"{p}", NULL, "#p{p}"},
     {"{alpha}", NULL, "#alpha{\u03b1}"}};
-enum { COMMANDS = sizeof commands / sizeof *commands };
+enum { MARKUP_COMMANDS = sizeof commands / sizeof *commands };
 
-/* Finds the command that begins at `string`, and its brace.  Returns COMMANDS
- * if no command begins there. */
+/* Finds the command that begins at `string`, and its brace.  Returns
+ * MARKUP_COMMANDS if no command begins there. */
 static int find_command(const char *string, const char **brace)
 {
-    for (int i = 0; i < COMMANDS; i++) {
+    for (int i = 0; i < MARKUP_COMMANDS; i++) {
         const char *name = commands[i].name;
         if (*string != *name || strncmp(string, name, strlen(name)) != 0)
             continue;
@@ -295,42 +295,42 @@ static int find_command(const char *string, const char **brace)
         if (**brace == '{')
             return i;
     }
-    return COMMANDS;
+    return MARKUP_COMMANDS;
 }
 
 bool text_is_markup_brace(const char *text, const char *brace)
 {
     const char *found = NULL;
     for (const char *at = brace + 1; at > text && brace - at < 16; at--)
-        if (find_command(at - 1, &found) < COMMANDS && found == brace)
+        if (find_command(at - 1, &found) < MARKUP_COMMANDS && found == brace)
             return true;
     return false;
 }
 
 /* Sets the letter or command at the start of a part.  Returns its end. */
-static const char *typeset_first(Pen *pen, MarkupPart part, int depth)
+static const char *typeset_first_part(Pen *pen, MarkupPart part, int depth)
 {
     const char *at = part.start, *brace = at;
-    bool plain = pen->style.is_plain || depth >= MAX_DEPTH;
-    int command = plain ? COMMANDS : find_command(at, &brace);
-    if (command < COMMANDS && commands[command].expansion) {
+    bool plain = pen->style.is_plain || depth >= MAX_FORMULA_DEPTH;
+    int command = plain ? MARKUP_COMMANDS : find_command(at, &brace);
+    if (command < MARKUP_COMMANDS && commands[command].expansion) {
         typeset_markup(pen, whole_markup(commands[command].expansion), depth);
         return at + strlen(commands[command].name);
     }
-    if (command < COMMANDS && brace < part.end) {
+    if (command < MARKUP_COMMANDS && brace < part.end) {
         MarkupPart inside = {brace + 1, part.end};
         inside.end = find_outside_braces(inside, NULL);
         commands[command].set_in_braces(pen, inside, depth + 1);
         return inside.end + (inside.end < part.end);
     }
-    typeset_letter(pen, read_letter(&at));
+    typeset_letter(pen, read_utf8_letter(&at));
     return at;
 }
 
 static void typeset_markup(Pen *pen, MarkupPart part, int depth)
 {
     while (part.start < part.end)
-        part.start = typeset_first(pen, part, depth);
+        part.start = typeset_first_part(pen, part, depth);
 }
 
 /* ---- lines -------------------------------------------------------------- */
@@ -341,7 +341,7 @@ double text_line_height(double size)
 }
 
 /* Returns the extent of a pen's letters, at least that of a line of words. */
-static TextExtent extent_of_line(const Pen *pen)
+static TextExtent find_line_extent(const Pen *pen)
 {
     const TextStyle *style = &pen->style;
     double above = LINE_ASCENT * style->size,
@@ -352,12 +352,12 @@ static TextExtent extent_of_line(const Pen *pen)
                         pen->bottom > below ? pen->bottom + air : below};
 }
 
-TextExtent text_extent(Text *text, const TextStyle *style, const char *markup)
+TextExtent text_measure(Text *text, const TextStyle *style, const char *markup)
 {
     Pen pen = {.text = text, .style = *style};
-    if (style->size >= MIN_SIZE && style->size <= MAX_SIZE)
+    if (style->size >= MIN_TEXT_SIZE && style->size <= MAX_TEXT_SIZE)
         typeset_markup(&pen, whole_markup(markup), 0);
-    return extent_of_line(&pen);
+    return find_line_extent(&pen);
 }
 
 size_t text_break_line(Text *text, const TextStyle *style, int width,
@@ -375,11 +375,11 @@ size_t text_break_line(Text *text, const TextStyle *style, int width,
             if (fits > 0 && ceil(pen.x) > width)
                 return fits;
             fits = count;
-            *extent = extent_of_line(&pen);
+            *extent = find_line_extent(&pen);
         }
         if (ends)
             return fits;
-        const char *next = typeset_first(&pen, rest, 0);
+        const char *next = typeset_first_part(&pen, rest, 0);
         for (; rest.start < next; rest.start++)
             depth += (*rest.start == '{') - (*rest.start == '}');
     }
@@ -389,7 +389,7 @@ size_t text_break_line(Text *text, const TextStyle *style, int width,
 int text_draw(Text *text, Canvas *canvas, const TextStyle *style, double x,
               double y, Align align, const char *markup)
 {
-    int width = (int)text_extent(text, style, markup).width;
+    int width = (int)text_measure(text, style, markup).width;
     double start = x - 0.5 * (int)align * width;
     if (!text || width == 0 || !(fabs(x) < 1e6) || !(fabs(y) < 1e6))
         return width;

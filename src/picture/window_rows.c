@@ -41,13 +41,13 @@ static void draw_title_bar(Paper *paper, Box room, const TitleBar *bar)
     snprintf(words, sizeof words, "%s%s%s", bar->method,
              bar->method[0] && bar->state[0] ? " \u00b7 " : "", bar->state);
     if ((low && message) ||
-        paper_width(paper, FACE_REGULAR, 1, words) > 0.45 * room.width)
+        paper_measure(paper, FACE_REGULAR, 1, words) > 0.45 * room.width)
         snprintf(words, sizeof words, "%s", bar->state);
     room.width -= paper_write_in_box(paper, FACE_REGULAR, 1, COLOUR_FAINT, room,
                                      ALIGN_RIGHT, words);
     room.width -= (int)(1.4 * em);
-    int wide = paper_width(paper, FACE_REGULAR, 1, said);
-    int topic = paper_width(paper, FACE_BOLD, TOPIC_SIZE, title);
+    int wide = paper_measure(paper, FACE_REGULAR, 1, said);
+    int topic = paper_measure(paper, FACE_BOLD, TOPIC_SIZE, title);
     if (!low || !message || topic + wide + 1.1 * em < room.width) {
         topic = paper_write_in_box(paper, FACE_BOLD, TOPIC_SIZE, COLOUR_TEXT,
                                    room, ALIGN_LEFT, title);
@@ -143,7 +143,7 @@ static void draw_time_line(Paper *paper, const Layout *layout,
                 2 * paper->unit, COLOUR_TEXT);
     canvas_disc(&paper->canvas, x, top, (words ? 7 : 5) * paper->unit,
                 COLOUR_TEXT);
-    int width = paper_width(paper, FACE_REGULAR, TEXT_SIZE, line->label);
+    int width = paper_measure(paper, FACE_REGULAR, TEXT_SIZE, line->label);
     if (at + width > zone.x + zone.width - 0.9 * em)
         at = fmax(x - 1.1 * em - width, zone.x + 0.4 * em);
     if (words)
@@ -165,8 +165,8 @@ static void draw_chips(Paper *paper, const Layout *layout,
         bool all = layout->chips_left_out > 0 && i == layout->chips - 1;
         bool over = mouse->zone == ZONE_CHIP && mouse->index == i;
         const char *label = all ? "all \u2026" : chip->label;
-        int key = paper_width(paper, FACE_BOLD, size, chip->key);
-        int width = key + paper_width(paper, FACE_REGULAR, size, label);
+        int key = paper_measure(paper, FACE_BOLD, size, chip->key);
+        int width = key + paper_measure(paper, FACE_REGULAR, size, label);
         canvas_framed_box(&paper->canvas, box,
                           chip->is_highlighted ? COLOUR_LIT
                           : over               ? COLOUR_WHITE

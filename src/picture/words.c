@@ -100,7 +100,7 @@ void plot_legend(Plot *plot, Colour colour, const char *format, ...)
     room.box.x += (int)(0.9 * em);
     room.box.y += (int)(0.6 * em);
     room.box.width -= (int)(1.8 * em);
-    card_write_flow(&room, plot->legend_pixel, LEGEND_SIZE, 1.6, &line, true);
+    card_write_lines(&room, plot->legend_pixel, LEGEND_SIZE, 1.6, &line, true);
 }
 
 /* ---- labels -------------------------------------------------------------- */
@@ -108,8 +108,7 @@ void plot_legend(Plot *plot, Colour colour, const char *format, ...)
 double plot_label_cost(const Plot *plot, Box place)
 {
     const Canvas *canvas = &plot->paper->canvas;
-    Box seen =
-        box_intersection(place, box_intersection(plot->box, canvas->clip));
+    Box seen = box_intersect(place, box_intersect(plot->box, canvas->clip));
     double area = (double)place.width * place.height, ink = 0;
     for (int y = seen.y; y < seen.y + seen.height; y++)
         for (int x = seen.x; x < seen.x + seen.width; x++) {
@@ -118,7 +117,7 @@ double plot_label_cost(const Plot *plot, Box place)
                    (pixel >> 16 & 255) < INK;
         }
     for (int i = 0; i < plot->paper->word_count && i < MAX_WORD_BOXES; i++) {
-        Box both = box_intersection(seen, plot->paper->word_boxes[i]);
+        Box both = box_intersect(seen, plot->paper->word_boxes[i]);
         ink += both.width > 0 ? (double)both.width * both.height : 0;
     }
     return (COST_INK * ink - COST_OUTSIDE * seen.width * seen.height) / area +
@@ -136,7 +135,7 @@ void plot_label(const Plot *plot, int points, const double *at, Colour colour,
     /* directions: right, left, below, above, then the corners */
     static const int side[8][2] = {{1, 0}, {-1, 0}, {0, 1},  {0, -1},
                                    {1, 1}, {1, -1}, {-1, 1}, {-1, -1}};
-    int wide = paper_width(paper, FACE_BOLD, 1, words);
+    int wide = paper_measure(paper, FACE_BOLD, 1, words);
     int high = (int)ceil(LINE_HEIGHT * paper->em);
     Box best = {0, 0, wide, high};
     double least = INFINITY;
@@ -163,7 +162,7 @@ void plot_label(const Plot *plot, int points, const double *at, Colour colour,
         return;
     Box panel = {best.x - 1, best.y + high / 8, wide + 2, high - high / 4};
     canvas_fill(&paper->canvas, panel, COLOUR_PANEL);
-    paper_keep_words(paper, panel);
+    paper_keep_word_box(paper, panel);
     paper_write(paper, FACE_BOLD, 1, colour, best.x, best.y, ALIGN_LEFT, "%s",
                 words);
 }

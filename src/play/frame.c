@@ -416,7 +416,7 @@ static void update_hover(Player *player)
     const FrameContent *content = &player->screen.frame.content;
     const Mouse *mouse = &player->hands.mouse;
     const Canvas *canvas = &player->screen.paper.canvas;
-    View *view = &player->screen.view;
+    FrameView *view = &player->screen.view;
     PickKind kind = view->hovered.kind;
     bool body = kind == PICK_NODE || kind == PICK_SPRING ||
                 kind == PICK_OBSTACLE || kind == PICK_EDGE;
@@ -424,7 +424,7 @@ static void update_hover(Player *player)
         mouse->drag_command || view->mouse_hit.zone != ZONE_STAGE)
         return;
     Layout layout = layout_create(content, canvas->width, canvas->height);
-    view->hovered = frame_pick(content, &layout, mouse->x, mouse->y);
+    view->hovered = frame_find_pick(content, &layout, mouse->x, mouse->y);
 }
 
 void player_build_frame(Player *player)

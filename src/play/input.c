@@ -35,16 +35,16 @@ static MouseTarget find_mouse_target(Player *player)
         .layout = layout_create(content, paper ? paper->canvas.width : 1,
                                 paper ? paper->canvas.height : 1),
         .pane = player->active};
-    target.hit = layout_hit(&target.layout, mouse->x, mouse->y);
+    target.hit = layout_find_hit(&target.layout, mouse->x, mouse->y);
     int pane = held->is_dragging               ? held->pane
                : target.hit.zone == ZONE_STAGE ? target.hit.index
                                                : target.pane;
     if (pane < past_panes(&player->past)) /* the pane of a drag may be closed */
         target.pane = pane;
     held->has_left = false;
-    Camera camera = camera_of_pane(content, &target.layout, target.pane);
+    Camera camera = make_pane_camera(content, &target.layout, target.pane);
     camera_to_world(&camera, mouse->x, mouse->y, target.point);
-    target.pick = frame_pick(content, &target.layout, mouse->x, mouse->y);
+    target.pick = frame_find_pick(content, &target.layout, mouse->x, mouse->y);
     held->has_left = target.hit.zone != ZONE_STAGE;
     return target;
 }
@@ -187,7 +187,7 @@ static Status begin_press(Player *player, const MouseTarget *target)
     const LecturePage *page = player_active_options(player)->page;
     double point[2];
     mouse->dragged_id = target->pick.index;
-    player->screen.view.drag_bounds = frame_view_bounds(
+    player->screen.view.drag_bounds = frame_find_view_bounds(
         &player->screen.frame.content, &target->layout, target->pane);
     switch (target->pick.kind) {
     case PICK_OBSTACLE:
@@ -307,8 +307,8 @@ static Status continue_drag(Player *player)
         return drag_number(player, &target);
     case COMMAND_GOTO:
         return obey(player, COMMAND_GOTO,
-                    frame_find_step(&player->screen.frame.content,
-                                    &target.layout, mouse->x));
+                    frame_find_bar_step(&player->screen.frame.content,
+                                        &target.layout, mouse->x));
     case COMMAND_PAN:
         lens_pan(&player->screen.view.lens, target.layout.pane[target.pane], dx,
                  dy);
@@ -326,7 +326,7 @@ static Status continue_drag(Player *player)
 /* Stores what is under the mouse; runs a cell of the envelope at once. */
 static Status describe_hovered_object(Player *player)
 {
-    View *view = &player->screen.view;
+    FrameView *view = &player->screen.view;
     MouseTarget target = find_mouse_target(player);
     Pick pick = target.pick;
     const Pick *old = &view->hovered;

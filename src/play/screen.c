@@ -110,7 +110,7 @@ Status obey_camera(Player *player, const Command *command)
     player_build_frame(player);
     Layout layout =
         layout_create(content, paper->canvas.width, paper->canvas.height);
-    Camera camera = camera_of_pane(content, &layout, player->active);
+    Camera camera = make_pane_camera(content, &layout, player->active);
     Box pane = layout.pane[player->active];
     double at[2] = {command->x, command->y}, pixel[2];
     camera_to_pixel(&camera, at, pixel);

@@ -53,9 +53,10 @@ void step_trace_begin(StepTrace *trace, const Simulation *simulation, bool all,
     step_trace_clear(trace);
     trace->samples_each_iterate = all;
     trace->samples_last_iterate = last;
-    trace->start_trace = (Trace){.h = simulation->options.timestep,
-                                 .tolerance = simulation->options.tolerance,
-                                 .projected = -1};
+    trace->start_trace =
+        (NewtonTrace){.h = simulation->options.timestep,
+                      .tolerance = simulation->options.tolerance,
+                      .projected = -1};
     trace->x_length = 2 * simulation->system.nodes;
 }
 
@@ -262,7 +263,7 @@ int step_trace_find_peak(const StepTrace *trace)
 
 /* Fills the values that the lines up to a position have computed at x^i. */
 static void show_iterate_values(const StepTrace *trace, const TracePosition *at,
-                                Trace *shown)
+                                NewtonTrace *shown)
 {
     const TraceIterate *iterate = &trace->iterate[at->iterate];
     const NewtonRecord *record = &trace->records.record[at->iterate];
@@ -286,7 +287,7 @@ static void show_iterate_values(const StepTrace *trace, const TracePosition *at,
 }
 
 const double *step_trace_show(const StepTrace *trace, int position,
-                              Trace *shown)
+                              NewtonTrace *shown)
 {
     int count = trace->records.count;
     const NewtonRecord *row = trace->records.record;

@@ -266,7 +266,7 @@ static void enter_line_walk(Player *player, AfterWork after)
 {
     for (int p = 0; p < past_panes(&player->past); p++) {
         const StepTrace *trace = &player->past.pane[p].trace;
-        Trace shown;
+        NewtonTrace shown;
         double far = 0;
         int place = trace->position_count <= 2  ? -1 /* no update */
                     : after == AFTER_SHOW_FIRST ? 0

@@ -113,7 +113,7 @@ static void write_page_texts(Writer *to, const FrameContent *content)
     write_page_text(to, values, "notes", page->notes);
     for (int i = 0; page->code[i]; i++)
         print(to, "code\t%d\t%s\n",
-              strstr(page->code[i], lecture_find_lit_text(content)) != NULL,
+              strstr(page->code[i], lecture_find_highlight(content)) != NULL,
               page->code[i]);
 }
 
@@ -145,7 +145,7 @@ static void write_energies(Writer *to, const Simulation *simulation)
 /* Writes the values of a graph without legend, of energies or residuals. */
 static void write_live_values(Writer *to, const Pane *pane, const char *name)
 {
-    const Trace *trace = pane->shown_trace;
+    const NewtonTrace *trace = pane->shown_trace;
     if (strcmp(name, "budget") == 0) {
         print(to, ": ");
         write_energies(to, pane->simulation);
@@ -292,7 +292,7 @@ static void describe_shown_body(Writer *to, const Pane *pane)
     double box[4], at[2];
     int nodes = simulation->system.nodes;
     if (nodes > 1) {
-        pane_node_bounds(pane, 1, box);
+        find_node_bounds(pane, 1, box);
         print(to, " Masses: %d, springs: %d, %s m wide and %s m high.", nodes,
               simulation->system.springs, format_number(box[2] - box[0]).text,
               format_number(box[3] - box[1]).text);
@@ -335,7 +335,7 @@ static void write_picture_fields(Writer *to, const Player *player)
 static void describe_last_step(Writer *to, const Player *player)
 {
     const FrameContent *content = &player->screen.frame.content;
-    const Trace *trace = active_pane(content)->shown_trace;
+    const NewtonTrace *trace = active_pane(content)->shown_trace;
     const StepOutcome *outcome = &player_active_pane(player)->outcome;
     const char *turn = player_simulation(player)->scene->step_name;
     print(to, "event\t%s %ld", turn ? turn : "step", content->time_line.step);

@@ -124,10 +124,10 @@ TEST(small_windows_leave_parts_out)
     CHECK(small.stage.width == 400 && small.stage.height > 200);
 }
 
-static bool click_hits_zone(const Layout *layout, double x, double y, Zone zone,
-                            int index)
+static bool click_hits_zone(const Layout *layout, double x, double y,
+                            WindowZone zone, int index)
 {
-    WindowHit hit = layout_hit(layout, x, y);
+    WindowHit hit = layout_find_hit(layout, x, y);
     return hit.zone == zone && hit.index == index;
 }
 
@@ -141,7 +141,7 @@ TEST(a_click_hits_the_part_that_is_drawn_there)
     Layout l = layout_create(&content, 1280, 800);
     const Box *const lists[] = {l.pane, l.card, l.setting, l.chip};
     const int counts[] = {l.panes, l.cards, l.settings, l.chips};
-    const Zone zones[] = {ZONE_STAGE, ZONE_CARD, ZONE_SETTING, ZONE_CHIP};
+    const WindowZone zones[] = {ZONE_STAGE, ZONE_CARD, ZONE_SETTING, ZONE_CHIP};
     for (int k = 0; k < 4; k++)
         for (int i = 0; i < counts[k]; i++) {
             Box box = lists[k][i];
@@ -161,13 +161,13 @@ TEST(a_click_hits_the_part_that_is_drawn_there)
         }
     CHECK(l.card[LISTING_CARD].height < l.card[LINE_CARD].height);
     for (int i = LISTING_CARD; i <= ASSEMBLY_CARD; i++) {
-        Box close = layout_close_box(&l, i);
-        WindowHit hit = layout_hit(&l, close.x + 2, close.y + 2);
+        Box close = layout_cross_box(&l, i);
+        WindowHit hit = layout_find_hit(&l, close.x + 2, close.y + 2);
         CHECK(hit.zone == ZONE_CARD_CLOSE && hit.index == i);
     }
-    CHECK(layout_hit(&l, 640, 5).zone == ZONE_TITLE);
-    CHECK(layout_hit(&l, 640, l.time_line.y + 1).zone == ZONE_TIME);
-    CHECK(layout_hit(&l, -1, -1).zone == ZONE_NONE);
+    CHECK(layout_find_hit(&l, 640, 5).zone == ZONE_TITLE);
+    CHECK(layout_find_hit(&l, 640, l.time_line.y + 1).zone == ZONE_TIME);
+    CHECK(layout_find_hit(&l, -1, -1).zone == ZONE_NONE);
 }
 
 /* Zooming keeps the point under the mouse; panning moves it. */
@@ -245,11 +245,11 @@ TEST(markup_has_its_widths)
         {"x^{", 1, 1, false},          {"{x}", 1, 1, false},
         {"{x}", 2.01, 9, true},
     };
-    double x = text_extent(text, &style, "x").width;
+    double x = text_measure(text, &style, "x").width;
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         TextStyle same = style;
         same.is_plain = rows[i].plain;
-        double width = text_extent(text, &same, rows[i].markup).width;
+        double width = text_measure(text, &same, rows[i].markup).width;
         CHECK(width >= rows[i].least * x && width <= rows[i].most * x);
     }
 }
@@ -273,8 +273,8 @@ TEST(formulas_have_their_sizes)
         {"matrix{frac{_{#p{^{_{", "", 0, 99, 0, 9},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        TextExtent a = text_extent(text, &style, rows[i].markup);
-        TextExtent b = text_extent(text, &style, rows[i].other);
+        TextExtent a = text_measure(text, &style, rows[i].markup);
+        TextExtent b = text_measure(text, &style, rows[i].other);
         double wider = (a.width - b.width) / 20;
         double higher = (a.ascent + a.descent - b.ascent - b.descent) / 20;
         if (!(wider >= rows[i].wider && wider <= rows[i].most_wider &&
@@ -351,7 +351,7 @@ TEST(texts_are_clipped)
                 text_draw(text, &canvas, &bold, x, y, ALIGN_RIGHT, "");
             }
         for (double far = 1e5; far < 1e300; far *= 1e5) {
-            double width = text_extent(text, &bold, "x").width;
+            double width = text_measure(text, &bold, "x").width;
             CHECK(width ==
                   text_draw(text, &canvas, &bold, far, -far, ALIGN_LEFT, "x"));
             CHECK(width ==

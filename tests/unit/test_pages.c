@@ -248,7 +248,7 @@ int __wrap_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
                      double x, double y, Align align, const char *markup)
 {
     const Box *place = &canvas->clip;
-    double wide = text_extent(text, style, markup).width;
+    double wide = text_measure(text, style, markup).width;
     double left = x - 0.5 * (double)align * wide;
     size_t used = strlen(seen.texts);
     if (left < place->x - 1.5 || y < place->y - 1.5 ||

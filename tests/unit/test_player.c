@@ -23,7 +23,7 @@ TEST(the_curve_goes_through_the_step)
             CHECK(!status || status_is_unconverged(status));
             const StepTrace *kept = &get_past_pane(0)->trace;
             for (int place = 0; place < kept->position_count; place++) {
-                Trace trace;
+                NewtonTrace trace;
                 step_trace_show(kept, place, &trace);
                 int iterate = kept->position[place].iterate;
                 if (trace.at_line != LINE_UPDATE)
@@ -45,7 +45,7 @@ TEST(the_curve_goes_through_the_step)
             }
         }
         CHECK(seen > 60 && (i == 3 || (rough > 0) == (i > 0)));
-        Trace whole;
+        NewtonTrace whole;
         const StepTrace *kept = &get_past_pane(0)->trace;
         step_trace_show(kept, -1, &whole);
         CHECK(whole.residual > 0);

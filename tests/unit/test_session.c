@@ -160,7 +160,7 @@ static double find_pane_scale(void)
 {
     player_build_frame(&player);
     Layout layout = find_layout();
-    return camera_of_pane(content, &layout, 0).scale[0];
+    return make_pane_camera(content, &layout, 0).scale[0];
 }
 
 static void finish_session(void)
@@ -243,7 +243,7 @@ static void move_mouse_into(Box box, bool corner)
 /* Returns true if the mouse is on this grip. */
 static bool is_on_grip(const Layout *layout, int grip)
 {
-    Pick pick = frame_pick(content, layout, mouse[0], mouse[1]);
+    Pick pick = frame_find_pick(content, layout, mouse[0], mouse[1]);
     return pick.kind == PICK_HANDLE && pick.index == grip;
 }
 
@@ -262,7 +262,7 @@ static bool move_mouse_in_pane(const char *place, const Layout *layout)
         memcpy(at, pane_positions(pane) + 2 * i, sizeof at);
     else if (sscanf(place, "m %lf,%lf", &at[0], &at[1]) != 2)
         return false;
-    Camera camera = camera_of_pane(content, layout, p);
+    Camera camera = make_pane_camera(content, layout, p);
     camera_to_pixel(&camera, at, mouse);
     if (place[0] == 'g' &&
         !is_on_grip(layout, i)) /* the grip lies on a curve above the axis */
@@ -302,7 +302,7 @@ static void move_mouse(const char *place)
         long step = atol(place + 5);
         mouse[0] = layout.bars.x;
         mouse[1] = layout.time_line.y + layout.time_line.height / 2;
-        while (frame_find_step(content, &layout, mouse[0]) < step &&
+        while (frame_find_bar_step(content, &layout, mouse[0]) < step &&
                mouse[0] < layout.width)
             mouse[0]++;
     } else if (strncmp(place, "text ", 5) == 0) {
@@ -477,7 +477,7 @@ static bool pane_shows_all_nodes(const Layout *layout, int p)
 {
     const Pane *pane = &content->pane[p];
     const Box *box = &layout->pane[p];
-    Camera camera = camera_of_pane(content, layout, p);
+    Camera camera = make_pane_camera(content, layout, p);
     double at[2], first[2], far = 0;
     camera_to_pixel(&camera, pane_positions(pane), first);
     for (int i = 0; i < pane->simulation->system.nodes; i++) {
@@ -495,7 +495,7 @@ static void add_facts_of_parts(void)
     Layout layout = find_layout();
     char order[512] = "";
     for (int p = 0; p < content->panes; p++) {
-        const Trace *trace = content->pane[p].trace;
+        const NewtonTrace *trace = content->pane[p].trace;
         add_fact("inside %d %d", p, pane_shows_all_nodes(&layout, p));
         add_fact("label %d\t%s", p, text_or_nothing(content->pane[p].label));
         add_fact("line %d %d", p, trace ? (int)trace->at_line : 0);
@@ -527,7 +527,7 @@ static void collect_facts(void)
                                         "obstacle", "other", "other",
                                         "other",    "other", "other"};
     const LecturePage *page = content->lecture.page;
-    const Trace *trace = content->pane[content->active_pane].trace;
+    const NewtonTrace *trace = content->pane[content->active_pane].trace;
     facts[0] = '\0';
     add_fact("at %ld", content->time_line.step);
     add_fact("newest %ld", past_newest(&player.past));

@@ -13,7 +13,7 @@
 static Simulation simulation;
 static History history;
 static FrameContent content;
-static View view;
+static FrameView view;
 static Paper paper;
 static Layout layout;
 
@@ -101,10 +101,10 @@ static int count_stage_pixels(Colour colour)
 static Pick pick_at(double x, double y, double right, double down)
 {
     const double world[2] = {x, y};
-    Camera camera = camera_of_pane(&content, &layout, 0);
+    Camera camera = make_pane_camera(&content, &layout, 0);
     double at[2];
     camera_to_pixel(&camera, world, at);
-    return frame_pick(&content, &layout, at[0] + right, at[1] + down);
+    return frame_find_pick(&content, &layout, at[0] + right, at[1] + down);
 }
 
 static bool pick_is(Pick pick, PickKind kind, int index)
@@ -230,7 +230,7 @@ TEST(the_camera_does_not_jump)
         "drop --velocity 3,3 --timestep 0.02"};
     for (int i = 0; i < 3; i++) {
         begin_show(lines[i], 0);
-        Camera was = camera_of_pane(&content, &layout, 0);
+        Camera was = make_pane_camera(&content, &layout, 0);
         int jumps = 0;
         for (int step = 0; step < 150; step++) {
             const Box *box = &layout.pane[0];
@@ -238,7 +238,7 @@ TEST(the_camera_does_not_jump)
             camera_to_world(&was, box->x + 0.5 * box->width,
                             box->y + 0.5 * box->height, middle);
             CHECK(!simulation_step(&simulation));
-            Camera is = camera_of_pane(&content, &layout, 0);
+            Camera is = make_pane_camera(&content, &layout, 0);
             camera_to_pixel(&is, middle, pixel);
             double change = fabs(log(is.scale[0] / was.scale[0]));
             double moved = hypot(pixel[0] - box->x - 0.5 * box->width,
@@ -265,7 +265,7 @@ TEST(the_mouse_finds_nodes_and_springs)
     const double *a = x + 2 * system->e[0], *b = x + 2 * system->e[1];
     const double middle[2] = {0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])};
     for (int zoomed = 0; zoomed < 2; zoomed++) {
-        Camera camera = camera_of_pane(&content, &layout, 0);
+        Camera camera = make_pane_camera(&content, &layout, 0);
         double at[2];
         for (int i = 0; i < system->nodes; i++) {
             Pick pick = pick_at(x[2 * i], x[2 * i + 1], -2, 3);
@@ -287,8 +287,8 @@ TEST(the_mouse_finds_nodes_and_springs)
             pick_at(0.54 * p[0] + 0.46 * q[0], 0.54 * p[1] + 0.46 * q[1], 0, 0),
             PICK_SPRING, s));
     }
-    CHECK(frame_pick(&content, &layout, 5, 200).kind == PICK_NONE);
-    CHECK(frame_pick(&content, &layout, 1100, 200).kind == PICK_NONE);
+    CHECK(frame_find_pick(&content, &layout, 5, 200).kind == PICK_NONE);
+    CHECK(frame_find_pick(&content, &layout, 1100, 200).kind == PICK_NONE);
     int left = 0; /* the spring of nodes 0 and 1, in the left column */
     while (system->e[2 * left] != 0 || system->e[2 * left + 1] != 1)
         left++;
