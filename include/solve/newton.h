@@ -100,7 +100,7 @@ typedef struct SearchDirection {
 } SearchDirection;
 
 /* Data for the rounding errors of a minimisation (rounding.c). */
-typedef struct Rounding {
+typedef struct RoundingChecks {
     unsigned bounds_version; /* 1 + System.version of min_mass, max_curvature
                                 and shortest_spring; 0: not computed yet */
     double min_mass;         /* kg, the smallest mass */
@@ -118,7 +118,7 @@ typedef struct Rounding {
     double E_trial;      /* J s^2, E at the end of the trial step */
     double best_residual;    /* m/s, smallest residual of this minimisation */
     int stagnant_iterations; /* iterations since the smallest residual */
-} Rounding;
+} RoundingChecks;
 
 typedef struct Multigrid Multigrid;
 
@@ -140,7 +140,7 @@ typedef struct Newton {
     bool has_gradient;         /* has the gradient at x in iterate.g */
     bool passes_test;          /* p of the last iteration passes the test */
     int clamps_left;           /* iterations in which ON_DEMAND clamps */
-    Rounding rounding;
+    RoundingChecks rounding;
     Multigrid *multigrid; /* data of multigrid; NULL: not created yet */
     Solver active_solver; /* solver of the next iteration: NEWTON, MULTIGRID */
     const char *refusal_reason; /* why multigrid refused to work, or NULL */

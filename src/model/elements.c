@@ -63,9 +63,9 @@ void elements_gradient(const EvalPoint *at, double *g)
 }
 
 /* The pair of nodes of each 2x2 part of a block, diagonal parts first. */
-enum { BLOCK_PARTS = 6 };
-static const int part[BLOCK_PARTS][2] = {{0, 0}, {1, 1}, {2, 2},
-                                         {0, 1}, {0, 2}, {1, 2}};
+enum { NODE_PAIRS = 6 };
+static const int part[NODE_PAIRS][2] = {{0, 0}, {1, 1}, {2, 2},
+                                        {0, 1}, {0, 2}, {1, 2}};
 
 /* Returns the number of triplets of a block, the same for every block. */
 static int count_block_entries(const EvalPoint *at)
@@ -80,7 +80,7 @@ void elements_add_triplets(const EvalPoint *at, Triplets *triplets)
     int node[3], blocks = kind->count_blocks(at);
     for (int b = 0; b < blocks; b++) {
         int nodes = kind->get_block_nodes(at, b, node);
-        for (int i = 0; i < BLOCK_PARTS; i++)
+        for (int i = 0; i < NODE_PAIRS; i++)
             if (part[i][1] < nodes)
                 add_block_triplets(at->system, node[part[i][0]],
                                    node[part[i][1]], triplets);
@@ -94,7 +94,7 @@ static inline void element_add_hessian(const Element *element, int vectors,
                                        double H[4][4], const int *slot,
                                        double *out)
 {
-    for (int i = 0; i < BLOCK_PARTS; i++) {
+    for (int i = 0; i < NODE_PAIRS; i++) {
         int k = part[i][0], l = part[i][1];
         if (l >= element->node_count)
             continue;

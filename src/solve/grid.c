@@ -8,9 +8,9 @@
 
 #include "model/spring_law.h"
 
-/* Bytes of a cache line and of memory pages; STAGGER is the number of cache
- * lines left free between two arrays. */
-enum { CACHE_LINE = 64, SMALL_PAGE = 4096, LARGE_PAGE = 2 << 20, STAGGER = 5 };
+/* Bytes of a cache line and of memory pages; GAP_LINES is the number of
+ * cache lines left free between two arrays. */
+enum { CACHE_LINE = 64, PAGE = 4096, LARGE_PAGE = 2 << 20, GAP_LINES = 5 };
 
 RowLayout lay_out_rows(int nodes)
 {
@@ -23,17 +23,17 @@ RowLayout lay_out_rows(int nodes)
                        .plane = 2 * half * (nodes + 3)};
 }
 
-void *memory_take_piece(Memory *memory, size_t bytes)
+void *memory_take_piece(ArrayMemory *memory, size_t bytes)
 {
     char *piece = memory->base ? memory->base + memory->used_bytes : NULL;
-    bytes = (bytes + SMALL_PAGE - 1) / SMALL_PAGE * SMALL_PAGE;
-    memory->used_bytes += bytes + STAGGER * CACHE_LINE;
+    bytes = (bytes + PAGE - 1) / PAGE * PAGE;
+    memory->used_bytes += bytes + GAP_LINES * CACHE_LINE;
     return piece;
 }
 
-Status memory_create(Memory *memory)
+Status memory_create(ArrayMemory *memory)
 {
-    size_t page = memory->used_bytes < LARGE_PAGE ? SMALL_PAGE : LARGE_PAGE;
+    size_t page = memory->used_bytes < LARGE_PAGE ? PAGE : LARGE_PAGE;
     size_t bytes = (memory->used_bytes + page) / page * page;
     memory->used_bytes = 0;
     memory->base = aligned_alloc(page, bytes);
@@ -48,7 +48,7 @@ Status memory_create(Memory *memory)
     return STATUS_OK;
 }
 
-void grid_lay_out(int segments, Memory *memory, Grid *grid)
+void grid_lay_out(int segments, ArrayMemory *memory, Grid *grid)
 {
     *grid = (Grid){.rows = lay_out_rows(segments + 1),
                    .segments = segments,
@@ -96,7 +96,7 @@ double power_of_two_scale(double a)
     return a > 0 && isfinite(a) ? ldexp(1, -ilogb(a)) : 1;
 }
 
-void grid_read_system(Grid *grid, const Iterate *at, const double *m)
+void grid_copy_system(Grid *grid, const Iterate *at, const double *m)
 {
     const System *system = at->E.system;
     const EvalPoint point = make_eval_point(system, at->E.x_n, at->u, at->x);
@@ -148,7 +148,7 @@ void grid_read_system(Grid *grid, const Iterate *at, const double *m)
         }
 }
 
-void grid_read_state(Grid *grid, const Iterate *at, const double *u_tilde)
+void grid_copy_state(Grid *grid, const Iterate *at, const double *u_tilde)
 {
     const RowLayout *rows = &grid->rows;
     const unsigned char *pinned = at->E.system->pinned;
@@ -167,7 +167,7 @@ void grid_read_state(Grid *grid, const Iterate *at, const double *u_tilde)
         }
 }
 
-void grid_write_state(const Grid *grid, Iterate *at)
+void grid_write_iterate(const Grid *grid, Iterate *at)
 {
     const RowLayout *rows = &grid->rows;
     const double metre = 1 / grid->length_unit;

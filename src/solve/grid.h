@@ -75,36 +75,36 @@ typedef struct Grid {
 
 /* A block of memory for several arrays.  The layout is made twice: first with
  * base NULL, to count the bytes, then to place the arrays. */
-typedef struct Memory {
+typedef struct ArrayMemory {
     char *base;
     size_t used_bytes;
-} Memory;
+} ArrayMemory;
 
 /* Returns the next piece of the block; NULL while bytes are counted.  Pieces of
  * one size would all start in the same lines of the cache, so each starts some
  * lines further than the one before. */
-void *memory_take_piece(Memory *memory, size_t bytes);
+void *memory_take_piece(ArrayMemory *memory, size_t bytes);
 
 /* Allocates zeroed memory for all pieces that memory_take_piece counted, in
  * large pages of the system if it has them.  Returns OK or OUT_OF_MEMORY; the
  * caller frees base. */
-Status memory_create(Memory *memory);
+Status memory_create(ArrayMemory *memory);
 
 /* Places the arrays for segments x segments cells; sets the rest to 0. */
-void grid_lay_out(int segments, Memory *memory, Grid *grid);
+void grid_lay_out(int segments, ArrayMemory *memory, Grid *grid);
 
 /* Returns the power of two that makes a number about 1. */
 double power_of_two_scale(double a);
 
 /* Copies pins, stiffnesses and rest lengths of the system, and the masses m
  * [2n] kg, into the grid. */
-void grid_read_system(Grid *grid, const Iterate *at, const double *m);
+void grid_copy_system(Grid *grid, const Iterate *at, const double *m);
 
 /* Copies x and u of the iterate, and u_tilde [2n] m, into the grid. */
-void grid_read_state(Grid *grid, const Iterate *at, const double *u_tilde);
+void grid_copy_state(Grid *grid, const Iterate *at, const double *u_tilde);
 
 /* Writes u and x of the grid to the iterate. */
-void grid_write_state(const Grid *grid, Iterate *at);
+void grid_write_iterate(const Grid *grid, Iterate *at);
 
 /* ---- loops over all nodes (grid_energy.c); vectors have [2 planes] ---- */
 

@@ -22,9 +22,9 @@ static const double NEARBY = 0.05;
 static const double STALLS = 0.3, PACE = 0.01;
 
 /* If the first sweep of all tiles in a step lowers E by less than USELESS times
- * the last direction's decrease, the tiles rest for REST iterations. */
+ * the last direction's decrease, the tiles rest for TILE_REST iterations. */
 static const double USELESS = 0.005;
-enum { REST = 5 };
+enum { TILE_REST = 5 };
 
 /* Number of iterations after which Newton takes over; most steps need ten. */
 enum { MAX_MG_ITERATIONS = 200 };
@@ -38,7 +38,7 @@ struct Multigrid {
     Grid grid;
     VCycle cycle;
     Tiles tiles;
-    Memory memory;           /* block of all arrays */
+    ArrayMemory memory;      /* block of all arrays */
     double *g, *p;           /* [2 planes] grad E and direction at x */
     double *last_g, *last_p; /* [2 planes] g and p in the iteration before */
     double gradient_norm2;   /* |g|_(M^-1)^2 */
@@ -139,7 +139,7 @@ static Status multigrid_evaluate_gradient(Multigrid *mg)
 }
 
 /* Copies the problem to the grid.  Returns OK, OUT_OF_MEMORY, NOT_FINITE. */
-static Status multigrid_read_problem(Newton *newton)
+static Status multigrid_copy_problem(Newton *newton)
 {
     Iterate *at = &newton->iterate;
     const System *system = newton->system;
@@ -155,12 +155,12 @@ static Status multigrid_read_problem(Newton *newton)
     mg->tiles_rest_until = 0;
     incremental_potential_absorb_pulls(at, m, u_tilde);
     if (mg->weight != at->E.weight || mg->version != system->version) {
-        grid_read_system(&mg->grid, at, m);
-        v_cycle_read_system(&mg->cycle);
+        grid_copy_system(&mg->grid, at, m);
+        v_cycle_copy_masses(&mg->cycle);
     }
     mg->weight = at->E.weight;
     mg->version = system->version;
-    grid_read_state(&mg->grid, at, u_tilde);
+    grid_copy_state(&mg->grid, at, u_tilde);
     mg->p_bound = mg->moved_since_setup = INFINITY;
     return multigrid_evaluate_gradient(mg);
 }
@@ -201,7 +201,7 @@ static Status multigrid_find_direction(Newton *newton)
 {
     NewtonRecord *record = &newton->record;
     Status status =
-        record->iteration == 0 ? multigrid_read_problem(newton) : STATUS_OK;
+        record->iteration == 0 ? multigrid_copy_problem(newton) : STATUS_OK;
     newton->passes_test = false;
     record->residual_kind = RESIDUAL_ESTIMATE;
     if (!status)
@@ -302,7 +302,7 @@ static Status multigrid_update_iterate(Newton *newton)
         double first = tiles_relax(&mg->tiles, PACE * change / tiles, p);
         if (mg->tiles_rest_until == 0)
             mg->tiles_rest_until =
-                record->iteration + (first > USELESS * change ? REST : 1);
+                record->iteration + (first > USELESS * change ? TILE_REST : 1);
         multigrid_compute_line_polynomial(mg);
         double alpha = minimise_quartic(&mg->line_E, &(int){0});
         if (alpha > 0) { /* not if numbers overflowed in single precision */
@@ -342,7 +342,7 @@ static Status multigrid_test_iterate(Newton *newton, Status status)
     /* In no other case is newton->iterate read. */
     if (ends || stuck || small || last || newton->settings.observer) {
         swap_iterates(newton);
-        grid_write_state(&mg->grid, &newton->iterate);
+        grid_write_iterate(&mg->grid, &newton->iterate);
     }
     const double turned =
         ends && newton->rounding.is_stiff ? turn_free_body(newton) : 0;

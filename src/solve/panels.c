@@ -33,7 +33,7 @@ typedef double Double4
 /* C [m, n] = A [m, k] B^T or, if is_subtracted, C -= A B^T, with B [n, k] and n
  * at most 4.  If L [n, n] is not NULL, C = C L^-T follows.  The matrices are
  * stored by columns, lda, ldb, ldc, ldl numbers apart. */
-typedef struct Product {
+typedef struct DenseProduct {
     int m, n, k;
     const double *A, *B;
     double *C;
@@ -41,11 +41,12 @@ typedef struct Product {
     bool is_subtracted;
     const double *L;
     int ldl;
-} Product;
+} DenseProduct;
 
 /* Defines a function for rows i ... of C, as `wide` vectors of type Lanes. */
 #define ROWS(rows, Lanes, wide)                                                \
-    INLINE void rows(const Product *at, int i, int n, const double *inverse)   \
+    INLINE void rows(const DenseProduct *at, int i, int n,                     \
+                     const double *inverse)                                    \
     {                                                                          \
         const int lanes = sizeof(Lanes) / sizeof(double);                      \
         const double *a = at->A + i, *b = at->B;                               \
@@ -75,7 +76,7 @@ ROWS(four_rows, Double2, 2)
 ROWS(four_rows_avx, Double4, 1)
 ROWS(eight_rows_avx, Double4, 2)
 
-INLINE void multiply_columns(const Product *at, int n, bool avx)
+INLINE void multiply_columns(const DenseProduct *at, int n, bool avx)
 {
     double inverse[GROUP_COLUMNS] = {0};
     int i = 0;
@@ -93,7 +94,7 @@ INLINE void multiply_columns(const Product *at, int n, bool avx)
         one_row(at, i, n, inverse);
 }
 
-INLINE void multiply_in_groups(const Product *at, bool avx)
+INLINE void multiply_in_groups(const DenseProduct *at, bool avx)
 {
     switch (at->n) {
     case 1:
@@ -110,12 +111,12 @@ INLINE void multiply_in_groups(const Product *at, bool avx)
     }
 }
 
-AVX static void multiply_avx(const Product *at)
+AVX static void multiply_avx(const DenseProduct *at)
 {
     multiply_in_groups(at, true);
 }
 
-static void multiply(const Product *at)
+static void multiply_dense(const DenseProduct *at)
 {
     if (HAS_AVX())
         multiply_avx(at);
@@ -147,9 +148,9 @@ void dgemm_(const char *transa, const char *transb, const int *m, const int *n,
             *transa == 'N' && *transb != 'N' && *alpha == 1 && *beta == 0, C))
         return;
     for (int j = 0; j < *n; j += GROUP_COLUMNS)
-        multiply(&(Product){*m, smaller_of(*n - j, GROUP_COLUMNS), *k, A, B + j,
-                            C + (size_t)j * *ldc, *lda, *ldb, *ldc, false, NULL,
-                            0});
+        multiply_dense(&(DenseProduct){*m, smaller_of(*n - j, GROUP_COLUMNS),
+                                       *k, A, B + j, C + (size_t)j * *ldc, *lda,
+                                       *ldb, *ldc, false, NULL, 0});
 }
 
 /* Computes the lower triangle of C = A A^T.  Entries right of the triangle are
@@ -162,9 +163,9 @@ void dsyrk_(const char *uplo, const char *trans, const int *n, const int *k,
             *uplo == 'L' && *trans == 'N' && *alpha == 1 && *beta == 0, C))
         return;
     for (int j = 0; j < *n; j += GROUP_COLUMNS)
-        multiply(&(Product){*n - j, smaller_of(*n - j, GROUP_COLUMNS), *k,
-                            A + j, A + j, C + (size_t)j * *ldc + j, *lda, *lda,
-                            *ldc, false, NULL, 0});
+        multiply_dense(&(DenseProduct){
+            *n - j, smaller_of(*n - j, GROUP_COLUMNS), *k, A + j, A + j,
+            C + (size_t)j * *ldc + j, *lda, *lda, *ldc, false, NULL, 0});
 }
 
 /* B = B L^-T */
@@ -178,9 +179,9 @@ void dtrsm_(const char *side, const char *uplo, const char *trans,
         return;
     for (int j = 0; j < *n; j += GROUP_COLUMNS) {
         const double *D = L + (size_t)j * *ldl + j;
-        multiply(&(Product){*m, smaller_of(*n - j, GROUP_COLUMNS), j, B, L + j,
-                            B + (size_t)j * *ldb, *ldb, *ldl, *ldb, true, D,
-                            *ldl});
+        multiply_dense(&(DenseProduct){*m, smaller_of(*n - j, GROUP_COLUMNS), j,
+                                       B, L + j, B + (size_t)j * *ldb, *ldb,
+                                       *ldl, *ldb, true, D, *ldl});
     }
 }
 
@@ -212,15 +213,15 @@ void dpotrf_(const char *uplo, const int *n, double *A, const int *lda,
     for (int j = 0; j < *n; j += GROUP_COLUMNS) {
         int wide = smaller_of(*n - j, GROUP_COLUMNS), below = *n - j - wide;
         double *D = A + (size_t)j * *lda + j;
-        multiply(&(Product){*n - j, wide, j, A + j, A + j, D, *lda, *lda, *lda,
-                            true, NULL, 0});
+        multiply_dense(&(DenseProduct){*n - j, wide, j, A + j, A + j, D, *lda,
+                                       *lda, *lda, true, NULL, 0});
         int failed = factor_block(wide, D, *lda);
         if (failed) {
             *info = j + failed;
             return;
         }
-        multiply(&(Product){below, wide, 0, D, D, D + wide, *lda, *lda, *lda,
-                            true, D, *lda});
+        multiply_dense(&(DenseProduct){below, wide, 0, D, D, D + wide, *lda,
+                                       *lda, *lda, true, D, *lda});
     }
 }
 

@@ -30,7 +30,7 @@ void rounding_prepare(Newton *newton)
 {
     const Iterate *at = &newton->iterate;
     const System *system = newton->system;
-    Rounding *rounding = &newton->rounding;
+    RoundingChecks *rounding = &newton->rounding;
     if (rounding->bounds_version != system->version + 1) {
         rounding->bounds_version = system->version + 1;
         rounding->min_mass = INFINITY;
@@ -85,7 +85,7 @@ static double sample_coordinate_rounding(Newton *newton, const double *u,
  * is computed only if the rounding of E does not explain the difference. */
 bool rounding_confirms_change(Newton *newton)
 {
-    Rounding *rounding = &newton->rounding;
+    RoundingChecks *rounding = &newton->rounding;
     const Iterate *at = &newton->iterate;
     const double *u = newton->u_trial, *x = newton->x_trial;
     if (newton->settings.line_search == LINE_SEARCH_NONE ||
@@ -113,7 +113,7 @@ bool energy_is_within_limit(const Newton *newton, const double *u,
 
 Status rounding_test_stagnation(Newton *newton)
 {
-    Rounding *rounding = &newton->rounding;
+    RoundingChecks *rounding = &newton->rounding;
     if (newton->record.residual < rounding->best_residual) {
         rounding->best_residual = newton->record.residual;
         rounding->stagnant_iterations = 0;

@@ -30,7 +30,7 @@ static const double DIRECTION_SWEEPS = 7, WORTH = 0.25;
 /* Limit of the rounds, which rounding could keep from ending. */
 enum { MAX_TILE_ROUNDS = 10000 };
 
-void tiles_lay_out(const Grid *grid, Memory *memory, Tiles *tiles)
+void tiles_lay_out(const Grid *grid, ArrayMemory *memory, Tiles *tiles)
 {
     int high = grid->segments / TILE_ROWS + 1;
     int wide = (grid->rows.count[0] + LANES - 1) / LANES;
@@ -62,9 +62,9 @@ INLINE float find_lowering_step(const float q[4], float *lower)
     return go;
 }
 
-/* Sums over a node's springs (see Spring): gradient of E (GX, GY), Hessian,
- * not clamped (XX, XY, YY), c d (CX, CY), c (CC), each f below 0 (NEGATIVE). */
-enum { GX, GY, XX, XY, YY, CX, CY, CC, NEGATIVE, SUMS };
+/* Sums over a node's springs (see Spring): gradient of E (GX, GY), Hessian, not
+ * clamped (HXX, HXY, HYY), c d (CDX, CDY), c (SUM_C), f below 0 (NEGATIVE). */
+enum { GX, GY, HXX, HXY, HYY, CDX, CDY, SUM_C, NEGATIVE, SUMS };
 
 typedef float NodeSums[SUMS][LANES];
 
@@ -120,12 +120,12 @@ INLINE void gather_springs(const Tiles *tiles, NodeRun at, bool has_tiny_moves,
 #undef ADD
         FLOATS(of[GX], e) = gx;
         FLOATS(of[GY], e) = gy;
-        FLOATS(of[XX], e) = iso + 2 * xx;
-        FLOATS(of[XY], e) = 2 * xy;
-        FLOATS(of[YY], e) = iso + 2 * yy;
-        FLOATS(of[CX], e) = cx;
-        FLOATS(of[CY], e) = cy;
-        FLOATS(of[CC], e) = c;
+        FLOATS(of[HXX], e) = iso + 2 * xx;
+        FLOATS(of[HXY], e) = 2 * xy;
+        FLOATS(of[HYY], e) = iso + 2 * yy;
+        FLOATS(of[CDX], e) = cx;
+        FLOATS(of[CDY], e) = cy;
+        FLOATS(of[SUM_C], e) = c;
         FLOATS(of[NEGATIVE], e) = negative;
     }
 }
@@ -135,11 +135,12 @@ INLINE void gather_springs(const Tiles *tiles, NodeRun at, bool has_tiny_moves,
 INLINE void node_line_polynomial(const NodeSums of, int e, float px, float py,
                                  float q[4])
 {
-    float A = of[XX][e], B = of[XY][e], C = of[YY][e], p2 = px * px + py * py;
+    float A = of[HXX][e], B = of[HXY][e], C = of[HYY][e],
+          p2 = px * px + py * py;
     q[0] = of[GX][e] * px + of[GY][e] * py;
     q[1] = 0.5f * (A * px * px + 2 * B * px * py + C * py * py);
-    q[2] = p2 * (of[CX][e] * px + of[CY][e] * py);
-    q[3] = 0.25f * of[CC][e] * p2 * p2;
+    q[2] = p2 * (of[CDX][e] * px + of[CDY][e] * py);
+    q[3] = 0.25f * of[SUM_C][e] * p2 * p2;
 }
 
 /* Moves LANES nodes of a row that share no spring; adds E's changes to sum. */
@@ -155,7 +156,7 @@ INLINE void relax_nodes(const Tiles *tiles, NodeRun at, bool has_tiny_moves,
     EACH_OF (NEXT(at, LANES)) {
         const ptrdiff_t q = at.first + e;
         float gx = of[GX][e], gy = of[GY][e], negative = of[NEGATIVE][e];
-        float A = of[XX][e], B = of[XY][e], C = of[YY][e], trace = A + C;
+        float A = of[HXX][e], B = of[HXY][e], C = of[HYY][e], trace = A + C;
         bool good = (trace > 0) & (A * C - B * B > DEFINITE * trace * trace);
         float a = good ? A : A - negative, d = good ? C : C - negative;
         float det = a * d - B * B;

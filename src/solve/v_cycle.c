@@ -10,7 +10,7 @@
 /* Largest number of nodes along a side of the coarsest level. */
 enum { COARSEST_NODES = 3 };
 
-void v_cycle_lay_out(const Grid *grid, Memory *memory, VCycle *cycle)
+void v_cycle_lay_out(const Grid *grid, ArrayMemory *memory, VCycle *cycle)
 {
     Level *level = cycle->level;
     *cycle = (VCycle){.grid = grid};
@@ -182,7 +182,7 @@ INLINE void set_up_rows(const VCycle *cycle, const Level *level, int i)
         coarsen_row(level, level->coarse, i / 2);
 }
 
-void v_cycle_read_system(VCycle *cycle)
+void v_cycle_copy_masses(VCycle *cycle)
 {
     const Grid *grid = cycle->grid;
     double m = grid->min_mass;

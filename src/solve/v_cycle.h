@@ -49,11 +49,11 @@ typedef struct VCycle {
     long cycles;    /* number of V-cycles so far */
 } VCycle;
 
-void v_cycle_lay_out(const Grid *grid, Memory *memory, VCycle *cycle);
+void v_cycle_lay_out(const Grid *grid, ArrayMemory *memory, VCycle *cycle);
 
 /* Copies masses, pins and stiffnesses from the grid, coarsens the masses, and
  * sets the number of levels. */
-void v_cycle_read_system(VCycle *cycle);
+void v_cycle_copy_masses(VCycle *cycle);
 
 /* Computes p = -H^-1 g up to a linear residual.
  *   g         [2 planes] grad E; anything at pins

@@ -77,9 +77,9 @@ static void run_named_cases(bool quick, VerdictTally *sum)
  * thousand reaches the limit of updates. */
 static const struct {
     const char *name, *kinds;
-    long count;
+    long scene_count;
     int steps;
-    double share;
+    double least_share;
 } families[] = {{"squares, shaken", "s", 20000, 2, 0.5},
                 {"contact", "cccctbww", 20000, 10, 0.999},
                 {"large squares", "l", 80, 4, 0.5},
@@ -92,7 +92,7 @@ static void run_random_families(uint64_t seed, bool quick, VerdictTally *sum)
     for (size_t i = 0; i < sizeof families / sizeof *families; i++) {
         char reason[512];
         VerdictTally tally = {0};
-        long count = families[i].count / (quick ? 10 : 1);
+        long count = families[i].scene_count / (quick ? 10 : 1);
         begin_case(families[i].name);
         if (!stress_run_scenes(families[i].kinds, seed, count,
                                families[i].steps, &tally, reason))
@@ -100,7 +100,7 @@ static void run_random_families(uint64_t seed, bool quick, VerdictTally *sum)
         double good = (double)tally.steps[VERDICT_CONVERGED];
         double all = good + (double)(tally.steps[VERDICT_REPORTED] -
                                      tally.steps_by_status[STATUS_BLOCKED]);
-        if (!(good >= families[i].share * all)) {
+        if (!(good >= families[i].least_share * all)) {
             printf("only %g of %g steps converged\n", good, all);
             tally.wrong++;
         }

@@ -17,7 +17,7 @@
 #include <string.h>
 
 /* Error of a sum of many terms, in units of rounding */
-enum { ROUNDINGS = 16 };
+enum { SUM_ROUNDINGS = 16 };
 
 /* J s^2: squares of larger energies may overflow; NOT_FINITE is then right */
 static const long double HUGE_ENERGY = 1e280L;
@@ -188,9 +188,9 @@ static bool energy_rises(RunWatch *watch, const double *from, const double *to,
     for (int i = 0; i < count_unknowns(watch); i++)
         watch->workspace[i] = to[i] - from[i];
     Real allowed =
-        ROUNDINGS * (DBL_EPSILON * scale +
-                     energy_noise(&potential, from, watch->workspace) +
-                     energy_noise(&potential, to, watch->workspace));
+        SUM_ROUNDINGS * (DBL_EPSILON * scale +
+                         energy_noise(&potential, from, watch->workspace) +
+                         energy_noise(&potential, to, watch->workspace));
     return !(rise <= allowed) &&
            !(wide_exact_rise(&potential.E, from, to, potential.wall_time) <=
              allowed);
@@ -439,7 +439,7 @@ static void check_step_momentum(RunWatch *watch, int pin)
         turn += (i % 2 ? 1 : -1) * m[i / 2] * arm * change;
         arms = fmaxl(arms, fabsl(arm));
         unsure += m[i / 2] * fabsl(change) * DBL_EPSILON * fabs(run->x[i ^ 1]);
-        noise += m[i / 2] * ROUNDINGS * DBL_EPSILON *
+        noise += m[i / 2] * SUM_ROUNDINGS * DBL_EPSILON *
                  (fabs(run->v[i]) + fabs(watch->v[i]) +
                   (fabs(run->x[i]) + fabs(watch->x[i])) / run->h);
     }

@@ -560,8 +560,8 @@ static PartFrame make_part_frame(Probe *probe, PartKind parts, const void *data,
 /* Formula of each term, and what it sums over; data: those of the term */
 static const struct {
     const TermKind *kind;
-    PartKind parts;
-    void (*part)(Probe *probe, Jet *sum, const void *data, int i);
+    PartKind part_kind;
+    void (*add_energy)(Probe *probe, Jet *sum, const void *data, int i);
 } formulas[] = {{&mass_spring_energy, PART_SPRING, add_spring_energy},
                 {&plastic_energy, PART_SPRING, add_spring_energy},
                 {&contact_energy, PART_WALL_PAIR, add_wall_contact},
@@ -598,7 +598,7 @@ static int find_lifts(const Probe *probe, int row, const void *data, int part,
                       Real rows[4][6])
 {
     Probe own = *probe;
-    *frame = make_part_frame(&own, formulas[row].parts, data, part);
+    *frame = make_part_frame(&own, formulas[row].part_kind, data, part);
     Real A[16], v[16];
     int n = frame->n;
     own.p = p;
@@ -607,7 +607,7 @@ static int find_lifts(const Probe *probe, int row, const void *data, int part,
         Jet W = {0};
         add_unit_move(frame, i / n, 1, p);
         add_unit_move(frame, i % n, 1, q);
-        formulas[row].part(&own, &W, data, part);
+        formulas[row].add_energy(&own, &W, data, part);
         add_unit_move(frame, i / n, -1, p);
         add_unit_move(frame, i % n, -1, q);
         A[i] = W.pq;
@@ -647,9 +647,9 @@ Jet oracle_energy(Probe *probe, const TermKind *only)
         const void *data = system->term[t].data;
         if (row < 0 || (only && only != formulas[row].kind))
             continue;
-        int count = count_parts(probe, formulas[row].parts, data);
+        int count = count_parts(probe, formulas[row].part_kind, data);
         for (int i = 0; i < count; i++)
-            formulas[row].part(probe, &sum, data, i);
+            formulas[row].add_energy(probe, &sum, data, i);
     }
     probe->abs_sum = jet_add((Jet){0}, probe->at->weight, probe->abs_sum);
     return jet_add((Jet){0}, probe->at->weight, sum);
@@ -728,18 +728,18 @@ static bool evaluate_part(Probe *probe, int row, const void *data, int part,
     Real w = probe->at->weight;
     Jet W = {0};
     *block = (PartBlock){0};
-    formulas[row].part(probe, &W, data, part);
+    formulas[row].add_energy(probe, &W, data, part);
     if (probe->part_count == booked)
         return false;
-    block->count =
-        find_part_nodes(probe, formulas[row].parts, data, part, block->node);
+    block->count = find_part_nodes(probe, formulas[row].part_kind, data, part,
+                                   block->node);
     int n = 2 * block->count;
     for (int i = 0; i < n * n; i++) {
         double *along = &p[2 * block->node[i / n / 2] + i / n % 2];
         double *across = &q[2 * block->node[i % n / 2] + i % n % 2];
         W = (Jet){0};
         *along = *across = 1;
-        formulas[row].part(probe, &W, data, part);
+        formulas[row].add_energy(probe, &W, data, part);
         *along = *across = 0;
         block->H[i] = w * W.pq;
         block->g[i / n] = w * W.p;
@@ -776,7 +776,7 @@ static void visit_parts(const Probe *there, const double *u,
         int row = find_formula_row(system->term[t].kind);
         const void *data = system->term[t].data;
         int count =
-            row < 0 ? 0 : count_parts(&probe, formulas[row].parts, data);
+            row < 0 ? 0 : count_parts(&probe, formulas[row].part_kind, data);
         for (int i = 0; i < count; i++)
             if (evaluate_part(&probe, row, data, i, lifts, p, q, &block))
                 take(to, &block);

@@ -70,7 +70,7 @@ static void check_solution(Random *random, GridMatrix *matrix, double tolerance)
     double b[UNKNOWNS], x[2][UNKNOWNS], A[UNKNOWNS * UNKNOWNS];
     for (int i = 0; i < UNKNOWNS; i++)
         b[i] = x[1][i] = random_uniform(random, -1, 1);
-    dense_from_sparse(&matrix->A, A);
+    fill_dense_matrix(&matrix->A, A);
     for (int k = 0; k < 2; k++) {
         CHECK_OK(cholesky_solve(matrix->cholesky, k ? x[k] : b, x[k]));
         for (int i = 0; i < UNKNOWNS; i++) {
@@ -82,7 +82,7 @@ static void check_solution(Random *random, GridMatrix *matrix, double tolerance)
     }
 }
 
-typedef enum Damage {
+typedef enum MatrixDamage {
     NO_DAMAGE,
     NEGATE_ONE,  /* one entry of the diagonal changes its sign */
     NEGATE_HALF, /* half of the diagonal changes its sign */
@@ -91,9 +91,9 @@ typedef enum Damage {
     SMALL_PIVOT, /* [[1e-17, 1], [1, 1]] in the corner of a regular matrix */
     NOT_FINITE,
     ALL_TINY /* 1 / 1e-310 is infinite */
-} Damage;
+} MatrixDamage;
 
-static void damage_matrix(GridMatrix *matrix, Damage how, int trial)
+static void damage_matrix(GridMatrix *matrix, MatrixDamage how, int trial)
 {
     static const double bad[] = {NAN, INFINITY, -INFINITY};
     Sparse *A = &matrix->A;
@@ -122,9 +122,9 @@ static void damage_matrix(GridMatrix *matrix, Damage how, int trial)
 TEST(matrices_are_solved_or_named)
 {
     static const struct {
-        Damage how;
+        MatrixDamage damage;
         CholeskyKind kind;
-        Status factor, solve;
+        Status factor_status, solve_status;
         double tolerance;
     } rows[] = {
         {NO_DAMAGE, CHOLESKY_DEFINITE, STATUS_OK, STATUS_OK, 1e-14},
@@ -150,11 +150,12 @@ TEST(matrices_are_solved_or_named)
             for (int k = 0; k < UNKNOWNS; k++)
                 x[k] = 1;
             fill_grid_matrix(&random, &matrix);
-            damage_matrix(&matrix, rows[i].how, trial);
-            CHECK_STATUS(cholesky_factor(matrix.cholesky), rows[i].factor);
-            if (rows[i].factor == STATUS_OK)
+            damage_matrix(&matrix, rows[i].damage, trial);
+            CHECK_STATUS(cholesky_factor(matrix.cholesky),
+                         rows[i].factor_status);
+            if (rows[i].factor_status == STATUS_OK)
                 CHECK_STATUS(cholesky_solve(matrix.cholesky, x, x),
-                             rows[i].solve);
+                             rows[i].solve_status);
             if (rows[i].tolerance > 0)
                 check_solution(&random, &matrix, rows[i].tolerance);
             fill_grid_matrix(&random, &matrix);

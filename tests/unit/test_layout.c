@@ -236,8 +236,8 @@ TEST(markup_has_its_widths)
 {
     static const struct {
         const char *markup;
-        double least, most; /* times the width of an x */
-        bool plain;
+        double min_width, max_width; /* times the width of an x */
+        bool is_plain;
     } rows[] = {
         {"xx", 2, 2, false},           {"x\u0303", 1, 1, false},
         {"{xt}", 1, 1, false},         {"x^{x}", 1.5, 1.99, false},
@@ -248,9 +248,9 @@ TEST(markup_has_its_widths)
     double x = text_measure(text, &style, "x").width;
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         TextStyle same = style;
-        same.is_plain = rows[i].plain;
+        same.is_plain = rows[i].is_plain;
         double width = text_measure(text, &same, rows[i].markup).width;
-        CHECK(width >= rows[i].least * x && width <= rows[i].most * x);
+        CHECK(width >= rows[i].min_width * x && width <= rows[i].max_width * x);
     }
 }
 
@@ -261,7 +261,7 @@ TEST(formulas_have_their_sizes)
     static const struct {
         const char *markup,
             *other; /* `markup` is larger than `other` by, ems */
-        double wider, most_wider, higher, most_higher;
+        double min_wider, max_wider, min_higher, max_higher;
     } rows[] = {
         {"frac{x over x}", "x", 0.4, 0.5, 0.9, 1.1},
         {"frac{xxxx over x}", "frac{x over xxxx}", 0, 0, 0, 0},
@@ -277,9 +277,9 @@ TEST(formulas_have_their_sizes)
         TextExtent b = text_measure(text, &style, rows[i].other);
         double wider = (a.width - b.width) / 20;
         double higher = (a.ascent + a.descent - b.ascent - b.descent) / 20;
-        if (!(wider >= rows[i].wider && wider <= rows[i].most_wider &&
-              higher >= rows[i].higher - 1e-9 &&
-              higher <= rows[i].most_higher + 1e-9))
+        if (!(wider >= rows[i].min_wider && wider <= rows[i].max_wider &&
+              higher >= rows[i].min_higher - 1e-9 &&
+              higher <= rows[i].max_higher + 1e-9))
             fail_msg("%s: %.2f wider, %.2f higher than %s", rows[i].markup,
                      wider, higher, rows[i].other);
         canvas_clear(&canvas, 0xffffffff);

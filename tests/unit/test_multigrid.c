@@ -113,8 +113,8 @@ TEST(steps_fall_and_pass_the_test_of_algorithm_3)
     static const struct {
         int segments;
         double stretch;
-        bool disturbed, pins;
-        double hand;
+        bool is_random, has_pins;
+        double hand_stiffness;
     } rows[] = {{16, 1.4, false, false, 0}, {21, 0.7, false, false, 0},
                 {6, 1.2, true, false, 0},   {11, 1.2, true, true, 0},
                 {16, 1.2, true, false, 10}, {21, 1.2, true, true, 0},
@@ -127,10 +127,10 @@ TEST(steps_fall_and_pass_the_test_of_algorithm_3)
         Random random = {(uint64_t)i};
         EnergyHistory history = {0};
         Simulation *square = begin_square(rows[i].segments, rows[i].stretch);
-        if (rows[i].disturbed)
-            randomise_square(&random, rows[i].pins);
-        if (rows[i].hand > 0)
-            pull_middle_node(rows[i].hand);
+        if (rows[i].is_random)
+            randomise_square(&random, rows[i].has_pins);
+        if (rows[i].hand_stiffness > 0)
+            pull_middle_node(rows[i].hand_stiffness);
         if (i == 14) /* a short step, which a bound ends */
             square->run[0].h = newton->settings.h = 1e-4;
         newton->settings.observer = check_update;
@@ -212,7 +212,7 @@ TEST(bits_depend_on_the_step_alone)
 TEST(steps_take_no_more_work)
 {
     static const struct {
-        int segments, smooth, rough;
+        int segments, smooth_cycles, rough_cycles;
     } rows[] = {{16, 23, 44}, {32, 25, 75}, {64, 30, 111}, {128, 33, 221}};
     for (int i = 0; i < 8; i++) {
         Random random = {7};
@@ -221,8 +221,9 @@ TEST(steps_take_no_more_work)
         if (rough)
             randomise_square(&random, true);
         make_steps(square, 5);
-        CHECK_AT_MOST(newton->counters.cycles,
-                      rough ? rows[i / 2].rough : rows[i / 2].smooth);
+        CHECK_AT_MOST(newton->counters.cycles, rough
+                                                   ? rows[i / 2].rough_cycles
+                                                   : rows[i / 2].smooth_cycles);
         CHECK(rough || newton->counters.updates == newton->counters.cycles);
         CHECK(rough || newton->counters.tile_sweeps == 0);
     }

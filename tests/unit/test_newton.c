@@ -119,7 +119,7 @@ TEST(a_maximum_is_counted_without_projection)
 {
     static const struct {
         double m0, m1;
-        bool maximum;
+        bool is_maximum;
     } rows[] = {{0.1, 1e6, true}, {1e6, 0.1, true},  {2.2, 4.2, true},
                 {3.9, 3.9, true}, {4.1, 4.1, false}, {2.1, 1e6, false}};
     const double x[4] = {0};
@@ -127,7 +127,7 @@ TEST(a_maximum_is_counted_without_projection)
         create_spring_pair(rows[i].m0, rows[i].m1, 1);
         create_newton_for_pair(1, 1e-3, PROJECTION_NONE);
         CHECK_OK(minimise_pair(x, 1));
-        CHECK(newton.counters.indefinite_ends == rows[i].maximum);
+        CHECK(newton.counters.indefinite_ends == rows[i].is_maximum);
     }
 }
 
@@ -138,9 +138,9 @@ TEST(a_maximum_is_counted_without_projection)
 TEST(nearly_singular_steps_end_or_say_why_not)
 {
     static const struct {
-        double k, pull;
+        double k, side_pull;
         Projection projection;
-        Status end;
+        Status end_status;
     } rows[] = {
         {(1 - 1e-8) / 1.5, 1e30, PROJECTION_NONE, STATUS_LINE_SEARCH_LIMIT},
         {2.0 / 3, 1, PROJECTION_NONE, STATUS_SINGULAR},
@@ -152,15 +152,15 @@ TEST(nearly_singular_steps_end_or_say_why_not)
         create_spring_pair(1, 1, rows[i].k);
         pair.pinned[0] = 1;
         create_newton_for_pair(1, 1e-6, rows[i].projection);
-        newton.u_tilde[3] = rows[i].pull;
-        CHECK_STATUS(minimise_pair(x, 1), rows[i].end);
+        newton.u_tilde[3] = rows[i].side_pull;
+        CHECK_STATUS(minimise_pair(x, 1), rows[i].end_status);
         CHECK(at->u[0] == 0 && at->u[1] == 0);
-        if (rows[i].end == STATUS_LINE_SEARCH_LIMIT)
+        if (rows[i].end_status == STATUS_LINE_SEARCH_LIMIT)
             CHECK(newton.record.slope < 0 && newton.record.alpha == 0 &&
                   newton.record.trials == 65);
-        for (int c = 0; rows[i].end && c < 4; c++)
+        for (int c = 0; rows[i].end_status && c < 4; c++)
             CHECK(at->u[c] == 0 && at->x[c] == x[c]);
-        if (rows[i].end)
+        if (rows[i].end_status)
             continue;
         CHECK(at->u[3] > 0.5);
         exact_derivatives(&at->E, at->u, at->x, 1, 0, g, H);
@@ -260,7 +260,7 @@ static double fake_line_difference(const void *function, double alpha)
 TEST(backtracking_takes_the_first_that_is_not_higher)
 {
     static const struct {
-        double start;
+        double start_alpha;
         FakeLine line;
         double alpha;
         int trials;
@@ -271,7 +271,7 @@ TEST(backtracking_takes_the_first_that_is_not_higher)
         {1, {0x1p-65, -1, 1, 0}, 0, 65},  {1, {0, -1, NAN, 0}, 0, 65}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         FakeLine line = rows[i].line, *pointer = &line;
-        double alpha = rows[i].start;
+        double alpha = rows[i].start_alpha;
         int trials;
         CHECK_STATUS(line_search_backtrack(fake_line_difference, &pointer,
                                            &alpha, &trials),

@@ -215,12 +215,12 @@ TEST(questions_have_answers)
 
 /* ---- frames -------------------------------------------------------------- */
 
-/* Findings in a frame: smallest letters, pixels, also those of scripts; numbers
- * of texts that end in dots, are cut, or lie over others (in the column, or
- * numbers), and of points outside their axes; all texts, with blanks between */
+/* Findings in a frame: smallest letters, pixels, also of scripts; numbers of
+ * dots, of texts that are cut or overlap, and of points outside their axes */
 enum { MAX_WORDS = 512 };
 static struct {
-    int smallest, smallest_code, ellipses, cut, over, outside, words;
+    int min_letter, min_code_letter, ellipses, cut_texts, overlaps;
+    int outside_points, word_count;
     char cut_words[80]; /* the last text that leaves its box */
     Box column, word[MAX_WORDS];
     char texts[1 << 15];
@@ -236,10 +236,10 @@ void __real_plot_curve(const Plot *plot, int count, const double *x,
 const Glyph *__wrap_font_get_glyph(Text *text, Face face, int size,
                                    uint32_t letter)
 {
-    if (letter != ' ' && size < seen.smallest)
-        seen.smallest = size;
-    if (face == FACE_MONO && size < seen.smallest_code)
-        seen.smallest_code = size;
+    if (letter != ' ' && size < seen.min_letter)
+        seen.min_letter = size;
+    if (face == FACE_MONO && size < seen.min_code_letter)
+        seen.min_code_letter = size;
     seen.ellipses += letter == 0x2026;
     return __real_font_get_glyph(text, face, size, letter);
 }
@@ -254,7 +254,7 @@ int __wrap_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
     if (left < place->x - 1.5 || y < place->y - 1.5 ||
         left + wide > place->x + place->width + 1.5 ||
         y + style->size > place->y + place->height + 1.5) {
-        seen.cut++;
+        seen.cut_texts++;
         snprintf(seen.cut_words, sizeof seen.cut_words, "%s", markup);
     }
     snprintf(seen.texts + used, sizeof seen.texts - used, "%s ", markup);
@@ -263,13 +263,13 @@ int __wrap_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
     strtod(markup, &end);
     /* words of a picture may touch */
     bool counts = !*end || box_contains(seen.column, left + 1, y);
-    for (int i = 0; i < seen.words && counts; i++)
-        seen.over += word.x < seen.word[i].x + seen.word[i].width &&
-                     seen.word[i].x < word.x + word.width &&
-                     abs(word.y - seen.word[i].y) < word.height;
-    assert_true(seen.words < MAX_WORDS);
-    seen.word[seen.words] = word;
-    seen.words += counts;
+    for (int i = 0; i < seen.word_count && counts; i++)
+        seen.overlaps += word.x < seen.word[i].x + seen.word[i].width &&
+                         seen.word[i].x < word.x + word.width &&
+                         abs(word.y - seen.word[i].y) < word.height;
+    assert_true(seen.word_count < MAX_WORDS);
+    seen.word[seen.word_count] = word;
+    seen.word_count += counts;
     return __real_text_draw(text, canvas, style, x, y, align, markup);
 }
 
@@ -279,8 +279,9 @@ void __wrap_plot_curve(const Plot *plot, int count, const double *x,
     const Axis *axis = &plot->y;
     double slack = 1e-9 * fmax(fabs(axis->low), fabs(axis->high));
     for (int i = 0; i < count && plot->x.high > plot->x.low; i++)
-        seen.outside += x[i] >= plot->x.low && x[i] <= plot->x.high &&
-                        (y[i] < axis->low - slack || y[i] > axis->high + slack);
+        seen.outside_points +=
+            x[i] >= plot->x.low && x[i] <= plot->x.high &&
+            (y[i] < axis->low - slack || y[i] > axis->high + slack);
     __real_plot_curve(plot, count, x, y, width, colour);
 }
 
@@ -316,7 +317,7 @@ static const char *find_missing_text(const FrameContent *content)
 static void inspect_frame(const FrameContent *content, Paper *paper)
 {
     memset(&seen, 0, sizeof seen);
-    seen.smallest = seen.smallest_code = INT_MAX;
+    seen.min_letter = seen.min_code_letter = INT_MAX;
     seen.column =
         layout_create(content, paper->canvas.width, paper->canvas.height)
             .column;
@@ -340,7 +341,7 @@ static void check_frame(const LecturePage *page, Simulation *simulation,
     frame_add_lecture(column[kind], NULL, &content);
     frame_expand_texts(&content);
     inspect_frame(&content, paper);
-    bool good = (seen.smallest + 0.5) * (large ? 35 : 55) >= height;
+    bool good = (seen.min_letter + 0.5) * (large ? 35 : 55) >= height;
     if (kind == CODE_VIEW) { /* the picture and the main card stay */
         Layout beside = layout_create(&content, width, height);
         const Picture *picture = picture_of_scene(simulation->scene);
@@ -350,20 +351,20 @@ static void check_frame(const LecturePage *page, Simulation *simulation,
         CHECK(!page->main_card ||
               beside.card[card].height > 0.25 * beside.stage.height);
         good = good && (strcmp(page->file, "src/lecture.c") != 0 ||
-                        50 * (seen.smallest_code + 0.5) > height);
+                        50 * (seen.min_code_letter + 0.5) > height);
     }
     if (kind < CODE_VIEW)
         missing = find_missing_text(&content);
     if (!good || missing || (large && seen.ellipses > 0) ||
-        (kind != LIST_VIEW && seen.cut > 0) || seen.over > 0 ||
-        (!cuts && seen.outside > 0))
+        (kind != LIST_VIEW && seen.cut_texts > 0) || seen.overlaps > 0 ||
+        (!cuts && seen.outside_points > 0))
         fail_msg(
             "page %s, step %ld, at %d x %d, %d: letters of %d, of code "
             "%d, %d ends in dots, %d outside its box (%s), %d over others, %d "
             "curves beyond the axes, no '%s'",
-            page->name, simulation->steps, width, height, kind, seen.smallest,
-            seen.smallest_code, seen.ellipses, seen.cut, seen.cut_words,
-            seen.over, seen.outside, missing ? missing : "");
+            page->name, simulation->steps, width, height, kind, seen.min_letter,
+            seen.min_code_letter, seen.ellipses, seen.cut_texts, seen.cut_words,
+            seen.overlaps, seen.outside_points, missing ? missing : "");
 }
 
 /* On each page, at its start and later, letters have a 55th of the height, in
@@ -408,10 +409,10 @@ TEST(scenes_keep_their_words_in_place)
             frame_expand_texts(&content);
             inspect_frame(&content, &paper);
             paper_free(&paper);
-            if (seen.cut > 0 || seen.over > 0)
+            if (seen.cut_texts > 0 || seen.overlaps > 0)
                 fail_msg("%s at %d x %d: %d words cut (%s), %d over others",
-                         scenes[i].name, sizes[s][0], sizes[s][1], seen.cut,
-                         seen.cut_words, seen.over);
+                         scenes[i].name, sizes[s][0], sizes[s][1],
+                         seen.cut_texts, seen.cut_words, seen.overlaps);
         }
         free_simulations();
     }

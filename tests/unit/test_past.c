@@ -286,8 +286,7 @@ static bool make_step_after_jerk(bool descends)
 }
 
 /* Every step ends, whatever the jerks of the mouse, the time step and the
- * method. A run with too much energy begins again. 10 000 steps of each
- * method with all variations. */
+ * method. A run with too much energy begins again. Long: 10 000 steps each. */
 TEST(random_drags_end)
 {
     const int steps = choose_case_count(10000, 150);

@@ -72,9 +72,8 @@ static void check_descent_path(const Simulation *simulation)
     }
 }
 
-/* From a grid of starts the clamped direction is downhill and the run ends at a
- * minimum. The unprojected one is downhill where E is convex, and uphill at
- * some other starts. */
+/* From a grid of starts the clamped direction leads down to a minimum. The
+ * unprojected one is downhill where E is convex, and uphill at other starts. */
 TEST(landscape_is_downhill_from_everywhere)
 {
     int uphill = 0, hollow = 0;

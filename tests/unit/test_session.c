@@ -81,9 +81,9 @@ static uint64_t hash_aspect(const char *aspect)
 static char window_text[1 << 16], column_text[1 << 15];
 static Box column;
 static struct {
-    size_t start; /* offset in window_text */
-    double x, y;  /* pixels, middle of the left end */
-    double size;  /* pixels */
+    size_t offset; /* offset in window_text */
+    double x, y;   /* pixels, middle of the left end */
+    double size;   /* pixels */
     Colour colour;
 } texts[1024];
 static int text_count;
@@ -95,7 +95,7 @@ int __wrap_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
                      double x, double y, Align align, const char *markup)
 {
     size_t used = strlen(window_text), more = strlen(column_text);
-    texts[text_count].start = used;
+    texts[text_count].offset = used;
     texts[text_count].x = x;
     texts[text_count].y = y + 0.5 * style->size;
     texts[text_count].size = style->size;
@@ -140,7 +140,7 @@ static int find_text(const char *words)
     double distance = INFINITY;
     collect_texts();
     for (int i = 0; i < text_count; i++) {
-        const char *text = window_text + texts[i].start;
+        const char *text = window_text + texts[i].offset;
         const char *at = strstr(text, words);
         double away = hypot(texts[i].x - mouse[0], texts[i].y - mouse[1]);
         if (at && at < strchr(text, '\n') && away < distance) {
@@ -521,7 +521,7 @@ static void add_facts_of_parts(void)
 }
 
 /* Collects what the window shows, as lines of text. */
-static void collect_facts(void)
+static void collect_window_facts(void)
 {
     static const char *const kinds[] = {"none",     "node",  "spring",
                                         "obstacle", "other", "other",
@@ -593,7 +593,7 @@ static void add_facts_to_record(const char *line)
     memcpy(before, facts, sizeof before);
     player_build_frame(&player);
     const LiveValues *values = &active_pane(content)->values;
-    collect_facts();
+    collect_window_facts();
     for (int i = 0; i < now.rows; i++)
         add_fact("%s %.9g", now.row[i].name, now.row[i].value);
     if (content->lecture.page)
@@ -687,7 +687,7 @@ static void add_window_to_record(const char *unused)
     const Layout layout = find_layout();
     memcpy(before, now, sizeof before);
     for (int i = 0; i < text_count; i++) {
-        const char *text = window_text + texts[i].start;
+        const char *text = window_text + texts[i].offset;
         const double x = texts[i].x, y = texts[i].y;
         const char *card = find_card_name(&layout, x, y);
         const Colour colour = texts[i].colour & 0xffffff;
@@ -768,7 +768,7 @@ static void check_fact(const char *line)
     static char copy[sizeof facts];
     bool found = false;
     player_build_frame(&player);
-    collect_facts();
+    collect_window_facts();
     memcpy(copy, facts, sizeof copy);
     for (char *at = strtok(copy, "\n"); at && !found; at = strtok(NULL, "\n")) {
         size_t head = strcspn(at, "\t");

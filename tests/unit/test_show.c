@@ -191,8 +191,7 @@ TEST(fine_squares_are_faces)
     CHECK((stretched >> 16 & 255) > (stretched & 255));
 }
 
-/* The view follows nodes while positions are finite; otherwise words say why
- * the picture is empty. */
+/* The view follows finite positions; else words say why a picture is empty. */
 TEST(distant_nodes_are_drawn_or_reported)
 {
     begin_show("square", 0);

@@ -87,8 +87,8 @@ TEST(broken_promises_are_noticed)
 {
     static const struct {
         const char *line;
-        void (*set_target)(TimeIntegrator *), (*finish)(TimeIntegrator *);
-        const char *why;
+        void (*set_target)(TimeIntegrator *), (*set_state)(TimeIntegrator *);
+        const char *reason;
     } rows[] = {
         {"--segments 2", NULL, shorten_motion, "E rises"},
         {"--segments 2 --integrator midpoint", NULL, shorten_motion, "E rises"},
@@ -112,10 +112,10 @@ TEST(broken_promises_are_noticed)
         CHECK(watch_step(&watch) == VERDICT_CONVERGED);
         method.set_target =
             rows[i].set_target ? rows[i].set_target : method.set_target;
-        method.set_state = rows[i].finish;
+        method.set_state = rows[i].set_state;
         run->method = &method;
         CHECK(watch_step(&watch) == VERDICT_WRONG);
-        CHECK(strstr(watch.reason, rows[i].why) != NULL);
+        CHECK(strstr(watch.reason, rows[i].reason) != NULL);
         watch_free(&watch);
     }
 }

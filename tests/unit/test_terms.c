@@ -468,7 +468,7 @@ static void check_projection(TermCase *c, Random *random)
     CHECK_OK(incremental_potential_extend_pattern(&iterate, &grown));
     CHECK_OK(incremental_potential_create_hessian(&c->system, &A));
     CHECK(incremental_potential_hessian(&iterate, PROJECTION_NONE, &A) == 0);
-    dense_from_sparse(&A, plain);
+    fill_dense_matrix(&A, plain);
     double Hq[SIZE], scale = 0;
     incremental_potential_apply_hessian(&iterate, PROJECTION_NONE, c->q, Hq);
     for (int i = 0; i < n * n; i++)
@@ -483,7 +483,7 @@ static void check_projection(TermCase *c, Random *random)
     const Projection projections[2] = {PROJECTION_CLAMP, PROJECTION_ABS};
     for (int f = 0; f < 2; f++) {
         incremental_potential_hessian(&iterate, projections[f], &A);
-        dense_from_sparse(&A, H);
+        fill_dense_matrix(&A, H);
         for (int trial = 0; trial < 20; trial++) {
             double y[SIZE], value = 0;
             for (int i = 0; i < n; i++)

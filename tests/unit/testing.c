@@ -14,7 +14,7 @@
 enum { MAX_SIMULATIONS = 1024 };
 
 static struct {
-    Simulation *run[MAX_SIMULATIONS];
+    Simulation *simulation[MAX_SIMULATIONS];
     int count;
     char line[400]; /* command line of the newest simulation */
 } tested;
@@ -139,7 +139,7 @@ void random_system(Random *random, SpringKind state, System *system, double *x)
     }
 }
 
-void dense_from_sparse(const Sparse *A, double *dense)
+void fill_dense_matrix(const Sparse *A, double *dense)
 {
     for (int i = 0; i < A->size * A->size; i++)
         dense[i] = 0;
@@ -201,7 +201,7 @@ Simulation *simulate_observed(NewtonObserver observer, void *user,
     vsnprintf(tested.line, sizeof tested.line, line, words);
     va_end(words);
     simulation_from_line(tested.line, observer, user, run);
-    return tested.run[tested.count++] = run;
+    return tested.simulation[tested.count++] = run;
 }
 
 /* Applies and releases a control. */
@@ -245,8 +245,8 @@ Simulation *make_steps(Simulation *simulation, int count)
 void free_simulations(void)
 {
     while (tested.count > 0) {
-        simulation_free(tested.run[--tested.count]);
-        free(tested.run[tested.count]);
+        simulation_free(tested.simulation[--tested.count]);
+        free(tested.simulation[tested.count]);
     }
 }
 

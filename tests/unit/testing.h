@@ -73,7 +73,7 @@ enum { MAX_NODES = 12, MAX_COORDINATES = 2 * MAX_NODES, MAX_SPRINGS = 40 };
 void random_system(Random *random, SpringKind state, System *system, double *x);
 
 /* Writes a sparse matrix to a full one [size size]. */
-void dense_from_sparse(const Sparse *A, double *dense);
+void fill_dense_matrix(const Sparse *A, double *dense);
 
 /* Returns a row up to " | " and moves the row behind it; NULL: it is empty. */
 char *take_next_part(char **row);
