@@ -22,6 +22,8 @@ $(B)/tests/unit/test_memory: LIBS += $(call wrap,malloc calloc realloc aligned_a
 $(B)/tests/unit/test_show $(B)/tests/unit/test_session: \
   LIBS += $(call wrap,text_draw)
 $(B)/tests/unit/test_player: LIBS += $(call wrap,clock_gettime)
+$(B)/tests/unit/test_layout $(B)/tests/unit/test_session: \
+  LIBS += $(call wrap,font_get_glyph)
 $(B)/tests/unit/test_pages: \
   LIBS += $(call wrap,font_get_glyph text_draw plot_curve)
 

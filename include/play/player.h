@@ -104,7 +104,6 @@ typedef struct Tour {
     int guesses, right_guesses; /* numbers of guesses so far */
     bool is_page_running;       /* a page's commands are running */
     Options page_options[OPTIONS_MAX_DRAWN_PANES]; /* options of each pane */
-    int page_panes;                                /* page's number of panes */
 } Tour;
 
 enum { LABEL_SIZE = 64 }; /* bytes */

@@ -95,8 +95,7 @@ static Box find_touched_pixels(Box clip, double left, double top, double right,
 
 int pixel_from_coordinate(double place)
 {
-    return place >= -MAX_COORDINATE ? (int)fmin(place, MAX_COORDINATE)
-                                    : -MAX_COORDINATE;
+    return (int)fmin(fmax(place, -MAX_COORDINATE), MAX_COORDINATE);
 }
 
 Box box_inset(Box box, int margin)

@@ -412,7 +412,7 @@ static void place_main_card(const FrameContent *content, Layout *layout)
 {
     const int main_card = find_main_card(content);
     double bar = 3 * layout->em; /* a closed card is lower */
-    if (main_card < 0 || main_card >= layout->cards || layout->panes != 1 ||
+    if (main_card < 0 || layout->cards == 0 || layout->panes != 1 ||
         layout->stage.height < 2 * bar ||
         (content->cards.enlarged >= 0 && content->cards.enlarged != main_card))
         return;

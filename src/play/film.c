@@ -121,7 +121,6 @@ Status film_close(Film *film, CloseAction keep)
             film->frames == 0
                 ? output_report_failure(output, "no frame was drawn for it")
                 : report_ffmpeg(film, "ffmpeg could not write it");
-    film->pipe = NULL;
     Status closed = output_close(output, !full    ? KEEP_NOTHING
                                          : status ? KEEP_PART
                                                   : keep);

@@ -75,7 +75,6 @@ static Command resolve_key_command(const Player *player, const Command *asked)
 static void store_page_option(Player *player, const Command *command)
 {
     Options *own = &player->tour.page_options[player->active];
-    player->tour.page_panes = past_panes(&player->past);
     if (command->kind == COMMAND_FLIP)
         own->flips = exhibit_get_flip_bits(player_simulation(player));
     if (command->kind == COMMAND_SET)

@@ -71,8 +71,7 @@ const Options *player_find_page_options(const Player *player,
 {
     const Past *past = &player->past;
     const Options *own = player->tour.page_options;
-    int panes = (int)fmin(player->tour.page_panes, past_panes(past));
-    for (int p = 0; p < panes; p++)
+    for (int p = 0; p < past_panes(past); p++)
         if (!option_is_equal(row, &own[p], &past_control(past, p)->options))
             return &own[p];
     return NULL;
@@ -187,7 +186,6 @@ void player_deselect(Player *player)
 {
     player->hands.selected = NULL;
     player->hands.is_typing = false;
-    player->hands.typed[0] = '\0';
 }
 
 void player_format_value(const OptionRow *row, const Options *options,

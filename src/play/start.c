@@ -139,7 +139,6 @@ void player_store_page_options(Player *player, const Options *options)
 {
     for (int p = 0; p < OPTIONS_MAX_DRAWN_PANES; p++)
         player->tour.page_options[p] = *options;
-    player->tour.page_panes = 1;
 }
 
 bool player_hides_answer(const Player *player)
