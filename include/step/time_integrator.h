@@ -76,8 +76,8 @@ extern const IntegratorMethod integrator_methods[];
 const IntegratorMethod *integrator_find_method(const char *name);
 
 /* Whether the system has a term that the method is not right for. */
-bool integrator_method_refuses(const IntegratorMethod *method,
-                               const System *system);
+bool integrator_method_refuses_system(const IntegratorMethod *method,
+                                      const System *system);
 
 /* Allocates the run of a method on a system, and copies the start.
  *   settings  of Newton, with h; explicit methods use only h

@@ -11,7 +11,7 @@ static const IntegratorMethod *find_next_method(Player *player, int pane)
     do {
         next = next[1].name ? next + 1 : &integrator_methods[0];
         taken = next->only_by_name ||
-                integrator_method_refuses(next, &simulation->system);
+                integrator_method_refuses_system(next, &simulation->system);
         for (int p = 0; p < past_panes(&player->past); p++)
             taken =
                 taken || player->past.pane[p].simulation.run[0].method == next;

@@ -118,7 +118,7 @@ static const char *find_refusal_reason(const Newton *newton)
     return NULL;
 }
 
-bool multigrid_accepts(Newton *newton)
+bool multigrid_accepts_problem(Newton *newton)
 {
     Solver solver = newton->settings.solver;
     bool wanted = solver == SOLVER_AUTO

@@ -30,4 +30,4 @@ void multigrid_free(Multigrid *multigrid);
 /* Whether multigrid makes the minimisation that newton->iterate describes: the
  * settings ask for multigrid, and all terms suit it.  newton->refusal_reason
  * becomes the reason why multigrid cannot, or NULL. */
-bool multigrid_accepts(Newton *newton);
+bool multigrid_accepts_problem(Newton *newton);

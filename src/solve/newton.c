@@ -28,7 +28,7 @@ void newton_start(Newton *newton, const double *x_n, const double *u,
     newton->change_sum = newton->change_abs_sum = 0;
     rounding_prepare(newton);
     newton->active_solver =
-        multigrid_accepts(newton) ? SOLVER_MULTIGRID : SOLVER_NEWTON;
+        multigrid_accepts_problem(newton) ? SOLVER_MULTIGRID : SOLVER_NEWTON;
 }
 
 void swap_iterates(Newton *newton)

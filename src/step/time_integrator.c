@@ -15,8 +15,8 @@ const IntegratorMethod *integrator_find_method(const char *name)
     return NULL;
 }
 
-bool integrator_method_refuses(const IntegratorMethod *method,
-                               const System *system)
+bool integrator_method_refuses_system(const IntegratorMethod *method,
+                                      const System *system)
 {
     for (int t = 0; t < system->terms; t++) {
         const TermKind *kind = system->term[t].kind;
@@ -34,7 +34,7 @@ Status time_integrator_create(const IntegratorMethod *method, System *system,
     *run = (TimeIntegrator){
         .method = method, .system = system, .x_length = size, .h = settings->h};
     if (!system_is_feasible(make_eval_point(system, x, NULL, x)) ||
-        integrator_method_refuses(method, system) ||
+        integrator_method_refuses_system(method, system) ||
         (system->pin_v && !method->supports_all_terms))
         return STATUS_INVALID_INPUT;
     run->x = calloc((4 + (size_t)method->memory_arrays) * size, sizeof *x);

@@ -48,7 +48,7 @@ static void add_tally(const VerdictTally *tally, VerdictTally *sum)
     sum->updates += tally->updates;
     sum->judged_residuals += tally->judged_residuals;
     sum->undecided += tally->undecided;
-    for (int i = 0; i < VERDICTS; i++)
+    for (int i = 0; i < VERDICT_COUNT; i++)
         sum->steps[i] += tally->steps[i];
     for (int i = 0; i < STATUS_COUNT; i++)
         sum->steps_by_status[i] += tally->steps_by_status[i];
@@ -111,8 +111,8 @@ static void run_random_families(uint64_t seed, bool quick, VerdictTally *sum)
 
 static int run_command_line(const char *line)
 {
-    static const char *const words[VERDICTS] = {"converged", "reported",
-                                                "WRONG"};
+    static const char *const words[VERDICT_COUNT] = {"converged", "reported",
+                                                     "WRONG"};
     VerdictTally tally = {0};
     char reason[512] = "";
     begin_case(line);

@@ -13,7 +13,7 @@
 /* E of a step, and the time for which walls have moved in the step, s */
 typedef struct StepPotential {
     IncrementalPotential E;
-    double wall_time;
+    double motion_time;
 } StepPotential;
 
 /* Returns E at x_n + u, not rounded, by oracle.c, J s^2. */
@@ -41,15 +41,14 @@ typedef enum Verdict {
     VERDICT_CONVERGED, /* the oracle confirms that the step converged */
     VERDICT_REPORTED,  /* the step did not converge, and its status says so */
     VERDICT_WRONG,     /* a promise was broken */
-    VERDICTS
+    VERDICT_COUNT
 } Verdict;
 
-/* Counts of cases, wrong cases, updates, steps by verdict and by status,
- * residuals judged by the oracle, and those of them that are undecided, as
- * rounding is larger than the tolerance. */
+/* Counts of cases, wrong cases, updates, judged residuals, those of them that
+ * rounding leaves undecided, and steps by verdict and by status. */
 typedef struct VerdictTally {
-    long cases, wrong, updates, steps[VERDICTS], judged_residuals, undecided;
-    long steps_by_status[STATUS_COUNT];
+    long cases, wrong, updates, judged_residuals, undecided;
+    long steps[VERDICT_COUNT], steps_by_status[STATUS_COUNT];
 } VerdictTally;
 
 /* Watches one run: no node is behind a wall and no cell turned over, no update

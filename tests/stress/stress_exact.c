@@ -20,7 +20,7 @@ static Jet evaluate_step(const StepPotential *potential, const double *u,
     Probe probe = {.at = &at,
                    .h = sqrtl(E->weight),
                    .p = direction,
-                   .wall_time = potential->wall_time,
+                   .motion_time = potential->motion_time,
                    .jitter = jitter};
     at.weight = E->weight;
     return oracle_step_energy(&probe, E->u_tilde);

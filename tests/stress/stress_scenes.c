@@ -215,7 +215,7 @@ bool stress_run_scenes(const char *kinds, uint64_t seed, long count, int steps,
 typedef struct RowContext {
     VerdictTally *tally;
     char *reason;
-    bool each_solver;
+    bool uses_each_solver;
 } RowContext;
 
 /* Runs a row "STEPS ! LINE", which must converge, or "STEPS ? LINE". */
@@ -227,9 +227,9 @@ static bool run_row(void *user, char *row)
     char must, given[STRESS_LINE_SIZE], line[STRESS_LINE_SIZE + 32];
     int steps;
     CHECK(sscanf(row, "%d %c %511[^\n]", &steps, &must, given) == 3);
-    for (int i = 0; i <= context->each_solver; i++) {
+    for (int i = 0; i <= context->uses_each_solver; i++) {
         snprintf(line, sizeof line, "%s%s", given,
-                 context->each_solver ? solvers[i] : "");
+                 context->uses_each_solver ? solvers[i] : "");
         long judged = context->tally->judged_residuals;
         Verdict verdict =
             stress_run_line(line, steps, context->tally, context->reason);

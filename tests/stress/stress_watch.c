@@ -114,9 +114,9 @@ static bool residual_passes(const RunWatch *watch, const double *u,
         watch->workspace[i] = watch->x_n[i] + u[i];
     bool either = settings->projection == PROJECTION_ON_DEMAND;
     for (int k = 0; k <= either; k++) {
-        double residual =
-            judge(&potential.E, u, watch->workspace, settings->h,
-                  potential.wall_time, lifts[settings->projection] - k, noise);
+        double residual = judge(&potential.E, u, watch->workspace, settings->h,
+                                potential.motion_time,
+                                lifts[settings->projection] - k, noise);
         *least = fmin(*least, residual);
         if (noise && watch->only_springs)
             *noise *= SHAKEN_FACTOR;
@@ -192,7 +192,7 @@ static bool energy_rises(RunWatch *watch, const double *from, const double *to,
                          energy_noise(&potential, from, watch->workspace) +
                          energy_noise(&potential, to, watch->workspace));
     return !(rise <= allowed) &&
-           !(wide_exact_rise(&potential.E, from, to, potential.wall_time) <=
+           !(wide_exact_rise(&potential.E, from, to, potential.motion_time) <=
              allowed);
 }
 

@@ -138,7 +138,7 @@ static Jet scaled_gap(Probe *probe, const Contact *contact, int i, int k,
     for (int axis = 0; axis < 2; axis++) {
         d[axis] = it->node >= 0 ? node_offset(probe, i, it->node, axis, false)
                                 : coordinate(probe, 2 * i + axis, false);
-        Real o = it->o[axis] - probe->wall_rewind * it->v[axis];
+        Real o = it->o[axis] - probe->rewind * it->v[axis];
         d[axis].f -= it->node >= 0 ? 0 : add_jitter(probe, o);
         n[axis] = it->n[axis];
     }
@@ -178,7 +178,7 @@ static void add_wall_friction(Probe *probe, Jet *sum, const Contact *contact,
         return;
     EvalPoint start = *probe->at;
     Probe before = {
-        .at = &start, .jitter = probe->jitter, .wall_rewind = probe->wall_time};
+        .at = &start, .jitter = probe->jitter, .rewind = probe->motion_time};
     Real n[2], e = ((const Friction *)term->data)->slip_speed * probe->h;
     start.x = start.x_n;
     Real s = scaled_gap(&before, contact, i, k, n).f;
@@ -593,9 +593,9 @@ static void add_unit_move(const PartFrame *frame, int k, double sign, double *p)
  * its frame. Returns the number of lifts. p, q [2n] are 0 before and after.
  *   lift  [4] out, what cutting adds to each eigenvalue
  *   rows  [4][6] out, eigenvectors over the coordinates of the frame's nodes */
-static int find_lifts(const Probe *probe, int row, const void *data, int part,
-                      double *p, double *q, PartFrame *frame, Real lift[4],
-                      Real rows[4][6])
+static int find_clamping(const Probe *probe, int row, const void *data,
+                         int part, double *p, double *q, PartFrame *frame,
+                         Real lift[4], Real rows[4][6])
 {
     Probe own = *probe;
     *frame = make_part_frame(&own, formulas[row].part_kind, data, part);
@@ -707,13 +707,13 @@ static int find_part_nodes(const Probe *probe, PartKind parts, const void *data,
 }
 
 /* Adds `lifts` times what cutting adds to a block with the frame's nodes. */
-static void add_lift(const Probe *probe, int row, const void *data, int part,
-                     int lifts, double *p, double *q, PartBlock *block)
+static void clamp_block(const Probe *probe, int row, const void *data, int part,
+                        int lifts, double *p, double *q, PartBlock *block)
 {
     PartFrame frame;
     Real lift[4], rows[4][6];
     int size = 2 * block->count;
-    int n = find_lifts(probe, row, data, part, p, q, &frame, lift, rows);
+    int n = find_clamping(probe, row, data, part, p, q, &frame, lift, rows);
     for (int i = 0; i < size * size; i++)
         for (int k = 0; k < n; k++)
             block->H[i] += lifts * probe->at->weight * lift[k] *
@@ -745,7 +745,7 @@ static bool evaluate_part(Probe *probe, int row, const void *data, int part,
         block->g[i / n] = w * W.p;
     }
     if (lifts && formulas[row].kind->rank != RANK_FRICTION)
-        add_lift(probe, row, data, part, lifts, p, q, block);
+        clamp_block(probe, row, data, part, lifts, p, q, block);
     return true;
 }
 
@@ -900,7 +900,7 @@ double exact_rise(const IncrementalPotential *E, const double *from,
     for (int i = 0; i < 2; i++) {
         EvalPoint at = make_eval_point(E->system, E->x_n, i ? to : from, NULL);
         at.weight = E->weight;
-        Probe probe = {.at = &at, .h = sqrtl(E->weight), .wall_time = moved};
+        Probe probe = {.at = &at, .h = sqrtl(E->weight), .motion_time = moved};
         energy[i] = oracle_step_energy(&probe, E->u_tilde).f;
     }
     return (double)(energy[1] - energy[0]);
@@ -955,7 +955,7 @@ static double find_residual_on_flow_side(const IncrementalPotential *E,
     at.weight = E->weight;
     const Probe probe = {.at = &at,
                          .h = sqrtl(E->weight),
-                         .wall_time = moved,
+                         .motion_time = moved,
                          .flow_side = side};
     const DenseSystem to = {E->system, g, g + n, g + 2 * n, (int)n, lifts};
     assemble_system(&probe, u, E->u_tilde, &to);

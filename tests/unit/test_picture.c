@@ -30,7 +30,7 @@ static double sum_ink(const Canvas *canvas)
 }
 
 /* Returns a white canvas, valid until the next call. */
-static Canvas *white_canvas(int width, int height)
+static Canvas *make_white_canvas(int width, int height)
 {
     static Canvas canvas;
     canvas_free(&canvas);
@@ -50,7 +50,7 @@ TEST(shapes_have_their_area)
         double width = random_uniform(&random, 1, 6);
         double x = random_uniform(&random, 99, 101), y = 100;
         double radius = random_uniform(&random, 1, 40);
-        Canvas *canvas = white_canvas(200, 200);
+        Canvas *canvas = make_white_canvas(200, 200);
         if (i % 3 == 0)
             canvas_line(canvas, x, y, x + 80 * cos(angle), y + 80 * sin(angle),
                         width, 0xff000000);
@@ -71,7 +71,7 @@ TEST(shapes_are_clipped)
 {
     Random random = {13};
     const double odd[] = {NAN, INFINITY, -INFINITY, 1e308, -1e308, 1e30, 0};
-    Canvas *canvas = white_canvas(31, 17);
+    Canvas *canvas = make_white_canvas(31, 17);
     for (int i = 0; i < 2000; i++) {
         double at[4];
         for (int k = 0; k < 4; k++)
@@ -255,7 +255,7 @@ TEST(readme_pictures_are_current)
 TEST(png_files_are_whole)
 {
     Random random = {21};
-    Canvas *canvas = white_canvas(37, 23);
+    Canvas *canvas = make_white_canvas(37, 23);
     char name[] = "/tmp/elasto-picture-XXXXXX";
     for (int i = 0; i < 37 * 23; i++)
         canvas->pixels[i] =

@@ -126,7 +126,7 @@ TEST(the_overview_is_alive)
     end_player();
 }
 
-static const History *read_history(void)
+static const History *get_history(void)
 {
     static History history;
     past_fill_history(&player.past, 0, &history);
@@ -142,7 +142,7 @@ TEST(curves_span_what_is_known)
         CHECK_OK(obey_line("step"));
         if (newest % 300)
             continue;
-        const History *history = read_history();
+        const History *history = get_history();
         int count = history->count, pace = 1;
         while (newest / pace > HISTORY_POINTS - 2)
             pace *= 2;
@@ -150,14 +150,14 @@ TEST(curves_span_what_is_known)
         for (int i = 0; i < count; i++)
             CHECK_NEAR(history->time[i], 0.004 * pace * i, 1e-9);
     }
-    double before = read_history()->value[1][400];
+    double before = get_history()->value[1][400];
     CHECK_OK(obey_line("goto 30"));
     CHECK_OK(obey_line("set stiffness 2e5"));
-    CHECK(read_history()->count == 31);
+    CHECK(get_history()->count == 31);
     CHECK_OK(obey_line("step"));
     CHECK_OK(obey_line("undo"));
-    CHECK(read_history()->count == 2100 / 4 + 1);
-    CHECK(read_history()->value[1][400] == before);
+    CHECK(get_history()->count == 2100 / 4 + 1);
+    CHECK(get_history()->value[1][400] == before);
     end_player();
 }
 

@@ -20,14 +20,14 @@ int main(int argc, char **argv);
 enum { MAX_UPDATE_ROWS = 1024 };
 
 /* Newton updates of a table or of a run */
-typedef struct Updates {
+typedef struct UpdateRows {
     int count;
     struct {
         long step;
         int update;
         double residual, alpha;
     } row[MAX_UPDATE_ROWS];
-} Updates;
+} UpdateRows;
 
 static FILE *open_reference(const char *name, const char *kind)
 {
@@ -40,7 +40,7 @@ static FILE *open_reference(const char *name, const char *kind)
     return file;
 }
 
-static void read_updates(FILE *file, Updates *updates)
+static void read_updates(FILE *file, UpdateRows *updates)
 {
     int i = 0;
     while (i < MAX_UPDATE_ROWS &&
@@ -55,7 +55,7 @@ static void read_updates(FILE *file, Updates *updates)
 
 static bool store_update(void *user, const NewtonRecord *record)
 {
-    Updates *kept = user;
+    UpdateRows *kept = user;
     CHECK(kept->count < MAX_UPDATE_ROWS);
     int i = kept->count++;
     kept->row[i].step = record->step_number;
@@ -68,7 +68,7 @@ static bool store_update(void *user, const NewtonRecord *record)
 /* Checks that updates have the same steps and alpha: a power of two exactly,
  * the limit of a gap of 1e-3 to 1e-11. Residuals agree to 1e-8, since those
  * near the end of a step are differences of nearly equal numbers. */
-static void check_updates(const Updates *got, const Updates *expected)
+static void check_updates(const UpdateRows *got, const UpdateRows *expected)
 {
     CHECK_NEAR(got->count, expected->count, 0);
     for (int i = 0; i < got->count; i++) {
@@ -104,7 +104,7 @@ static void check_state(FILE *file, long step, int nodes, const double *x,
 
 /* A row of the table in tests/data/reference/README.md */
 typedef struct ReferenceCase {
-    char name[32], reader[8], line[320];
+    char name[32], tested_program[8], line[320];
     int interval, steps;
     double v; /* m/s, about the largest velocity */
 } ReferenceCase;
@@ -121,8 +121,8 @@ static int read_cases(void **unused)
     while (fgets(row, sizeof row, file)) {
         ReferenceCase *it = &cases[count];
         count += sscanf(row, "| %31s | %7s | %d | %d | %lf | `%319[^`]",
-                        it->name, it->reader, &it->interval, &it->steps, &it->v,
-                        it->line) == 6;
+                        it->name, it->tested_program, &it->interval, &it->steps,
+                        &it->v, it->line) == 6;
     }
     fclose(file);
     return count == 19 ? 0 : -1;
@@ -130,7 +130,7 @@ static int read_cases(void **unused)
 
 static bool case_is_for(const ReferenceCase *one, const char *who)
 {
-    return strcmp(one->reader, who) == 0;
+    return strcmp(one->tested_program, who) == 0;
 }
 
 /* Reads the first state of a file; nodes move by at most `most`, m. */
@@ -213,7 +213,7 @@ static void free_solid(Solid *solid)
  * 1e-9, over h. A step leaves no memory behind: 20 kB for the C library. */
 TEST(lecture_follows_the_slides)
 {
-    static Updates got, expected;
+    static UpdateRows got, expected;
     for (int i = 0; i < count && case_is_for(&cases[i], "lecture"); i++) {
         const Options options = simulate("%s", cases[i].line)->options;
         Solid solid = square(1, options.segments, 1000, options.stiffness);
@@ -244,7 +244,7 @@ TEST(lecture_follows_the_slides)
 /* Makes a step of lecture.c that updates x and then tests p. All of p is used
  * if it is so short that rounding of E hides its effect. */
 static void make_step_tested_last(Solid *solid, double h, double tol, int step,
-                                  Updates *updates)
+                                  UpdateRows *updates)
 {
     int n = solid->nodes;
     size_t bytes = (size_t)n * sizeof(Vec2);
@@ -280,8 +280,9 @@ static void make_step_tested_last(Solid *solid, double h, double tol, int step,
  * omits if it is shorter than a millionth of a spring (negligible, m/s).
  * Directions by the factor of an earlier update are refined to 1e-4; the next p
  * is down to 1/400 of them, or 1e-3 of the tolerance. */
-static void check_same_updates(const Updates *got, const Updates *expected,
-                               double tolerance, double negligible)
+static void check_same_updates(const UpdateRows *got,
+                               const UpdateRows *expected, double tolerance,
+                               double negligible)
 {
     int i = 0;
     for (int k = 0; k < expected->count; k++) {
@@ -306,7 +307,7 @@ static void check_same_updates(const Updates *got, const Updates *expected,
  * 15 steps, and to 1e-8 m at 1e-9 m/s. */
 TEST(the_program_makes_the_updates_of_lecture)
 {
-    static Updates got, expected;
+    static UpdateRows got, expected;
     for (int i = 0; i < count && case_is_for(&cases[i], "lecture"); i++)
         for (int tight = 0; tight < 2; tight++) {
             got.count = expected.count = 0;
