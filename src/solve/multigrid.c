@@ -15,10 +15,9 @@
 static const double NEARBY = 0.05;
 
 /* A direction is poor if the bound of p after it is more than STALLS times the
- * bound before.  After the first poor one of a step the Hessian is clamped.
- * Tiles relax after each poor one whose p is not small.  A sweep of a tile is
- * worth its time if it lowers E by more than PACE times the last direction's
- * decrease, divided by the number of tiles. */
+ * bound before.  Tiles relax after each poor direction whose p is not small.  A
+ * sweep of a tile is worth its time if it lowers E by more than PACE times the
+ * last direction's decrease, divided by the number of tiles. */
 static const double STALLS = 0.3, PACE = 0.01;
 
 /* If the first sweep of all tiles in a step lowers E by less than USELESS times
@@ -48,6 +47,7 @@ struct Multigrid {
                                 conjugate to last_p */
     double moved_since_setup; /* m, upper bound of a node's displacement since
                                  the V-cycle's matrices were computed */
+    long direction_cycles;    /* number of V-cycles that computed p */
     double largest_change;    /* J s^2, largest change of E in this step, < 0 */
     Quartic line_E;           /* E(x + alpha p) - E(x), J s^2 */
     unsigned version;         /* System.version that the grid was made for */
@@ -167,12 +167,12 @@ static Status multigrid_copy_problem(Newton *newton)
 
 /* ---- search direction ---- */
 
-/* Clamps the Hessian in the rest of the step. */
-static void multigrid_clamp_hessian(Multigrid *mg)
+/* Chooses the clamped or the exact Hessian for the next directions. */
+static void multigrid_clamp_hessian(Multigrid *mg, bool is_clamped)
 {
-    if (!mg->cycle.is_clamped)
+    if (mg->cycle.is_clamped != is_clamped)
         mg->moved_since_setup = INFINITY;
-    mg->cycle.is_clamped = true;
+    mg->cycle.is_clamped = is_clamped;
 }
 
 /* Computes p = -H^-1 g up to a linear residual, and tests p. */
@@ -185,6 +185,7 @@ static void multigrid_compute_direction(Newton *newton)
     }
     const double h = newton->settings.h * mg->grid.length_unit;
     const double longest = h * newton->tolerance;
+    const long cycles = mg->cycle.cycles;
     double largest;
     if (v_cycle_solve(&mg->cycle, mg->g, mg->gradient_norm2, longest, mg->p,
                       &largest)) {
@@ -194,6 +195,7 @@ static void multigrid_compute_direction(Newton *newton)
             &mg->grid, largest * (1 + FLT_EPSILON), square, longest);
     }
     newton->record.residual = largest / h;
+    mg->direction_cycles = mg->cycle.cycles - cycles;
     newton->counters.cycles = mg->cycle.cycles;
 }
 
@@ -267,7 +269,7 @@ static Status multigrid_find_step_length(Newton *newton)
     const double last_slope = mg->line_E.q[0] * mg->grid.energy_unit;
     multigrid_search_line(newton, last_size, last_slope);
     if (!(record->alpha > 0) && !mg->cycle.is_clamped) {
-        multigrid_clamp_hessian(mg);
+        multigrid_clamp_hessian(mg, true);
         multigrid_compute_direction(newton);
         multigrid_search_line(newton, last_size, last_slope);
     }
@@ -279,7 +281,11 @@ static Status multigrid_find_step_length(Newton *newton)
     return STATUS_OK;
 }
 
-/* Adds alpha p to x, then relaxes tiles of nodes if the directions stall. */
+/* Adds alpha p to x, then relaxes tiles of nodes if the directions stall.  The
+ * Hessian is clamped after a direction that raised the bound of p.  The exact
+ * Hessian returns after a direction that lowered the bound, if one V-cycle was
+ * enough for p: near a minimum the exact Hessian needs fewer updates, and each
+ * of them takes less time. */
 static Status multigrid_update_iterate(Newton *newton)
 {
     Multigrid *mg = newton->multigrid;
@@ -293,8 +299,9 @@ static Status multigrid_update_iterate(Newton *newton)
     if (newton->passes_test)
         return STATUS_OK;
     const bool is_poor = mg->p_bound > STALLS * mg->last_p_bound;
-    if (is_poor)
-        multigrid_clamp_hessian(mg);
+    multigrid_clamp_hessian(
+        mg, mg->p_bound > mg->last_p_bound ||
+                (mg->cycle.is_clamped && mg->direction_cycles > 1));
     mg->has_relaxed = is_poor && record->iteration >= mg->tiles_rest_until &&
                       record->residual > SMALL_P * newton->tolerance;
     if (mg->has_relaxed) {

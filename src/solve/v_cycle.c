@@ -58,11 +58,10 @@ INLINE int rows_to_coarsen(const Level *level)
 
 /* Computes the tensors of the springs that start in row i.  A clamped Hessian
  * has 0 in place of negative eigenvalues, as that across a short spring. */
-INLINE void compute_tensor_row(const VCycle *cycle, int i)
+INLINE void compute_tensor_row(const VCycle *cycle, int i, bool is_clamped)
 {
     const Grid grid = *cycle->grid;
     const Level level = cycle->level[0];
-    const float kept = cycle->is_clamped ? 0 : 1;
     for (int odd = 0; odd < 2; odd++)
         for (NodeRun at = grid_nodes(&grid, i, odd); at.first < at.end;
              at.first += LANES) {
@@ -71,8 +70,10 @@ INLINE void compute_tensor_row(const VCycle *cycle, int i)
         const ptrdiff_t q = at.first + e;                                      \
         FloatSpring s = evaluate_float_spring(&grid, kind, q, to, numbers);    \
         CLAMPED_TENSOR(s.s, s.d2 + 1e-35f, iso, along);                        \
-        along = along * (1 - kept) + 2 * kept;                                 \
-        iso += kept * WHERE(s.s < 0, s.s);                                     \
+        if (!is_clamped) {                                                     \
+            along = (Floats){0} + 2;                                           \
+            iso = s.s;                                                         \
+        }                                                                      \
         FLOATS(level.K[kind][0], q) = s.c * (iso + along * s.dx * s.dx);       \
         FLOATS(level.K[kind][1], q) = s.c * along * s.dx * s.dy;               \
         FLOATS(level.K[kind][2], q) = s.c * (iso + along * s.dy * s.dy);       \
@@ -174,8 +175,10 @@ INLINE void set_up_rows(const VCycle *cycle, const Level *level, int i)
 {
     for (int row = i; row < i + 2; row++)
         if (row_exists(level->rows.nodes, row)) {
-            if (level == cycle->level)
-                compute_tensor_row(cycle, row);
+            if (level == cycle->level && cycle->is_clamped)
+                compute_tensor_row(cycle, row, true);
+            else if (level == cycle->level)
+                compute_tensor_row(cycle, row, false);
             invert_diagonal_row(level, row);
         }
     if (level->coarse && row_exists(rows_to_coarsen(level), i))

@@ -1,8 +1,8 @@
 /* v_cycle.h - p = -H^-1 g without a factor: a multigrid V-cycle on the Hessian
- * H in single precision.  One cycle on the exact H finds p until H is clamped.
- * The caller clamps H, or v_cycle_solve does for a small p that may be far from
- * exact.  From then on cycles precondition conjugate gradients, which tell how
- * exact p is.
+ * H in single precision.  On the exact H one cycle finds p.  On the clamped H
+ * cycles precondition conjugate gradients, which tell how exact p is.  The
+ * caller clamps H, or v_cycle_solve does for a small p that may be far from
+ * exact.
  *
  * A level has a tensor, K = w 2k/l2 (iso I + along d d^T), for each spring and
  * a mass for each node; H x at a node is m x + sum K (x - x').  A coarser level

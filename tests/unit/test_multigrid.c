@@ -213,7 +213,7 @@ TEST(steps_take_no_more_work)
 {
     static const struct {
         int segments, smooth_cycles, rough_cycles;
-    } rows[] = {{16, 23, 44}, {32, 25, 75}, {64, 30, 111}, {128, 33, 221}};
+    } rows[] = {{16, 23, 45}, {32, 25, 78}, {64, 30, 123}, {128, 33, 223}};
     for (int i = 0; i < 8; i++) {
         Random random = {7};
         bool rough = i % 2;
