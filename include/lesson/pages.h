@@ -17,10 +17,10 @@ typedef struct LecturePage {
     const char *topic;        /* title of the slide */
     const char *section;      /* heading above the page in the list, or NULL */
     bool is_extra;            /* whether the 80 minutes leave the page out */
-    const char *text;         /* text: what the page is about */
+    const char *intro;        /* text: what the page is about */
     const char *formula;      /* text: large formulas, one on a line, or NULL */
     const char *command_line; /* scene and settings, as on the command line */
-    const char *cards;        /* names of the open cards, separated by blanks */
+    const char *open_cards;   /* names of the open cards, separated by blanks */
     const char *answer_text;  /* text: the answer, and what to look at */
     const char *try;          /* text: what to change, and what will happen */
     const char *question; /* text: the question before the answer, or NULL */
@@ -31,20 +31,20 @@ typedef struct LecturePage {
     const char *law_name;    /* name of the curve in the card `law`, or NULL */
     const char *notes;       /* text for the lecturer */
     const char *file;        /* path of the source shown by K */
-    const char *function;    /* functions shown by K, separated by ',' */
+    const char *functions;   /* functions shown by K, separated by ',' */
     const char *const *code; /* code lines of `function`, then NULL */
-    const char *highlight;   /* code lines with this text are highlighted */
+    const char *lit_code;    /* code lines with this text are highlighted */
     /* [PAGE_MAX_CODE_LINES] text of the code lines that are highlighted at each
      * line of Algorithm 3; NULL: `highlight` */
     const char *const *line_highlight;
-    const char *claim;     /* statement that a test checks */
-    unsigned switch_flips; /* bit s: switch s of the scene is turned over */
-    int print_step;        /* step that the printed page shows */
-    double speed;          /* steps for each frame; 0: as in the scene */
-    const char *on_open;   /* commands at the opening, separated by ';' */
-    const char *on_answer; /* commands at the answer, separated by ';' */
-    int presses;     /* presses of N before the print; 0: print at print_step */
-    unsigned layers; /* bits of PictureLayer: additions to the picture */
+    const char *claim;      /* statement that a test checks */
+    unsigned switch_flips;  /* bit s: switch s of the scene is turned over */
+    int print_step;         /* step that the printed page shows */
+    double speed;           /* steps for each frame; 0: as in the scene */
+    const char *on_open;    /* commands at the opening, separated by ';' */
+    const char *on_answer;  /* commands at the answer, separated by ';' */
+    int print_presses;      /* presses of N before the print; 0: print_step */
+    unsigned layers;        /* bits of PictureLayer: additions to the picture */
     NextAction next_action; /* effect of the key N after the answer */
     int pause_step;         /* step at which a run pauses; 0: none */
 } LecturePage;

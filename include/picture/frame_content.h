@@ -68,8 +68,8 @@ typedef struct LiveValue {
 
 /* The values of a pane. */
 typedef struct LiveValues {
-    int count; /* number of values */
-    int run;   /* run of the values that are added next; 0: all runs */
+    int count;    /* number of values */
+    int next_run; /* run of the values that are added next; 0: all runs */
     Colour colour[VALUES_RUNS + 1]; /* colours of runs; [0]: of other lines */
     LiveValue value[MAX_LIVE_VALUES];
 } LiveValues;
@@ -144,7 +144,7 @@ typedef struct Pick {
 typedef struct DragBounds {
     bool is_dragging; /* during a drag */
     bool has_left;    /* the mouse is outside of the stage: the view may move */
-    int pane;
+    int pane_index;
     double bounds[4]; /* left, bottom, right, top, m */
 } DragBounds;
 
@@ -262,8 +262,8 @@ typedef struct LectureContent {
                                 asked; NULL: this run asks none */
     const char *verdict;     /* verdict on the guess at this page, or NULL */
     int guesses, right_guesses;    /* numbers of guesses and of right guesses */
-    char condition[SENTENCE_SIZE]; /* heading of answers that hold for the
-                                      page's options; "": none is changed */
+    char heading[SENTENCE_SIZE];   /* heading of answers that hold for the
+                                        page's options; "": none is changed */
     char answer_text[ANSWER_SIZE]; /* text: the answer of the page */
 } LectureContent;
 

@@ -26,15 +26,15 @@ typedef struct Card {
     /* Returns the minimum height in ems of a card whose content is `wide` ems
      * wide; an em has `em` pixels.  NULL: min_height. */
     double (*find_height)(const FrameContent *content, double wide, double em);
-    double weight;          /* weight with which the card shares free height */
-    bool half_width;        /* may stand in one half of a wide column */
-    bool halves_on_page;    /* may stand in one half on a page */
-    bool starts_closed;     /* shows only its title at first */
-    bool needs_line_energy; /* draws E along p (cards_need_line_energy) */
-    bool below_picture;     /* as main card, stands below the picture */
-    bool beside_picture;    /* as main card, stands beside the picture */
-    bool only_in_lecture;   /* is hidden outside of the lecture */
-    const char *words;      /* text; lines with unknown values are left out */
+    double height_weight;    /* weight with which the card shares free height */
+    bool fits_half_width;    /* may stand in one half of a wide column */
+    bool fits_half_page;     /* may stand in one half on a page */
+    bool starts_closed;      /* shows only its title at first */
+    bool needs_line_energy;  /* draws E along p (cards_need_line_energy) */
+    bool is_below_picture;   /* as main card, stands below the picture */
+    bool is_beside_picture;  /* as main card, stands beside the picture */
+    bool is_only_in_lecture; /* is hidden outside of the lecture */
+    const char *words;       /* text; lines with unknown values are left out */
     const struct ListingRow *listing; /* lines of an algorithm (cards.h) */
     const char *column_heads; /* text: the heads of the table, with | between */
     /* Fills row 1, 2, ... below the heads; returns false after the last row,
@@ -43,8 +43,8 @@ typedef struct Card {
     const char *legend; /* text: the legend of the graph, or NULL */
     /* Fills a row of a legend with values: a name and a value.  Returns false
      * after the last row.  NULL: the graph has no such legend. */
-    bool (*legend_row)(const FrameContent *content, int row,
-                       CardTableRow *cells);
+    bool (*make_legend_row)(const FrameContent *content, int row,
+                            CardTableRow *cells);
     /* Draws the content: curves, words, table and legend; on the web page
      * only curves.  NULL: `words` or `listing` is written. */
     void (*draw)(const Plot *card);
@@ -59,7 +59,7 @@ typedef struct Picture {
     bool takes_clicks;  /* a click sets a start point or the guess */
     /* Finds the part of the world to show: left, bottom, right, top, m.  The
      * stage has no camera yet.  NULL: default_bounds. */
-    void (*bounds)(const Plot *stage, double bounds[4]);
+    void (*find_bounds)(const Plot *stage, double bounds[4]);
     double default_bounds[4]; /* m, left, bottom, right, top */
     void (*draw)(Plot *stage);
     /* Adds the live values that the picture's texts use; may be NULL. */
@@ -73,7 +73,7 @@ typedef struct Picture {
     /* Draws the note about the part under the mouse; may be NULL. */
     void (*draw_hover)(Plot *stage);
     /* Samples energies for the history; may be NULL. */
-    int (*sample)(const Simulation *simulation, Energy *row);
+    int (*get_energies)(const Simulation *simulation, Energy *row);
 } Picture;
 
 /* Returns the picture of a scene. */

@@ -60,8 +60,8 @@ typedef struct CommandRow {
                           those of the row before; NULL: not listed */
     const char *args;  /* arguments: "N X Y", a whole number from 0 and two
                           numbers; "OPTION VALUE"; a name; NULL: none */
-    KeyScope key_scope; /* places where the keys work; 0: SCOPE_PLAY */
-    const char *chips;  /* labels of its chip, by state: "pause|play" */
+    KeyScope key_scope;      /* places where the keys work; 0: SCOPE_PLAY */
+    const char *chip_labels; /* labels of its chip, by state: "pause|play" */
 } CommandRow;
 
 extern const CommandRow command_rows[COMMAND_KINDS];
@@ -82,7 +82,7 @@ Status command_parse(const char *line, Command *command, Message message);
 void command_format(const Command *command, char *line, size_t size);
 
 /* Whether a command replaces the one before it: the next place of a drag. */
-bool command_replaces(const Command *command, const Command *before);
+bool command_replaces_last(const Command *command, const Command *before);
 
 /* ---- scripts ------------------------------------------------------------- */
 
@@ -106,7 +106,7 @@ typedef struct Script {
 } Script;
 
 /* Appends a line.  A command of the same gesture that the new one replaces
- * (command_replaces) is overwritten.  Returns OK, OUT_OF_MEMORY. */
+ * (command_replaces_last) is overwritten.  Returns OK, OUT_OF_MEMORY. */
 Status script_add(Script *script, long step, const Command *command,
                   int gesture);
 

@@ -17,12 +17,12 @@ enum {
 };
 
 /* A file that is written; zeroed: not open. */
-typedef struct Output {
+typedef struct OutputFile {
     FILE *file;                 /* stream; NULL: the output is not open */
     char name[PATH_BYTES];      /* name as given, for messages */
     char part_name[PATH_BYTES]; /* NAME.part; "": the file has none */
     char *message; /* [MESSAGE_BYTES] or NULL: "NAME: why" of a failure */
-} Output;
+} OutputFile;
 
 /* Part of a file that output_close keeps. */
 typedef enum CloseAction {
@@ -32,28 +32,28 @@ typedef enum CloseAction {
 } CloseAction;
 
 /* Opens a file.  Returns OK, FILE_FAILED (message and errno say why). */
-Status output_open(const char *name, char *message, Output *output);
+Status output_open(const char *name, char *message, OutputFile *output);
 
 /* Closes an open file.  Returns OK, or FILE_FAILED and leaves NAME.part. */
-Status output_close(Output *output, CloseAction keep);
+Status output_close(OutputFile *output, CloseAction keep);
 
-/* Writes "NAME: why" into an empty message; why NULL stands for output_reason.
+/* Writes "NAME: why" into an empty message; why NULL stands for output_explain.
  * Returns the status. */
 Status output_report(char *message, const char *name, Status status,
                      const char *why);
 
 /* Reports FILE_FAILED of an output, and returns it. */
-Status output_report_failure(const Output *output, const char *why);
+Status output_report_failure(const OutputFile *output, const char *why);
 
 /* Returns the text of a status; for FILE_FAILED the text of errno. */
-const char *output_reason(Status status);
+const char *output_explain(Status status);
 
 /* Prints a formatted text as one line (replace_line_breaks). */
 void print_line(FILE *file, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
 /* Whether a name means standard output. */
-bool output_is_standard(const char *name);
+bool output_is_stdout(const char *name);
 
 /* ---- tables -------------------------------------------------------------- */
 
@@ -64,8 +64,8 @@ enum {
 
 /* A CSV file: a line of names, then a line for each row of numbers.  Numbers
  * have 17 digits: a reader gets the same double. */
-typedef struct Table {
-    Output output;
+typedef struct CsvTable {
+    OutputFile output;
     int columns; /* number of columns */
     struct {
         char name[TABLE_NAME_SIZE];
@@ -73,18 +73,18 @@ typedef struct Table {
     } column[TABLE_MAX_COLUMNS];
     /* Returns the text that a number stands for in a column of kind 't'. */
     const char *(*get_text)(const char *column, int number);
-} Table;
+} CsvTable;
 
 /* Adds columns that are new.
  *   names  in, separated by commas, or NULL.  "name:whole" is a column of whole
  *          numbers, left empty below 0; "name:text" a column of texts */
-void table_add_columns(Table *table, const char *names);
+void table_add_columns(CsvTable *table, const char *names);
 
 /* Opens a table, and writes the line of names.  Returns as output_open. */
-Status table_open(const char *name, char *message, Table *table);
+Status table_open(const char *name, char *message, CsvTable *table);
 
 /* Adds a row, value [columns].  table_check reports whether this failed. */
-void table_add_row(Table *table, const double *value);
+void table_add_row(CsvTable *table, const double *value);
 
 /* Returns FILE_FAILED (message) if a write to an open table has failed. */
-Status table_check(const Table *table);
+Status table_check(const CsvTable *table);

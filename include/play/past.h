@@ -35,16 +35,16 @@
 /* Largest reach that a picture can show, over the reach after step 1. */
 #define PAST_EXPLODED 10
 
-enum { PAST_ALL = -1 }; /* past_edit edits each pane */
+enum { ALL_PANES = -1 }; /* past_edit edits each pane */
 
 /* A stored state, which entries of several branches can share. */
-typedef struct State {
+typedef struct SavedState {
     int ref_count;              /* number of entries that share the state */
     size_t size;                /* bytes of memory, with this struct */
     bool is_set;                /* set by the user, not made by a step */
     const UserControl *control; /* control under which the state was saved */
     unsigned char bytes[];      /* the state (state_save) */
-} State;
+} SavedState;
 
 /* A point of the plots over time. */
 typedef struct EnergySample {
@@ -62,15 +62,15 @@ typedef struct StepOutcome {
 } StepOutcome;
 
 /* A step that a pane has made. */
-typedef struct Entry {
+typedef struct PastEntry {
     const UserControl *control; /* control with which the next step is made;
                                NULL: this entry's step is still being made */
-    State *state;               /* state after the step; NULL: not stored */
+    SavedState *state;          /* state after the step; NULL: not stored */
     EnergySample *sample; /* energies of the state under `control`, or NULL */
     int substeps; /* steps of the simulation in this step; 0: the scene is over,
                      or the pane has ended with the status of the outcome */
     StepOutcome outcome;
-} Entry;
+} PastEntry;
 
 /* Entries of all panes from one step on. */
 typedef struct Branch {
@@ -82,7 +82,7 @@ typedef struct Branch {
     long left_step;    /* step that was shown when the user left the branch */
     long stride;       /* every stride-th entry stores its state */
     int panes;         /* number of panes */
-    Entry *entry;      /* [capacity][panes]; entry[entries] is being made */
+    PastEntry *entry;  /* [capacity][panes]; entry[entries] is being made */
     int gesture;       /* id; edits of a gesture are undone together; 0: none */
     Command edit;      /* edit that began the branch */
 } Branch;
@@ -92,16 +92,16 @@ typedef struct PastPane {
     Simulation simulation;
     const UserControl *start_control; /* control at step 0, or NULL */
     const UserControl *control;       /* control of the simulation */
-    bool has_state;      /* the simulation has the state of `step` */
-    long step;           /* last step that the pane has finished */
-    bool is_iterating;   /* a step of the simulation has begun */
-    int substeps;        /* steps of the simulation since `step` */
-    long start_steps;    /* steps of the simulation before this substep */
-    StepOutcome outcome; /* outcome of this step, else of the last step */
-    bool has_failed;     /* the step after `step` could not be made */
-    StepTrace trace;     /* iterates of the last step that was made */
-    bool has_trace;      /* trace, records: of `step` or the failed step */
-    Records records;     /* Newton's records of the last step, for the log */
+    bool has_state;        /* the simulation has the state of `step` */
+    long step;             /* last step that the pane has finished */
+    bool is_iterating;     /* a step of the simulation has begun */
+    int substeps;          /* steps of the simulation since `step` */
+    long start_steps;      /* steps of the simulation before this substep */
+    StepOutcome outcome;   /* outcome of this step, else of the last step */
+    bool has_failed;       /* the step after `step` could not be made */
+    StepTrace trace;       /* iterates of the last step that was made */
+    bool has_trace;        /* trace, records: of `step` or the failed step */
+    NewtonRecords records; /* Newton's records of the last step, for the log */
 } PastPane;
 
 /* Stages of the work that leads to the step that is to be shown. */
@@ -122,7 +122,7 @@ typedef struct Past {
     bool stores_states;    /* states are stored: the user may go back */
     bool panes_fail_alone; /* a pane that fails ends alone; the others go on */
     long written_step;     /* last with valid rows in the tables; -1: none */
-    long booked_step;      /* last with valid energies in the tables */
+    long energies_step;    /* last with valid energies in the tables */
     size_t used_bytes, max_bytes; /* memory of states, samples; its limit */
     int line_energy_pane; /* pane in which E along p is drawn; -1: none */
     WorkStage work_stage; /* stage of the work that leads to `goal_step` */
@@ -161,7 +161,7 @@ Status past_begin_runs(Past *past, const Options *options, int panes,
  *            COMMAND_DRAG, COMMAND_RELEASE, COMMAND_PLACE, COMMAND_OBSTACLE,
  *            COMMAND_HANDLE, COMMAND_FLIP; COMMAND_ADD_PANE adds a pane with
  *            the past of the last one, COMMAND_END_PANE removes the last one
- *   pane     pane that is edited; PAST_ALL: each pane
+ *   pane     pane that is edited; ALL_PANES: each pane
  *   again    the branch begins one step earlier: past_set_goal then leads to
  *            the shown step, made once more with the edit
  *   gesture  id, or 0; edits of one gesture are undone together
@@ -191,7 +191,7 @@ int past_panes(const Past *past);
 long past_newest(const Past *past);
 
 /* Returns the entry of a step; NULL: the step is not made yet. */
-const Entry *past_entry(const Past *past, int pane, long step);
+const PastEntry *past_entry(const Past *past, int pane, long step);
 
 /* Returns the control that follows the shown step. */
 const UserControl *past_control(const Past *past, int pane);

@@ -4,9 +4,9 @@
  *   keys, mouse, chips, scripts, pages -> Command    (input.c, command.h)
  *   player_obey: calls the command's function        (obey.c)
  *   that function: edits the past, or chooses the step to be shown
- *   player_work: past_do_work until that step is shown (steps.c)
+ *   player_do_work: past_do_work until that step is shown (steps.c)
  *
- * From key to Newton: player_obey_input, player_obey, player_work,
+ * From key to Newton: player_obey_input, player_obey, player_do_work,
  * past_do_work, pane_iterate, simulation_advance, time_integrator_advance,
  * newton_minimise. */
 #pragma once
@@ -20,7 +20,7 @@
 #include "play/window.h"
 
 /* Command line and script of the program, and what follows from them. */
-typedef struct Setup {
+typedef struct PlayerSetup {
     Options options[OPTIONS_MAX_PANES]; /* options of each pane */
     char *const *arguments; /* command line, ended by NULL; or NULL */
     Script script;
@@ -28,7 +28,7 @@ typedef struct Setup {
     double start_time; /* s, time on the wall clock when the run began */
     bool is_attended;  /* a window, script or page can pause and go back */
     bool asks_guess;   /* pages hide the answer until the user guesses */
-} Setup;
+} PlayerSetup;
 
 enum {
     MIN_LOG_SPEED = -6, /* lowest speed: a step every 64 frames, about 1 s */
@@ -44,18 +44,18 @@ typedef enum PlayMode {
 } PlayMode;
 
 /* Action after the work that leads to a step. */
-typedef enum AfterWork {
+typedef enum ActionAfterWork {
     AFTER_NOTHING,
     AFTER_SHOW_FIRST, /* show the step's first line of Algorithm 3 */
     AFTER_SHOW_LAST,  /* show the step's last line of Algorithm 3 */
     AFTER_SHOW_END,   /* show the end; the peak of E if E exploded */
     AFTER_COMPARE     /* compare the outcomes before and after an edit */
-} AfterWork;
+} ActionAfterWork;
 
 /* How a pane shows the present step. */
 typedef struct PaneView {
     int trace_index; /* index in StepTrace.position; -1: end of the step */
-    double *ghost;   /* [2n] m, positions before an edit, or NULL */
+    double *ghost_x; /* [2n] m, positions before an edit, or NULL */
     char ghost_label[256]; /* edited setting, and the step's old outcome */
 } PaneView;
 
@@ -63,7 +63,7 @@ typedef struct PaneView {
 typedef struct Playback {
     PlayMode mode;
     TimeUnit walk_unit; /* unit of "next" and "back" */
-    AfterWork after_work;
+    ActionAfterWork after_work;
     TracePosition wanted_position; /* shown after an edit; iterate -1: none */
     int log_speed;                 /* 2^log_speed steps a frame */
     double due_time;    /* s on the wall clock, time of the next step */
@@ -72,12 +72,12 @@ typedef struct Playback {
     bool reported_gain; /* a rise of the total energy was reported */
 } Playback;
 
-enum { MAX_QUEUED = 16 };
+enum { MAX_QUEUED_COMMANDS = 16 };
 
 /* Commands that wait until the present one is obeyed and no step is being made:
  * the parts of a command, and drags while a step is made. */
 typedef struct CommandQueue {
-    Command command[MAX_QUEUED];
+    Command command[MAX_QUEUED_COMMANDS];
     int count;                /* number of commands */
     bool is_from_page;        /* the commands belong to a page */
     const UserControl *pins;  /* pins set at the end of the queue, or NULL */
@@ -98,7 +98,7 @@ typedef struct Commands {
 /* The guided tour, page by page. */
 typedef struct Tour {
     const LecturePage *last_page;     /* page that was last open, or NULL */
-    const LecturePage *revealed;      /* page whose answer is shown, or NULL */
+    const LecturePage *revealed_page; /* page whose answer is shown, or NULL */
     char asked_question[ANSWER_SIZE]; /* question of that page, as asked */
     char verdict[VALUE_SIZE];   /* verdict on the guess at the page, or "" */
     int guesses, right_guesses; /* numbers of guesses so far */
@@ -109,7 +109,7 @@ typedef struct Tour {
 enum { LABEL_SIZE = 64 }; /* bytes */
 
 /* Contents of the last frame; `content` points to the other fields. */
-typedef struct Frame {
+typedef struct WindowFrame {
     FrameContent content;
     History history[LAYOUT_MAX_PANES];
     NewtonTrace trace[LAYOUT_MAX_PANES];
@@ -117,7 +117,7 @@ typedef struct Frame {
     CommandKind chip_command[LAYOUT_MAX_CHIPS]; /* command of a click on it */
     int options; /* number of options in the row */
     const OptionRow *option[OPTIONS_MAX_ROWS];
-} Frame;
+} WindowFrame;
 
 /* How the window or the frames show the past. */
 typedef struct Screen {
@@ -137,7 +137,7 @@ typedef struct Screen {
     unsigned toggled_cards; /* bit c: card c was opened or closed by the user */
     int enlarged_card;      /* index of the enlarged card; -1: none */
     FrameView view;
-    Frame frame;
+    WindowFrame frame;
 } Screen;
 
 /* The mouse and what it drags. */
@@ -167,7 +167,7 @@ typedef struct Hands {
 } Hands;
 
 typedef struct Player {
-    Setup setup;
+    PlayerSetup setup;
     Past past;
     PaneView view_of_pane[OPTIONS_MAX_PANES];
     int active; /* index of the active pane, whose numbers are shown */

@@ -19,7 +19,7 @@ typedef struct Film {
     const struct FilmKind *kind;
     int width, height; /* pixels of the first frame */
     long frames;       /* number of frames so far */
-    Output output;
+    OutputFile output;
     FILE *pipe; /* input of ffmpeg; NULL: ffmpeg does not run */
 } Film;
 
@@ -44,22 +44,22 @@ static inline bool film_is_open(const Film *film)
 }
 
 typedef enum RecordingTable {
-    TABLE_STATES,
-    TABLE_LOG,
-    TABLE_ENERGIES,
-    TABLE_SPRINGS,
-    TABLE_COUNT
+    STATES_TABLE,
+    LOG_TABLE,
+    ENERGIES_TABLE,
+    SPRINGS_TABLE,
+    RECORDING_TABLES
 } RecordingTable;
 
 enum { MAX_FRAMES = 1000000 }; /* frames have numbers of six digits */
 
 typedef struct Recording {
-    const char *folder;       /* folder of the frames, or NULL */
-    long frames;              /* number of frames written */
-    unsigned char *old_frame; /* [step] 1: is of an earlier run; or NULL */
+    const char *folder;          /* folder of the frames, or NULL */
+    long frames;                 /* number of frames written */
+    unsigned char *is_old_frame; /* [step] 1: is of an earlier run; or NULL */
     Film film;
     int panes; /* number of panes at the start */
-    Table table[TABLE_COUNT];
+    CsvTable table[RECORDING_TABLES];
     bool has_tables;             /* a table is open */
     bool uses_stdout;            /* a table goes to standard output */
     char message[MESSAGE_BYTES]; /* the first failure, or "" */

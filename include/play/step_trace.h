@@ -15,14 +15,14 @@
 enum { SAMPLE_INTERVALS = 32, SAMPLE_COUNT = SAMPLE_INTERVALS * 3 / 2 + 1 };
 
 /* Records of Newton's iterations. */
-typedef struct Records {
+typedef struct NewtonRecords {
     NewtonRecord *record; /* [count] */
     int count, capacity;  /* number of records; room for records */
     bool is_incomplete;   /* memory was missing for a record */
-} Records;
+} NewtonRecords;
 
 /* Reserves memory for `count` records.  Returns false if memory is missing. */
-bool records_reserve(Records *records, int count);
+bool records_reserve(NewtonRecords *records, int count);
 
 /* An iterate of Newton's method, with its direction and its line search. */
 typedef struct TraceIterate {
@@ -48,9 +48,9 @@ typedef struct TracePosition {
 typedef struct StepTrace {
     NewtonTrace start_trace;   /* h and tolerance, the same at all positions */
     int x_length;              /* 2n; 0: no iterates are stored */
-    Records records;           /* Newton's record at each iterate */
+    NewtonRecords records;     /* Newton's record at each iterate */
     TraceIterate *iterate;     /* [records.count] */
-    int capacity;              /* iterates that memory was reserved for */
+    int iterate_capacity;      /* iterates that memory was reserved for */
     bool samples_each_iterate; /* E along p is sampled at each iterate */
     bool samples_last_iterate; /* E along p is sampled at the last iterate */
     double *x_tilde;           /* [x_length] m, or NULL */
@@ -101,5 +101,5 @@ int step_trace_find_peak(const StepTrace *trace);
 /* Fills what a picture shows at a position; position -1: after the step.
  * Pointers of `shown` lead into the trace.  Returns positions to draw,
  * [x_length] m; NULL: the positions after the step. */
-const double *step_trace_show(const StepTrace *trace, int position,
-                              NewtonTrace *shown);
+const double *step_trace_show_position(const StepTrace *trace, int position,
+                                       NewtonTrace *shown);

@@ -68,7 +68,7 @@ typedef struct SpringValues {
     double eigenvalue_across; /* eigenvalue of P's Hessian across d, J/m^2 */
     double root_energy;       /* J, P_root, the energy in |d| - l instead */
     /* J/m^2, eigenvalues of P_root's Hessian; the second is -inf at d = 0 */
-    double root_along, root_across;
+    double root_eigenvalue_along, root_eigenvalue_across;
 } SpringValues;
 
 /* Evaluates a spring; d [2] m, l2 m^2, k J/m^2. */

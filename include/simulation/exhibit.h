@@ -105,7 +105,7 @@ typedef struct EnvelopeMap {
 /* ---- data of all scenes, points and switches ----------------------------- */
 
 /* Data of all small scenes; a scene uses what it needs. */
-typedef struct Exhibit {
+typedef struct SmallSceneData {
     double exact_start[4]; /* m, m/s, x and v where the exact path starts */
     double x_tilde[2];     /* m, x_tilde; in one unknown [0] alone counts */
     unsigned switches;     /* bit s: part s of E is on (LandscapePart); for
@@ -113,7 +113,7 @@ typedef struct Exhibit {
     DialCurve dial;        /* minimisers of scene `dial` */
     Race race;             /* runs of scene `race` */
     EnvelopeMap envelope;  /* runs of scene `envelope` */
-} Exhibit;
+} SmallSceneData;
 
 /* Lists the points that can be dragged, m.  Returns how many there are. */
 int exhibit_list_handles(const struct Simulation *simulation,

@@ -148,10 +148,10 @@ typedef enum ChangeEffect {
 
 /* How the window shows an option and changes it by mouse, wheel and keys. */
 typedef struct OptionDisplay {
-    int position;     /* position in the window's row of numbers, from 1; 0: the
-                         row has the option after the user has added it */
+    int row_position; /* position in the window's row of numbers, from 1; 0: the
+                     row has the option after the user has added it */
     int max_letters;  /* letters of the longest value */
-    double increment; /* change by a notch; 0: a factor, or the next name */
+    double notch_increment; /* change by a notch; 0: factor, next name */
 } OptionDisplay;
 
 /* One option.  Options differ in many ways; most fields of a row are 0. */

@@ -55,10 +55,10 @@ typedef struct SceneBody {
     double notch[2]; /* heights between which springs across the middle line are
                         cut, from the centre, divided by the body's height */
     int runs;        /* number of runs with a body each; 0: one run */
-    double lift;     /* height of run 0 above run 1, and so on, over the side */
+    double height_step; /* height of run r over run r + 1, over the side */
     double friction_factor[3]; /* factor on the friction of each run; 0: 1 */
     /* Returns a further obstacle, at its start; NULL: no obstacle. */
-    struct Obstacle (*obstacle)(const struct Options *options);
+    struct Obstacle (*make_obstacle)(const struct Options *options);
 } SceneBody;
 
 /* A row of the table of scenes.  0 and NULL mean "none", or the usual value. */

@@ -14,13 +14,13 @@ enum { SIMULATION_MAX_RUNS = 3, SIMULATION_MODE_NODES = 64 };
 /* Energies that a run has added up since its start.  In a step of backward
  * Euler the total energy can grow by more than the work: the minimiser may lie
  * behind a barrier of energy, such as another body. */
-typedef struct Ledger {
-    double start; /* J, total energy at the start */
-    double work;  /* J, work of placed nodes and of changed options and pins */
+typedef struct EnergyLedger {
+    double start_energy; /* J, total energy at the start */
+    double work; /* J, work of placed nodes and of changed options and pins */
     double last_balance;  /* J, total energy minus work, after the last step */
     long gain_steps;      /* number of steps with growth beyond the work */
     double gained_energy; /* J, growth beyond the work, in all gain_steps */
-} Ledger;
+} EnergyLedger;
 
 struct Simulation {
     const Scene *scene;
@@ -30,14 +30,14 @@ struct Simulation {
     System run_system[SIMULATION_MAX_RUNS]; /* own systems of runs 1, 2 */
     int runs; /* number of runs, 1 ... SIMULATION_MAX_RUNS */
     TimeIntegrator run[SIMULATION_MAX_RUNS];
-    Ledger ledger[SIMULATION_MAX_RUNS];
+    EnergyLedger ledger[SIMULATION_MAX_RUNS];
     int step_run;      /* run whose step is being computed */
     Status bad_status; /* OK, or the last other status of this step's runs */
     Descent descent;   /* minimisation; zero in scenes that move in time */
-    Exhibit exhibit;   /* data of small scenes, and of switches */
+    SmallSceneData exhibit;  /* data of small scenes, and of switches */
     Prediction prediction;   /* guess where the next step leads */
     NewtonObserver observer; /* called after each Newton iteration, or NULL */
-    void *user_data;         /* argument of observer */
+    void *observer_data;     /* argument of observer */
     long steps;              /* steps so far */
     long unconverged_steps;  /* steps so far that did not converge */
     int status_counts[STATUS_COUNT]; /* unconverged steps by their status */
@@ -71,8 +71,8 @@ typedef struct Energies {
     double kinetic, gravity, total; /* J */
     double work;                    /* work of walls, pins and hand */
     double dissipated; /* energy that the integrator took out; < 0: added */
-    int rows;          /* number of energies */
-    Energy row[MAX_ENERGIES]; /* energies in the order of the plots' legend */
+    int count;         /* number of energies */
+    Energy energy[MAX_ENERGIES]; /* in the order of the plots' legend */
 } Energies;
 
 /* Creates the simulation of options->scene; free it in any case.

@@ -198,7 +198,7 @@ static void make_arguments(const Task *task, int case_number, TaskCase *c)
 
 /* Stores the matrix that a function added to H, in rows of MAX_UNKNOWNS
  * numbers. */
-static void store_matrix(const TaskCase *c, double *result)
+static void store_matrix_entries(const TaskCase *c, double *result)
 {
     int n = (int)c->H.nrow;
     for (size_t t = 0; t < c->H.nnz; t++) {
@@ -224,7 +224,7 @@ static void store_result(const Task *task, const TaskCase *c, FILE *table,
     for (int r = 0; r < 4 && task->index == TASK_make_psd; r++)
         memcpy(result + r * MAX_UNKNOWNS, c->block[r], sizeof c->block[r]);
     if (task->index != TASK_make_psd && task->kind == MATRIX)
-        store_matrix(c, result);
+        store_matrix_entries(c, result);
     for (int i = 0; i < 2 * c->solid.nodes && task->kind == POINTS; i++)
         result[i] = (&c->g->x)[i] - (&c->g_before->x)[i];
     if (task->kind == SEARCH)

@@ -28,7 +28,7 @@ typedef struct ArgLine {
     Message message;  /* out, the first mistake */
     int words;        /* number of words */
     ArgWord word[MAX_WORDS];
-    char copy[512]; /* texts of the words, if they stand in one text */
+    char text_copy[512]; /* texts of the words, if they stand in one text */
 } ArgLine;
 
 /* Returns the last word that sets an option; NULL: no word sets it. */
@@ -273,8 +273,8 @@ static Status read_text_words(const char *text, ArgLine *line)
     enum { MAX_SPLIT_WORDS = 48 };
     char *argv[MAX_SPLIT_WORDS] = {""}, *rest;
     int argc = 1;
-    snprintf(line->copy, sizeof line->copy, "%s", text ? text : "");
-    for (char *word = strtok_r(line->copy, " ", &rest);
+    snprintf(line->text_copy, sizeof line->text_copy, "%s", text ? text : "");
+    for (char *word = strtok_r(line->text_copy, " ", &rest);
          word && argc < MAX_SPLIT_WORDS; word = strtok_r(NULL, " ", &rest))
         argv[argc++] = word;
     return read_argument_words(argc, argv, line);

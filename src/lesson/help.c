@@ -31,7 +31,7 @@ static void write_help_line(FILE *help, const char *start, const char *words)
 }
 
 /* Writes what an option means: description, unit, names or range, default. */
-static void describe_option(const OptionRow *row, char *words, size_t size)
+static void describe_option_row(const OptionRow *row, char *words, size_t size)
 {
     bool is_name = row->kind == OPTION_NAME;
     snprintf(words, size, "%s%s%s", row->help,
@@ -69,7 +69,7 @@ void options_print_help(FILE *help)
                  row->placeholder ? row->placeholder : "");
         if (row->letter)
             append(start, sizeof start, ", -%c", row->letter);
-        describe_option(row, words, sizeof words);
+        describe_option_row(row, words, sizeof words);
         write_help_line(help, start, words);
     }
 }

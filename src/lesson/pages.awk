@@ -60,8 +60,8 @@ function put_word(    part)
     else if (word == "next" && text in of_next)
         print ".next_action = NEXT_" of_next[text] ","
     else if (word == "code" && split(text, part, " ") >= 3)
-        print ".file = " quoted(part[1]) ", .function = " quoted(part[2]) \
-              ", .highlight = " quoted(substr(text, length(part[1] part[2]) + 3)) \
+        print ".file = " quoted(part[1]) ", .functions = " quoted(part[2]) \
+              ", .lit_code = " quoted(substr(text, length(part[1] part[2]) + 3)) \
               ", .code = (const char *const[]){" \
               code_of(part[1], part[2]) "NULL}," \
               (part[2] in walk ? ".line_highlight = (const char *const[PAGE_MAX_CODE_LINES]){" \
@@ -79,7 +79,7 @@ function end_page(    i)
         if (page && !(needed[i] in had))
             fail(page, "the page has no " needed[i])
     for (i in below)
-        print "." (i == "look" ? "answer_text" : i) " = " below[i] ","
+        print "." (i == "look" ? "answer_text" : i == "text" ? "intro" : i) " = " below[i] ","
     split("", below)
     if (page)
         print "},"
@@ -88,9 +88,10 @@ function end_page(    i)
 
 BEGIN {
     split("text run cards look try code claim notes", needed)
-    split("cards claim answer main_card notes section", same)
+    split("claim answer main_card notes section", same)
     for (i in same)
         texts[same[i]] = same[i]
+    texts["cards"] = "open_cards"
     texts["run"] = "command_line"
     texts["try"] = "try"
     texts["ask"] = "question"
@@ -101,7 +102,7 @@ BEGIN {
     prose["text"] prose["ask"] prose["look"] prose["try"] prose["notes"]
     read_names(ARGV[1])
     numbers["picture"] = "print_step"
-    numbers["lines"] = "presses"
+    numbers["lines"] = "print_presses"
     numbers["speed"] = "speed"
     numbers["flips"] = "switch_flips"
     numbers["pause"] = "pause_step"

@@ -306,8 +306,8 @@ void draw_energy_budget_card(const Plot *card)
     Energy all = {"start + work", 0};
     const Energy *shown[HISTORY_SERIES + 1] = {&all};
     int rows = 1, air = paper_pixels(paper, 0.1);
-    for (int i = 1; i < energies.rows; i++) {
-        const Energy *row = &energies.row[i];
+    for (int i = 1; i < energies.count; i++) {
+        const Energy *row = &energies.energy[i];
         if (strcmp(row->name, "gravity") == 0 || strcmp(row->name, "work") == 0)
             continue;
         shown[rows++] = row;

@@ -186,7 +186,7 @@ bool law_find_contact(const Simulation *simulation, NodeContact *gap)
     gap->d = self ? sqrt(now.element.s) * gap->d_hat : now.element.s;
     for (int c = 0; c < 2; c++) {
         gap->node[c] = now.eval.x[2 * now.element.node[0] + c];
-        gap->nearest[c] = gap->node[c] - gap->d * now.element.n[c];
+        gap->nearest_point[c] = gap->node[c] - gap->d * now.element.n[c];
     }
     return true;
 }
@@ -260,8 +260,8 @@ void list_law_values(const Simulation *simulation, LiveValues *values)
     if (flows)
         values_add(values, "s_p", now.spring.ep);
     Energies energies = simulation_get_energies(simulation, 0);
-    for (int i = 0; i < energies.rows; i++)
-        values_add(values, energies.row[i].name, energies.row[i].value);
+    for (int i = 0; i < energies.count; i++)
+        values_add(values, energies.energy[i].name, energies.energy[i].value);
     if (law_find_slip(simulation, simulation->mesh.bodies - 1, way))
         values_add(values, "rigid", way[1]);
 }

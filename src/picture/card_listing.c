@@ -31,7 +31,7 @@ static void draw_listing_row(const Plot *card, Box box, const ListingRow *row,
     const ShownRow now = listing_make_row(card->pane, row);
     char digits[12];
     double size = box.height < 0.95 * PAGE_PITCH * paper->em ? 1 : 1.2;
-    int indent = paper_pixels(paper, 2 + 1.2 * row->indented);
+    int indent = paper_pixels(paper, 2 + 1.2 * row->is_indented);
     int wide = paper_measure(paper, FACE_REGULAR, 0.88 * size, now.value.text);
     Box count = {box.x, box.y, paper_pixels(paper, 1.2), box.height};
     Box room = {box.x + indent, box.y,

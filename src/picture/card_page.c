@@ -67,10 +67,10 @@ static int lay_out_page(Paper *paper, Box inside, double size,
                        : "Say it, then press N or Space.";
     bool asks = lecture->hides_answer;
     const PageText words[] = {
-        {NULL, asks || keeps_text || !lecture->question ? page->text : NULL,
+        {NULL, asks || keeps_text || !lecture->question ? page->intro : NULL,
          COLOUR_TEXT, 1},
         {NULL, page->formula, COLOUR_TEXT, FORMULA_SIZE},
-        {"Ask", asks || !lecture->condition[0] ? lecture->question : NULL,
+        {"Ask", asks || !lecture->heading[0] ? lecture->question : NULL,
          COLOUR_X, 1},
         {"You", asks ? NULL : lecture->verdict, COLOUR_HAND, 1},
         {"Look", asks ? NULL : lecture->answer_text, COLOUR_X, 1},
@@ -93,7 +93,7 @@ static int measure_page(Paper *paper, Box inside, double size,
     if (!lecture->question)
         return lay_out_page(paper, inside, size, content, keeps_text, false);
     lecture->hides_answer = false;
-    lecture->condition[0] = '\0';
+    lecture->heading[0] = '\0';
     if (lecture->page->answer && !lecture->verdict)
         lecture->verdict = "0"; /* a line for the verdict */
     values_add_flag(values, "told", true);

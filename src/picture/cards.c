@@ -115,7 +115,7 @@ static void draw_list(Paper *paper, Box inside, const RowList *list)
 /* ---- code --------------------------------------------------------------- */
 
 /* Counts the lines of a page's code.  Returns the letters of the widest one. */
-static double measure_code(const LecturePage *page, int *lines)
+static double measure_code_width(const LecturePage *page, int *lines)
 {
     double widest = 0;
     for (*lines = 0; page->code[*lines]; ++*lines)
@@ -127,7 +127,7 @@ double code_find_width(const LecturePage *page)
 {
     int lines;
     const double margins = 4.4; /* ems */
-    return CODE_LETTER * measure_code(page, &lines) + margins;
+    return CODE_LETTER * measure_code_width(page, &lines) + margins;
 }
 
 /* Draws code in letters as large as fit, and lights the lines at work.  If the
@@ -138,7 +138,7 @@ static void draw_code(Paper *paper, Box inside, const FrameContent *content)
     const char *mark = lecture_find_highlight(content);
     const double letter = 0.603, high = 1.3, low = 1.17, most = 1.9; /* ems */
     int lines;
-    double letters = measure_code(content->lecture.page, &lines);
+    double letters = measure_code_width(content->lecture.page, &lines);
     double air = 0.3 * paper->em;
     /* The width of a letter is a whole number of pixels. */
     double cell = floor((inside.width - 2 * air) / letters);

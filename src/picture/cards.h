@@ -15,7 +15,7 @@ typedef struct ListingRow {
      * struck out if crossed_out_if has one.  shown_if NULL: end of rows. */
     const char *shown_if, *crossed_out_if;
     StepLine at_line; /* line of Algorithm 3 that the row is */
-    bool indented;    /* begins further right */
+    bool is_indented; /* begins further right */
     const char *text;
     const char *value; /* text at the right, once this line has been executed */
 } ListingRow;
@@ -86,10 +86,10 @@ void list_law_values(const Simulation *simulation, LiveValues *values);
 
 /* A contact between a node and a wall or an edge. */
 typedef struct NodeContact {
-    double nearest[2]; /* m, nearest point of the wall or edge */
-    double node[2];    /* m */
-    double d;          /* m, the gap */
-    double d_hat;      /* m, distance at which the force begins */
+    double nearest_point[2]; /* m, nearest point of the wall or edge */
+    double node[2];          /* m */
+    double d;                /* m, the gap */
+    double d_hat;            /* m, distance at which the force begins */
 } NodeContact;
 
 /* Finds the contact with the largest force.  Returns false if all

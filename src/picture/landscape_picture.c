@@ -189,7 +189,7 @@ static void draw_newton_directions(const Plot *plot, bool both)
         plot_arrow(plot, from, p, 1, 2.2, colour);
     if (both || !alone)
         plot_arrow(plot, from, own, 1, 2.2, own_colour);
-    if (other && plot->revealed)
+    if (other && plot->is_revealed)
         plot_label(plot, 1, point_along(from, 1, own).xy, own_colour,
                    "g \u00b7 p = %s J s\u00b2",
                    format_digits(descent->slope, 2).text);
@@ -234,7 +234,7 @@ static double energy_of_parts(const Simulation *simulation, unsigned parts,
     return value < 1e-30 ? 0 : value;
 }
 
-static void append_part_name(unsigned parts, LiveValues *values)
+static void append_energy_part_name(unsigned parts, LiveValues *values)
 {
     values_add_words(values, "part",
                      parts == PART_BOTH      ? "E"
@@ -294,7 +294,7 @@ void list_landscape_values(const Simulation *simulation, LiveValues *values)
     values_add(values, "elastic part",
                energy_of_parts(simulation, PART_ELASTICITY, x));
     values_add_matrix(values, raw, E.H, 0);
-    append_part_name(parts, values);
+    append_energy_part_name(parts, values);
     values_add(values, "h", parts == PART_INERTIA ? NAN : h);
     values_add_flag(values, "both", parts == PART_BOTH);
     values_add_flag(values, "elastic", parts != PART_INERTIA);
@@ -347,7 +347,7 @@ static void draw_linearised_zeros(const Plot *plot, const LocalModel *E)
                     point_along(foot.xy, far, across).xy, 2.4, NULL,
                     curve_colour[k]);
     }
-    if (plot->revealed)
+    if (plot->is_revealed)
         plot_ring(plot,
                   point_along(x, 1, plot->simulation->descent.direction).xy, 8,
                   2.4, COLOUR_P);
@@ -396,11 +396,11 @@ void draw_landscape_picture(Plot *stage)
     }
     bool raw = simulation->options.projection == PROJECTION_NONE;
     bool both = !lecture->page || (raw && halves);
-    if (stage->revealed && raw && !curves && !simulation->is_over)
+    if (stage->is_revealed && raw && !curves && !simulation->is_over)
         draw_model_ellipses(&plot, &E);
     if (curves && !simulation->is_over)
         draw_linearised_zeros(&plot, &E);
-    if (stage->revealed && layers & LAYER_FORCES)
+    if (stage->is_revealed && layers & LAYER_FORCES)
         draw_force_arrows(&plot, &E);
     else if (!lecture->hides_answer)
         draw_newton_directions(&plot, plot.has_text && both);
@@ -410,7 +410,7 @@ void draw_landscape_picture(Plot *stage)
         plot_label(&plot, 1, point_along(descent->iterate, -far, E.g).xy,
                    COLOUR_TEXT, "\u2212\u2207E");
     }
-    if (stage->revealed && plot.has_text && !curves &&
+    if (stage->is_revealed && plot.has_text && !curves &&
         simulation->exhibit.switches != PART_INERTIA)
         mark_stationary_points(&plot);
     plot_disc(&plot, descent->iterate, 7, COLOUR_TEXT);
@@ -448,7 +448,7 @@ void list_dial_values(const Simulation *simulation, LiveValues *values)
 {
     const double *x = simulation->run[0].x, h = simulation->run[0].h;
     double elastic = energy_of_parts(simulation, PART_ELASTICITY, x);
-    append_part_name(simulation->exhibit.switches, values);
+    append_energy_part_name(simulation->exhibit.switches, values);
     values_add(values, "h", h);
     values_add_point(values, "minimiser", x);
     values_add(values, "distance",

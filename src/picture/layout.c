@@ -207,7 +207,7 @@ static double find_height(const FrameContent *content, const Layout *layout,
                                     : row->min_height;
     bool graph = card > 0 && row->draw && !row->has_no_curves;
     double high = GRAPH_PART * layout->height / em + GRAPH_AXES +
-                  (row->legend_row ? GRAPH_LEGEND : 0);
+                  (row->make_legend_row ? GRAPH_LEGEND : 0);
     return graph && content->lecture.page ? fmax(least, high) : least;
 }
 
@@ -242,10 +242,10 @@ static int find_card_rows(const FrameContent *content, const Layout *layout,
         const Card *card = picture->cards[i];
         bool bar =
             sets->closed_cards >> i & 1 || (large && i != sets->enlarged);
-        bool half =
-            card->half_width || (card->halves_on_page && content->lecture.page);
-        bool on_stage = i == main_card &&
-                        (card->below_picture || (card->beside_picture && !bar));
+        bool half = card->fits_half_width ||
+                    (card->fits_half_page && content->lecture.page);
+        bool on_stage = i == main_card && (card->is_below_picture ||
+                                           (card->is_beside_picture && !bar));
         if (sets->hidden_cards >> i & 1 || on_stage)
             continue;
         double least = bar ? 0 : find_height(content, layout, i, wide);
@@ -256,7 +256,7 @@ static int find_card_rows(const FrameContent *content, const Layout *layout,
             continue;
         }
         before = half && !bar ? i : -2;
-        rows[count++] = (CardRow){i, 1, least, bar ? 0 : card->weight};
+        rows[count++] = (CardRow){i, 1, least, bar ? 0 : card->height_weight};
     }
     return count;
 }
@@ -418,13 +418,13 @@ static void place_main_card(const FrameContent *content, Layout *layout)
         return;
     const Card *card = active_picture(content)->cards[main_card];
     Box *stage = &layout->pane[0], place = layout->card[main_card];
-    if (card->below_picture) {
+    if (card->is_below_picture) {
         place_card_below(content, layout, main_card,
                          (MAIN_CARD_GROWTH * card->min_height + 2 * GAP) *
                              layout->em);
         return;
     }
-    bool beside = card->beside_picture;
+    bool beside = card->is_beside_picture;
     if (place.width < 1 && !layout->has_list && !beside)
         return;
     if (beside && PICTURE_PART * stage->width > MIN_BESIDE * layout->em)

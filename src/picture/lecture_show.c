@@ -12,7 +12,7 @@ const char *lecture_find_highlight(const FrameContent *content)
     const LecturePage *page = content->lecture.page;
     const NewtonTrace *trace = active_pane(content)->trace;
     bool walks = page->line_highlight && trace && trace->at_line != LINE_NONE;
-    return walks ? page->line_highlight[trace->at_line] : page->highlight;
+    return walks ? page->line_highlight[trace->at_line] : page->lit_code;
 }
 
 /* Lists all pages of the lecture, with a heading before each section.
@@ -67,10 +67,10 @@ static void build_answer_text(const LecturePage *page, LectureContent *lecture)
     char *look = lecture->answer_text, others[ANSWER_SIZE] = "";
     look[0] = '\0';
     add_text_lines(page->answer_text, false, others, sizeof others);
-    if (lecture->condition[0]) {
+    if (lecture->heading[0]) {
         add_text_lines(page->answer_text, true, look, ANSWER_SIZE);
         if (others[0])
-            append(look, ANSWER_SIZE, "%s\n%s", lecture->condition, others);
+            append(look, ANSWER_SIZE, "%s\n%s", lecture->heading, others);
     } else {
         append(look, ANSWER_SIZE, "%s", page->answer_text);
     }

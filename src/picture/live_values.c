@@ -14,7 +14,7 @@ static LiveValue *append_value(LiveValues *values, const char *name)
 {
     LiveValue *new = &values->value[values->count % MAX_LIVE_VALUES];
     values->count += values->count < MAX_LIVE_VALUES;
-    *new = (LiveValue){.name = name, .run = values->run};
+    *new = (LiveValue){.name = name, .run = values->next_run};
     return new;
 }
 
@@ -238,7 +238,7 @@ void frame_compute_values(FrameContent *content)
         now->shown_trace = now->trace;
         if (!now->trace && simulation->scene->step == step_descent)
             now->shown_trace = make_descent_trace(simulation, &now->descent);
-        values->count = values->run = 0;
+        values->count = values->next_run = 0;
         for (int run = 0; run <= VALUES_RUNS; run++)
             values->colour[run] = COLOUR_TEXT;
         add_window_values(content, values);

@@ -81,7 +81,7 @@ void draw_circle_picture(Plot *stage)
     plot_ring(stage, origin, stage->camera.scale[0] / stage->paper->unit, 5,
               COLOUR_GRID);
     plot_line(stage, origin, (double[2]){1, 0}, 1.2, COLOUR_GREY);
-    if (stage->revealed)
+    if (stage->is_revealed)
         plot_ellipse(stage, origin, (double[2]){2, 0}, (double[2]){0, 2}, 1.4,
                      true, COLOUR_GREY);
     plot_disc(stage, origin, 3.5, COLOUR_GREY);
@@ -225,7 +225,7 @@ void list_circle_values(const Simulation *simulation, LiveValues *values)
     const char *first = simulation->run[0].method->name;
     for (int r = 0; r < simulation->runs; r++) {
         const TimeIntegrator *run = &simulation->run[r];
-        values->run = r + 1;
+        values->next_run = r + 1;
         values->colour[r + 1] = colour_of_name(run->method->name);
         values_add_flag(values, "many", simulation->runs > 1);
         values_add_words(values, "name", run->method->label);
@@ -233,7 +233,7 @@ void list_circle_values(const Simulation *simulation, LiveValues *values)
         if (circle)
             add_eigenvalues(run->method, turn, values);
     }
-    values->run = 0;
+    values->next_run = 0;
     if (circle && strcmp(first, "forward-euler") == 0) /* steps */
         values_add(values, "doubling", ceil(2 * log(2) / log1p(turn * turn)));
     values_add(values, "h", simulation->run[0].h);
@@ -332,7 +332,7 @@ static void draw_mass_step(Plot *stage)
                 to = vector_between(step.x, step.new_x);
     const Point push = point_along(origin, simulation->run[0].h, a);
     const struct MassArrow {
-        const double *a, *d; /* m, start and vector of the arrow */
+        const double *start, *vector; /* m, start and vector of the arrow */
         double width;
         Colour colour;
         const char *label;
@@ -344,7 +344,7 @@ static void draw_mass_step(Plot *stage)
                   step.moves_by_old_v ? "h v^{n}" : "h v^{n+1}"},
                  {step.new_x, step.new_a, 1.6, COLOUR_FORCE, "a^{n+1}"}};
     for (int i = 0; i < 4 + backward; i++)
-        plot_arrow(stage, arrow[i].a, arrow[i].d, 1, arrow[i].width,
+        plot_arrow(stage, arrow[i].start, arrow[i].vector, 1, arrow[i].width,
                    arrow[i].colour);
     plot_ring(stage, step.new_x, 9, 2.4, COLOUR_X);
     plot_disc(stage, step.x, 8, COLOUR_X);
@@ -355,8 +355,8 @@ static void draw_mass_step(Plot *stage)
         const struct MassArrow *now = &arrow[order[i]];
         Point at[4];
         for (int k = 0; k < 4; k++)
-            at[k] = point_along(now->a, part[k], now->d);
-        if (vector_length(now->d) * stage->camera.scale[0] > 4 * stage->em)
+            at[k] = point_along(now->start, part[k], now->vector);
+        if (vector_length(now->vector) * stage->camera.scale[0] > 4 * stage->em)
             plot_label(stage, 4, at->xy, now->colour, "%s", now->label);
     }
 }
@@ -410,12 +410,12 @@ void list_mass_values(const Simulation *simulation, LiveValues *values)
             continue;
         double before = compute_energy(step.x, step.v);
         double after = compute_energy(step.new_x, step.new_v);
-        values->run = one ? 0 : r + 1;
+        values->next_run = one ? 0 : r + 1;
         values_add(values, "energy", before);
         values_add(values, "later", after);
         values_add(values, "factor", after / before);
     }
-    values->run = 0;
+    values->next_run = 0;
     bool backward = simulation->run[0].method->is_implicit;
     bool known = mass_find_next_step(simulation, 0, &step);
     values_add_flag(values, "stages", one && !known);

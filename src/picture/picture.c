@@ -41,8 +41,8 @@ static CardSets find_start_card_sets(const Simulation *simulation)
     for (int c = 0; c < picture->count; c++) {
         /* No card's name is part of another card's name. */
         const Card *card = picture->cards[c];
-        bool has = page ? strstr(page->cards, card->name) != NULL
-                        : !card->only_in_lecture;
+        bool has = page ? strstr(page->open_cards, card->name) != NULL
+                        : !card->is_only_in_lecture;
         sets.hidden_cards |= (unsigned)!has << c;
         sets.closed_cards |= (unsigned)(card->starts_closed && !page) << c;
     }
@@ -95,8 +95,8 @@ static void find_lone_pane_bounds(const FrameContent *content,
         plot_of_box(NULL, content, &content->pane[pane],
                     find_picture_room(content, layout, pane), layout->em);
     const Picture *picture = picture_of_scene(stage.simulation->scene);
-    if (picture->bounds)
-        picture->bounds(&stage, bounds);
+    if (picture->find_bounds)
+        picture->find_bounds(&stage, bounds);
     else
         memcpy(bounds, picture->default_bounds, sizeof picture->default_bounds);
 }
@@ -110,7 +110,7 @@ static void find_pane_bounds(const FrameContent *content, const Layout *layout,
     int last = content->lecture.page ? content->panes - 1 : pane;
     double own[4];
     if (held->is_dragging && !held->has_left &&
-        (held->pane == pane || held->pane == last)) {
+        (held->pane_index == pane || held->pane_index == last)) {
         memcpy(bounds, held->bounds, sizeof held->bounds);
         return;
     }
@@ -163,7 +163,7 @@ Camera make_pane_camera(const FrameContent *content, const Layout *layout,
 DragBounds frame_find_view_bounds(const FrameContent *content,
                                   const Layout *layout, int pane)
 {
-    DragBounds held = {.is_dragging = true, .pane = pane};
+    DragBounds held = {.is_dragging = true, .pane_index = pane};
     find_pane_bounds(content, layout, pane, held.bounds);
     return held;
 }

@@ -27,7 +27,7 @@ typedef struct Plot {
     const FrameContent *content;
     const Pane *pane; /* pane of the stage; in cards the active pane */
     const Simulation *simulation; /* simulation of the pane */
-    bool revealed;                /* a page shows its answer */
+    bool is_revealed;             /* a page shows its answer */
     Box box;                      /* pixels, without the numbers of the axes */
     Camera camera;                /* maps logarithms on a logarithmic axis */
     Axis x, y;           /* low = high = 0: no axes, and the unit is metres */
@@ -45,7 +45,7 @@ static inline Plot plot_of_box(Paper *paper, const FrameContent *content,
                   .content = content,
                   .pane = pane,
                   .simulation = pane->simulation,
-                  .revealed =
+                  .is_revealed =
                       content->lecture.page && !content->lecture.hides_answer,
                   .box = box,
                   .has_text = true,

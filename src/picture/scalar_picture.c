@@ -7,7 +7,7 @@
 
 #include "picture/cards.h"
 
-enum { ROOT_UPDATES = 60, DIGITS_SIZE = 48 };
+enum { ROOT_MAX_UPDATES = 60, DIGITS_TEXT_SIZE = 48 };
 
 static const double TANGENT_REACH = 3;  /* m, least half width of the view */
 static const double ITERATES_WIDE = 12; /* ems */
@@ -244,7 +244,7 @@ void draw_tangent_picture(Plot *stage)
 static double find_scalar_root(const Simulation *simulation)
 {
     double x = simulation->descent.iterate[0], p = INFINITY;
-    for (int i = 0; i < ROOT_UPDATES && fabs(p) > 1e-14 * fmax(1, fabs(x));
+    for (int i = 0; i < ROOT_MAX_UPDATES && fabs(p) > 1e-14 * fmax(1, fabs(x));
          i++) {
         LocalModel at = evaluate_scalar_model(simulation, x);
         p = -at.g[0] / at.H[0];
@@ -254,10 +254,10 @@ static double find_scalar_root(const Simulation *simulation)
 }
 
 /* Writes a double with 12 decimals, or 10 digits if large. */
-static void write_digits(double x, char text[DIGITS_SIZE])
+static void write_digits(double x, char text[DIGITS_TEXT_SIZE])
 {
     bool plain = fabs(x) < 1e4;
-    snprintf(text, DIGITS_SIZE, plain ? "%s%.12f" : "%s%.9e",
+    snprintf(text, DIGITS_TEXT_SIZE, plain ? "%s%.12f" : "%s%.9e",
              x < 0 ? "\u2212" : "", fabs(x));
 }
 
@@ -266,7 +266,7 @@ bool iterates_make_row(const FrameContent *content, int row,
                        CardTableRow *cells)
 {
     const Simulation *simulation = active_pane(content)->simulation;
-    char root[DIGITS_SIZE], x[DIGITS_SIZE];
+    char root[DIGITS_TEXT_SIZE], x[DIGITS_TEXT_SIZE];
     int right = 0;
     if (row == 0 || row > simulation->descent.count + 1)
         return row == 0;

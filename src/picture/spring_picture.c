@@ -177,8 +177,8 @@ void list_spring_values(const Simulation *simulation, LiveValues *values)
                     !(simulation->options.layers & LAYER_MODES));
     values_add_flag(values, "shortened", now.eigenvalue_across < 0);
     values_add(values, "root energy", both ? now.root_energy : NAN);
-    values_add(values, "root along", both ? now.root_along : NAN);
-    values_add(values, "root across", now.root_across);
+    values_add(values, "root along", both ? now.root_eigenvalue_along : NAN);
+    values_add(values, "root across", now.root_eigenvalue_across);
 }
 
 typedef double SpringFunction(const void *system, double d);

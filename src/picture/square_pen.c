@@ -76,7 +76,7 @@ SquarePen square_pen_create(Plot *stage, int run)
                                : pen.shade_strain;
     if (pen.colour_range > 0)
         pen.width *= 1.4;
-    bool ended = trace && trace->at_line == LINE_NONE && stage->revealed &&
+    bool ended = trace && trace->at_line == LINE_NONE && stage->is_revealed &&
                  frame_has_card(content, "prints");
     pen.shows_projected = trace &&
                           (ended || (trace->at_line >= LINE_PROJECT &&

@@ -193,7 +193,7 @@ void find_square_bounds(const Plot *stage, double bounds[4])
     const Options *options = &simulation->options;
     bool bare = stage->content->is_bare;
     bool is_free = options->grounds + options->balls == 0 &&
-                   !simulation->scene->body.obstacle &&
+                   !simulation->scene->body.make_obstacle &&
                    options->ceiling[1] == 0 && simulation->runs == 1;
     Extent view = find_default_view(stage->content, simulation);
     double box[4], tall, grown = 1;
@@ -435,7 +435,7 @@ static void draw_page_arrows(const SquarePen *pen)
         draw_node_arrows(pen, arrow, 30, COLOUR_VELOCITY,
                          "displacement \u00d7 30");
     }
-    if (!(layers & LAYER_FORCES) || !pen->stage->revealed)
+    if (!(layers & LAYER_FORCES) || !pen->stage->is_revealed)
         return;
     system_acceleration(system, pen->x, arrow);
     for (int i = 0; i < 2 * system->nodes; i++)
@@ -472,7 +472,7 @@ static void draw_magnifier(const SquarePen *pen)
     double bounds[4], least = INFINITY;
     const Box stage = lens.box;
     int air = (int)lens.em, side = (int)(MAGNIFIER_SIDE * lens.em);
-    if (!lens.revealed || lens.box.width < 2 * side ||
+    if (!lens.is_revealed || lens.box.width < 2 * side ||
         !law_find_contact(pen->simulation, &gap))
         return;
     for (int i = 0; i < 4; i++) {
@@ -486,7 +486,7 @@ static void draw_magnifier(const SquarePen *pen)
     }
     double reach = 1.2 * gap.d_hat;
     for (int c = 0; c < 4; c++)
-        bounds[c] = 0.5 * (gap.nearest[c % 2] + gap.node[c % 2]) +
+        bounds[c] = 0.5 * (gap.nearest_point[c % 2] + gap.node[c % 2]) +
                     (c < 2 ? -reach : reach);
     plot_ring(pen->stage, gap.node, 7, 1.5, COLOUR_P);
     canvas_framed_box(canvas, lens.box, COLOUR_WHITE, COLOUR_P);
@@ -498,7 +498,7 @@ static void draw_magnifier(const SquarePen *pen)
     near.node_radius = 4;
     square_draw_springs(&near);
     square_draw_nodes(&near);
-    plot_line(&lens, gap.nearest, gap.node, 3, COLOUR_P);
+    plot_line(&lens, gap.nearest_point, gap.node, 3, COLOUR_P);
     paper_write_on_panel(lens.paper, FACE_BOLD, 1, COLOUR_P,
                          lens.box.x + 0.6 * lens.em, lens.box.y + 0.4 * lens.em,
                          ALIGN_LEFT, "\u03b4 = %s mm",
@@ -514,7 +514,7 @@ static void draw_slid_distance(const Plot *stage, int body)
     const double *x = stage->simulation->run[0].x;
     double gone[2], from[2] = {INFINITY, -INFINITY};
     int nodes = mesh->nodes / mesh->bodies;
-    if (!stage->revealed || !law_find_slip(stage->simulation, body, gone))
+    if (!stage->is_revealed || !law_find_slip(stage->simulation, body, gone))
         return;
     for (int i = body * nodes; i < (body + 1) * nodes; i++) {
         from[0] = fmin(from[0], x[2 * i] - gone[0]);
@@ -558,7 +558,7 @@ void draw_square_picture(Plot *stage)
         square_fill_cells(pen, true);
     if (solid)
         square_draw_outline(pen, pen->x, false, COLOUR_X);
-    else if (stage->revealed && layers & (LAYER_CUTS | LAYER_KINDS))
+    else if (stage->is_revealed && layers & (LAYER_CUTS | LAYER_KINDS))
         draw_springs_by_kind(pen);
     else if (pen->spacing >= MIN_CELL || system_term_data(system, &fracture))
         square_draw_springs(pen);
@@ -582,7 +582,7 @@ void draw_square_picture(Plot *stage)
     draw_direction_arrows(pen);
     mark_part_under_mouse(pen);
     add_legend_warnings(pen, folded);
-    if (stage->revealed && layers & LAYER_NUMBERS &&
+    if (stage->is_revealed && layers & LAYER_NUMBERS &&
         (simulation->steps == 0 ||
          simulation->options.next_action == NEXT_ADDS_SPRING) &&
         system->nodes <= MAX_NUMBERED)
@@ -679,7 +679,7 @@ void list_square_values(const Simulation *simulation, LiveValues *values)
 int square_sample_energies(const Simulation *simulation, Energy *row)
 {
     Energies energies = simulation_get_energies(simulation, 0);
-    int rows = energies.rows < HISTORY_SERIES ? energies.rows : HISTORY_SERIES;
-    memcpy(row, energies.row, (size_t)rows * sizeof *row);
-    return rows;
+    int n = energies.count < HISTORY_SERIES ? energies.count : HISTORY_SERIES;
+    memcpy(row, energies.energy, (size_t)n * sizeof *row);
+    return n;
 }

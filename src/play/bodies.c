@@ -3,7 +3,7 @@
 
 #include "play/playing.h"
 
-Status obey_pin(Player *player, const Command *command)
+Status obey_toggle_pin(Player *player, const Command *command)
 {
     long node = command->number;
     const Simulation *simulation = player_simulation(player);
@@ -11,14 +11,14 @@ Status obey_pin(Player *player, const Command *command)
         return player_refuse(player, "only nodes of a square can be pinned");
     bool pinned = simulation->system.pinned[node];
     Command change = {.kind = COMMAND_PIN, .number = node, .x = !pinned};
-    Status status = player_edit_step(player, &change, PAST_ALL, false);
+    Status status = player_edit_step(player, &change, ALL_PANES, false);
     if (!status)
         player_note(player, "node %ld is %s", node, pinned ? "free" : "pinned");
     return status;
 }
 
 /* Takes hold of a node or an obstacle at its place. */
-Status obey_hold(Player *player, const Command *command)
+Status obey_take_hold(Player *player, const Command *command)
 {
     const Simulation *simulation = player_simulation(player);
     bool pulls = command->kind == COMMAND_GRAB;
@@ -34,7 +34,7 @@ Status obey_hold(Player *player, const Command *command)
                             .number = command->number,
                             .x = place[0],
                             .y = place[1]};
-    Status status = player_edit_step(player, &change, PAST_ALL, false);
+    Status status = player_edit_step(player, &change, ALL_PANES, false);
     player->hands.is_holding = player->hands.is_holding || !status;
     if (!status && player_is_stopped(player))
         player_note(player,
@@ -43,7 +43,7 @@ Status obey_hold(Player *player, const Command *command)
     return status;
 }
 
-Status obey_place(Player *player, const Command *command)
+Status obey_place_node(Player *player, const Command *command)
 {
     if (!simulation_is_draggable(player_simulation(player)))
         return player_refuse(player, "nothing to be placed here");
@@ -55,10 +55,10 @@ Status obey_place(Player *player, const Command *command)
                                  "no room for it there: an obstacle, a "
                                  "body, or a cell that would turn over");
     }
-    return player_edit_step(player, command, PAST_ALL, false);
+    return player_edit_step(player, command, ALL_PANES, false);
 }
 
-Status obey_obstacle(Player *player, const Command *command)
+Status obey_place_obstacle(Player *player, const Command *command)
 {
     Options moved = *player_active_options(player);
     double *at = options_obstacle_at(&moved, (int)command->number);
@@ -68,20 +68,21 @@ Status obey_obstacle(Player *player, const Command *command)
     for (int p = 0; p < past_panes(&player->past) && !status; p++)
         status = simulation_check_clearance(&player->past.pane[p].simulation,
                                             &moved, MESSAGE(player->message));
-    return status ? status : player_edit_step(player, command, PAST_ALL, false);
+    return status ? status
+                  : player_edit_step(player, command, ALL_PANES, false);
 }
 
-Status obey_drag(Player *player, const Command *command)
+Status obey_drag_hand(Player *player, const Command *command)
 {
     if (!control_is_holding(past_control(&player->past, player->active)))
         return player_refuse(player, "the hand holds nothing");
     player->hands.is_holding = command->kind == COMMAND_DRAG;
     player->hands.pulled_step = player->past.step;
-    return player_edit_step(player, command, PAST_ALL, false);
+    return player_edit_step(player, command, ALL_PANES, false);
 }
 
 /* Moves a handle or flips a switch; a moved start leads back to step 0. */
-Status obey_handle(Player *player, const Command *command)
+Status obey_drag_handle(Player *player, const Command *command)
 {
     Past *past = &player->past;
     Status status = STATUS_OK;
@@ -92,10 +93,10 @@ Status obey_handle(Player *player, const Command *command)
         !(needs & HAS_TIME)) {
         player_pause(player);
         status = player_seek(player, 0, AFTER_NOTHING);
-        status = status ? status : player_work(player);
+        status = status ? status : player_do_work(player);
     }
     if (!status)
-        status = player_edit_step(player, command, PAST_ALL, false);
+        status = player_edit_step(player, command, ALL_PANES, false);
     if (past->current > now)
         past->branch[now].left_step = step; /* undo shows this step again */
     return status;

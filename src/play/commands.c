@@ -27,7 +27,7 @@ static bool key_types_text(const char *key)
 }
 
 /* Whether a list of keys, "A|B", has this key. */
-static bool row_has_key(const char *keys, const char *key)
+static bool row_includes_key(const char *keys, const char *key)
 {
     size_t length = strlen(key);
     for (const char *at = keys; at && length > 0; at = strchr(at, '|')) {
@@ -47,7 +47,7 @@ Command command_from_key(const char *key, bool repeats, KeyScope scope)
     for (int i = COMMAND_KINDS - 1; i > 0 && !command.kind; i--) {
         const CommandRow *row = &command_rows[i];
         unsigned listens = row->key_scope ? row->key_scope : SCOPE_PLAY;
-        if (!(listens & scope) || !row_has_key(row->keys, key))
+        if (!(listens & scope) || !row_includes_key(row->keys, key))
             continue;
         if (repeats && !(row->flags & REPEATS))
             break;
@@ -98,7 +98,7 @@ static bool take_next_word(const char **line, char *word)
 }
 
 /* Returns the next argument in CommandRow.args, or NULL. */
-static const char *find_next_argument(const char *at)
+static const char *skip_to_next_argument(const char *at)
 {
     at = strchr(at, ' ');
     return at ? at + 1 : NULL;
@@ -161,7 +161,7 @@ Status command_parse(const char *line, Command *command, Message message)
     command->kind = (CommandKind)kind;
     const char *takes = command_rows[kind].args;
     bool good = true;
-    for (const char *at = takes; at && good; at = find_next_argument(at))
+    for (const char *at = takes; at && good; at = skip_to_next_argument(at))
         good = take_next_word(&line, next) && read_argument(next, *at, command);
     if (good && line[strspn(line, blanks)] == '\0')
         return STATUS_OK;
@@ -176,7 +176,7 @@ void command_format(const Command *command, char *line, size_t size)
     if (row->args && row->args[0] == 'O' && command->number >= 0)
         option = &option_rows[command->number];
     snprintf(line, size, "%s%s", command->joins_gesture ? "& " : "", row->name);
-    for (const char *at = row->args; at; at = find_next_argument(at)) {
+    for (const char *at = row->args; at; at = skip_to_next_argument(at)) {
         char word[COMMAND_TEXT_SIZE];
         if (*at == 'V' && command->number < 0)
             continue; /* text of an unknown option includes its value */
@@ -195,7 +195,7 @@ void command_format(const Command *command, char *line, size_t size)
     }
 }
 
-bool command_replaces(const Command *command, const Command *before)
+bool command_replaces_last(const Command *command, const Command *before)
 {
     return command_rows[command->kind].flags & REPLACES &&
            command->kind == before->kind && command->number == before->number;
@@ -213,7 +213,7 @@ Status script_add(Script *script, long step, const Command *command,
         line.command.joins_gesture = same && command->kind != COMMAND_DRAG &&
                                      command->kind != COMMAND_RELEASE;
     if (same && last->due_step == step &&
-        command_replaces(command, &last->command)) {
+        command_replaces_last(command, &last->command)) {
         line.command.joins_gesture = last->command.joins_gesture;
         *last = line;
         return STATUS_OK;
@@ -267,7 +267,7 @@ Status script_read(const char *name, Script *script, Message message)
 
 Status script_write(const char *name, const char *line, const Script *script)
 {
-    Output output;
+    OutputFile output;
     Status status = output_open(name, NULL, &output);
     if (status)
         return status;

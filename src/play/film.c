@@ -74,7 +74,7 @@ static void start_ffmpeg(Film *film, const Canvas *canvas)
 
 /* Reports that ffmpeg failed: the file's own failure if it cannot grow, such as
  * a full disk; else `why`. */
-static Status report_ffmpeg(const Film *film, const char *why)
+static Status report_ffmpeg_failure(const Film *film, const char *why)
 {
     static const char block[1 << 16];
     FILE *file = film->output.file;
@@ -104,12 +104,12 @@ Status film_add_frame(Film *film, const Canvas *canvas, int times)
     film->frames += times;
     if (!ferror(film->pipe))
         return STATUS_OK;
-    return report_ffmpeg(film, "ffmpeg ended before the film did");
+    return report_ffmpeg_failure(film, "ffmpeg ended before the film did");
 }
 
 Status film_close(Film *film, CloseAction keep)
 {
-    Output *output = &film->output;
+    OutputFile *output = &film->output;
     struct stat info;
     Status status = STATUS_OK;
     if (!film_is_open(film))
@@ -120,7 +120,7 @@ Status film_close(Film *film, CloseAction keep)
         status =
             film->frames == 0
                 ? output_report_failure(output, "no frame was drawn for it")
-                : report_ffmpeg(film, "ffmpeg could not write it");
+                : report_ffmpeg_failure(film, "ffmpeg could not write it");
     Status closed = output_close(output, !full    ? KEEP_NOTHING
                                          : status ? KEEP_PART
                                                   : keep);

@@ -15,7 +15,7 @@ static const double SMALL_LETTER = 9; /* pixels, smallest letters in files */
 /* ---- the list of keys ---------------------------------------------------- */
 
 /* Replaces the name of a key by a sign: "Right" by an arrow. */
-static void shorten_key(char key[VALUE_SIZE])
+static void shorten_key_name(char key[VALUE_SIZE])
 {
     static const char *const names[][2] = {
         {"Right", "\u2192"},         {"Left", "\u2190"},   {"Up", "\u2191"},
@@ -53,7 +53,7 @@ static void build_key_list(FrameContent *content)
             char key[VALUE_SIZE], *keys = row[-1].key;
             int length = (int)strcspn(at, "|");
             snprintf(key, sizeof key, "%.*s", length, at);
-            shorten_key(key);
+            shorten_key_name(key);
             append(keys, VALUE_SIZE, "%s%s", keys[0] ? ", " : "", key);
             at += length;
         }
@@ -65,7 +65,7 @@ static void build_key_list(FrameContent *content)
 
 /* Fills the row of numbers, and the sentence about the number under the mouse
  * or the selected one. */
-static void build_settings_row(const Player *player, Frame *frame)
+static void build_settings_row(const Player *player, WindowFrame *frame)
 {
     FrameContent *content = &frame->content;
     const WindowHit *mouse = &player->screen.view.mouse_hit;
@@ -125,22 +125,22 @@ static void list_shown_options(const Player *player, FrameContent *content)
 
 /* Adds the chip of a command, with its first key and one of its labels.
  *   state  in, index of the label in CommandRow.chips */
-static void add_chip(Frame *frame, CommandKind kind, int state, bool lit)
+static void add_chip(WindowFrame *frame, CommandKind kind, int state, bool lit)
 {
     ChipRow *chips = &frame->content.chips;
     Chip *chip = &chips->chip[chips->count];
-    const char *label = command_rows[kind].chips;
+    const char *label = command_rows[kind].chip_labels;
     const char *keys = command_rows[kind].keys;
     for (; state > 0; state--)
         label = strchr(label, '|') + 1;
     *chip = (Chip){.is_highlighted = lit};
     append(chip->label, VALUE_SIZE, "%.*s", (int)strcspn(label, "|"), label);
     append(chip->key, VALUE_SIZE, "%.*s", (int)strcspn(keys, "|"), keys);
-    shorten_key(chip->key);
+    shorten_key_name(chip->key);
     frame->chip_command[chips->count++] = kind;
 }
 
-static void build_chip_row(const Player *player, Frame *frame)
+static void build_chip_row(const Player *player, WindowFrame *frame)
 {
     const Simulation *simulation = player_simulation(player);
     const Options *options = player_active_options(player);
@@ -194,7 +194,7 @@ static void format_pane_value(const Player *player, int pane,
                               const OptionRow *row, char value[VALUE_SIZE])
 {
     const Past *past = &player->past;
-    const Entry *entry =
+    const PastEntry *entry =
         past_entry(past, pane, past_find_made_step(past, pane, past->step));
     player_format_value(row, &entry->control->options,
                         &past->pane[pane].simulation, value, VALUE_SIZE);
@@ -240,7 +240,7 @@ void player_write_label(const Player *player, int pane, char label[LABEL_SIZE])
         append(label, LABEL_SIZE, "; picture of step %ld", seen);
 }
 
-static void build_pane_content(const Player *player, int p, Frame *frame)
+static void build_pane_content(const Player *player, int p, WindowFrame *frame)
 {
     const PastPane *shown = &player->past.pane[p];
     const Simulation *simulation = &shown->simulation;
@@ -250,20 +250,20 @@ static void build_pane_content(const Player *player, int p, Frame *frame)
     player_write_label(player, p, frame->label[p]);
     *pane = (Pane){.simulation = simulation,
                    .history = &frame->history[p],
-                   .ghost_x = view->ghost,
+                   .ghost_x = view->ghost_x,
                    .ghost_label = view->ghost_label,
                    .failure = shown->outcome.status};
     if (past_panes(&player->past) > 1)
         pane->label = frame->label[p];
     if (shown->has_trace && simulation_has_updates(simulation)) {
         pane->trace = &frame->trace[p];
-        pane->x =
-            step_trace_show(&shown->trace, view->trace_index, &frame->trace[p]);
+        pane->x = step_trace_show_position(&shown->trace, view->trace_index,
+                                           &frame->trace[p]);
     }
 }
 
 /* Returns the bar of a step in the time line of the player `shown`. */
-static StepBar find_step_bar(const void *shown, long step)
+static StepBar get_step_bar(const void *shown, long step)
 {
     const Player *player = shown;
     const StepOutcome *outcome =
@@ -342,10 +342,10 @@ static void write_page_heading(const Player *player, LectureContent *lecture)
                value + strcspn(value, " "));
         before = ", ";
     }
-    snprintf(lecture->condition, sizeof lecture->condition, "%s:", text);
+    snprintf(lecture->heading, sizeof lecture->heading, "%s:", text);
 }
 
-static void build_frame_content(const Player *player, Frame *frame)
+static void build_frame_content(const Player *player, WindowFrame *frame)
 {
     const Past *past = &player->past;
     const Window *window = player->screen.window;
@@ -376,7 +376,7 @@ static void build_frame_content(const Player *player, Frame *frame)
                                    control->held_obstacle,
                                    {control->target[0], control->target[1]}};
     content->time_line.steps = past->stores_states ? past_newest(past) : 0;
-    content->time_line.get_bar = find_step_bar;
+    content->time_line.get_bar = get_step_bar;
     content->time_line.bar_data = player;
     content->time_line.step = past->step;
     content->title_bar.is_warning = player->is_warning;
@@ -395,10 +395,10 @@ static void build_frame_content(const Player *player, Frame *frame)
     content->lecture.hides_answer = player_hides_answer(player);
     write_page_heading(player, &content->lecture);
     bool answered =
-        content->pane[0].simulation->options.page == player->tour.revealed;
+        content->pane[0].simulation->options.page == player->tour.revealed_page;
     content->lecture.question = answered ? player->tour.asked_question : NULL;
     content->lecture.verdict =
-        answered && player->tour.verdict[0] && !content->lecture.condition[0]
+        answered && player->tour.verdict[0] && !content->lecture.heading[0]
             ? player->tour.verdict
             : NULL;
     content->lecture.guesses = player->tour.guesses;

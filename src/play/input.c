@@ -36,7 +36,7 @@ static MouseTarget find_mouse_target(Player *player)
                                 paper ? paper->canvas.height : 1),
         .pane = player->active};
     target.hit = layout_find_hit(&target.layout, mouse->x, mouse->y);
-    int pane = held->is_dragging               ? held->pane
+    int pane = held->is_dragging               ? held->pane_index
                : target.hit.zone == ZONE_STAGE ? target.hit.index
                                                : target.pane;
     if (pane < past_panes(&player->past)) /* the pane of a drag may be closed */
@@ -85,7 +85,7 @@ static KeyScope find_key_scope(const Player *player)
 
 /* Opens the page, or adds the number, of a line of the open list.
  *   line  in, number of the line, or name of the page */
-static Status choose_list_line(Player *player, const char *line)
+static Status open_list_line(Player *player, const char *line)
 {
     const OptionRow *all[OPTIONS_MAX_ROWS];
     Command page = {.kind = COMMAND_PAGE, .joins_gesture = true};
@@ -107,7 +107,7 @@ static Status enter_text(Player *player)
     const OptionRow *row = player->hands.selected;
     Status status;
     if (!row && player_shows_list(player)) {
-        status = choose_list_line(player, player->hands.typed);
+        status = open_list_line(player, player->hands.typed);
         player->hands.is_typing = player->hands.is_typing && status;
         return status;
     }
@@ -144,7 +144,7 @@ static Status drag_number(Player *player, const MouseTarget *target)
         return STATUS_OK;
     if (row->count > 1) /* change_number refuses several numbers. */
         return change_number(player, row, 1);
-    if (row->display.increment > 0 || row->kind == OPTION_NAME)
+    if (row->display.notch_increment > 0 || row->kind == OPTION_NAME)
         notches = rint(notches);
     else if (notches == rint(notches))
         notches += 1e-9; /* keeps option_find_value_after_wheel from rounding */
@@ -157,7 +157,7 @@ static Status drag_number(Player *player, const MouseTarget *target)
 }
 
 /* Opens a square with h, k and stretch of a cell, by commands for scripts. */
-static Status open_cell(Player *player, long cell)
+static Status open_clicked_cell(Player *player, long cell)
 {
     const Options map = player_simulation(player)->options;
     player_enqueue_lines(player, "scene square");
@@ -207,7 +207,7 @@ static Status begin_press(Player *player, const MouseTarget *target)
     case PICK_SWITCH:
         return obey(player, COMMAND_FLIP, target->pick.index);
     case PICK_CELL:
-        return open_cell(player, target->pick.index);
+        return open_clicked_cell(player, target->pick.index);
     case PICK_POINT:
         if (page_wants_click(page) && player_hides_answer(player))
             return obey_at(player, COMMAND_PREDICT, 0, target->pick.point);
@@ -349,7 +349,7 @@ static Status describe_hovered_object(Player *player)
 }
 
 /* Selects a number of the row; a double click sets its default. */
-static Status press_number(Player *player, int index, int clicks)
+static Status press_setting(Player *player, int index, int clicks)
 {
     Mouse *mouse = &player->hands.mouse;
     if (index >= player->screen.frame.options) /* the last item is "+ more" */
@@ -389,7 +389,7 @@ static Status press_left_button(Player *player, const MouseTarget *target,
         player->hands.mouse.has_moved = true;
         return continue_drag(player);
     case ZONE_SETTING:
-        return press_number(player, index, clicks);
+        return press_setting(player, index, clicks);
     case ZONE_LIST_CLOSE:
         return obey(player, COMMAND_ESCAPE, 0);
     case ZONE_LIST:
@@ -399,7 +399,7 @@ static Status press_left_button(Player *player, const MouseTarget *target,
             return STATUS_OK;
         key = player->screen.frame.content.list.row[index].key;
         snprintf(line, sizeof line, "%.7s", key + (key[0] == '>'));
-        return key[0] ? choose_list_line(player, line) : STATUS_OK;
+        return key[0] ? open_list_line(player, line) : STATUS_OK;
     case ZONE_CELL:
         player->screen.view.selected_cell = index;
         return obey(player, COMMAND_OPEN, 0);
@@ -493,7 +493,7 @@ static Status turn_wheel(Player *player, double amount)
     return STATUS_OK;
 }
 
-static Status obey_mouse(Player *player, const Input *input)
+static Status obey_mouse_input(Player *player, const Input *input)
 {
     Mouse *mouse = &player->hands.mouse;
     bool rests =
@@ -558,6 +558,6 @@ Status player_obey_input(Player *player, const Input *input)
         player->screen.must_redraw = true;
         return STATUS_OK;
     default:
-        return obey_mouse(player, input);
+        return obey_mouse_input(player, input);
     }
 }

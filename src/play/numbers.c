@@ -30,10 +30,10 @@ const char *player_find_idle_reason(const Player *player, const OptionRow *row)
                             : NULL;
 }
 
-Status obey_add(Player *player, const Command *command)
+Status obey_add_option(Player *player, const Command *command)
 {
     const OptionRow *row = find_command_option(command);
-    if (!row || !player_has_number(player, row))
+    if (!row || !player_shows_number(player, row))
         return player_refuse(player, "this scene has no such number");
     const char *idle = player_find_idle_reason(player, row);
     if (idle)
@@ -46,7 +46,7 @@ Status obey_add(Player *player, const Command *command)
     return STATUS_OK;
 }
 
-Status obey_select(Player *player, const Command *command)
+Status obey_select_option(Player *player, const Command *command)
 {
     const OptionRow *number[OPTIONS_MAX_ROWS];
     int next = 0, count = player_list_options(player, false, number);
@@ -58,7 +58,7 @@ Status obey_select(Player *player, const Command *command)
 }
 
 /* Types or deletes a letter; the first letter opens the field. */
-Status obey_type(Player *player, const Command *command)
+Status obey_type_letter(Player *player, const Command *command)
 {
     char *typed = player->hands.typed;
     bool list = player_shows_list(player),
@@ -95,7 +95,7 @@ Status obey_type(Player *player, const Command *command)
 
 /* Sets an option in all panes, or only in the active one if the panes differ in
  * it or a page sets it.  Begins new runs if the option needs a new start. */
-Status obey_set(Player *player, const Command *command)
+Status obey_set_option(Player *player, const Command *command)
 {
     const OptionRow *row = find_command_option(command);
     const Simulation *simulation = player_simulation(player);
@@ -109,13 +109,13 @@ Status obey_set(Player *player, const Command *command)
     if (idle)
         return player_refuse(player, "%s", idle);
     bool one = player->tour.is_page_running || player_panes_differ(player, row);
-    int pane = one ? player->active : PAST_ALL;
+    int pane = one ? player->active : ALL_PANES;
     int panes = player_copy_options(player, options);
     double old = options[player->active].number[row->slot];
     Status status = STATUS_OK;
     const Message message = MESSAGE(player->message);
     for (int p = 0; p < panes && !status; p++) {
-        if (pane != PAST_ALL && pane != p)
+        if (pane != ALL_PANES && pane != p)
             continue;
         status =
             options_set(&options[p], row, command->text, command->x, message);
@@ -127,7 +127,8 @@ Status obey_set(Player *player, const Command *command)
         return status;
     Command change = *command;
     change.x = options[player->active].number[row->slot];
-    const State *state = past_entry(&player->past, 0, player->past.step)->state;
+    const SavedState *state =
+        past_entry(&player->past, 0, player->past.step)->state;
     bool is_set = state && state->is_set; /* not made by a step */
     bool again = (!is_set || player_active_pane(player)->has_failed) &&
                  (row->effect == EFFECT_REPEAT ||
@@ -152,7 +153,7 @@ Status player_enqueue_notches(Player *player, const OptionRow *row, int notches)
     return STATUS_OK;
 }
 
-Status obey_raise(Player *player, const Command *command)
+Status obey_change_number(Player *player, const Command *command)
 {
     const OptionRow *number[OPTIONS_MAX_ROWS];
     player_list_options(player, false, number); /* each scene has numbers */
@@ -177,7 +178,7 @@ Status obey_reset_option(Player *player, const Command *command)
     return status;
 }
 
-Status obey_switch(Player *player, const Command *command)
+Status obey_switch_option(Player *player, const Command *command)
 {
     bool search = command->kind == COMMAND_SEARCH;
     const OptionRow *row = option_find(search ? "line-search" : "projection");

@@ -43,7 +43,7 @@ long player_count_targets(const Player *player, int pane, CommandKind kind)
 }
 
 /* Refuses a command whose number names no node, obstacle, ... in some pane. */
-static Status check_target(Player *player, const Command *command)
+static Status check_command_target(Player *player, const Command *command)
 {
     for (int p = 0; p < past_panes(&player->past); p++) {
         long count = player_count_targets(player, p, command->kind);
@@ -121,7 +121,7 @@ Status player_obey_queue(Player *player, bool now)
 }
 
 /* Whether the new step still comes to its end before this command. */
-static bool comes_after_step(const Past *past, CommandKind kind)
+static bool command_waits_for_goal(const Past *past, CommandKind kind)
 {
     return past_makes_step(past) &&
            (kind == COMMAND_PAUSE || kind == COMMAND_PLAY);
@@ -129,13 +129,13 @@ static bool comes_after_step(const Past *past, CommandKind kind)
 
 /* Abandons the step being made, and obeys the commands that waited for it.  A
  * pause in the journal then belongs to the step that is shown. */
-static Status abandon_step(Player *player)
+static Status abandon_unfinished_step(Player *player)
 {
     int gesture = player->commands.gesture;
     const Script *done = &player->commands.journal;
     for (size_t i = done->lines;
          i-- > 0 && done->line[i].due_step == player->past.step + 1 &&
-         comes_after_step(&player->past, done->line[i].command.kind);)
+         command_waits_for_goal(&player->past, done->line[i].command.kind);)
         done->line[i].due_step--;
     past_set_goal(&player->past, player->past.step, false);
     player->play.after_work = AFTER_NOTHING;
@@ -169,7 +169,7 @@ static void begin_command(Player *player, const Command *command)
 /* Whether a command does nothing but wait for the work.  While a step is loaded
  * or made, "next" leads to this step.  While a step is made, a drag goes into
  * the queue. */
-static bool waits_for_step(Player *player, const Command *command)
+static bool command_waits_for_step(Player *player, const Command *command)
 {
     bool drags =
         player->hands.mouse.drag_command || command->kind == COMMAND_DRAG;
@@ -192,7 +192,7 @@ Status player_obey(Player *player, const Command *command)
     bool stops = false;
     Status status = STATUS_OK;
     begin_command(player, &meant);
-    if (waits_for_step(player, &meant))
+    if (command_waits_for_step(player, &meant))
         return STATUS_OK;
     if (player_hides_answer(player) &&
         (meant.kind == COMMAND_NEXT || meant.kind == COMMAND_PLAY)) {
@@ -201,22 +201,22 @@ Status player_obey(Player *player, const Command *command)
     }
     if (past_is_working(past) && !(flags & KEEPS_STEP)) {
         stops = meant.kind == COMMAND_ESCAPE;
-        status = abandon_step(player);
+        status = abandon_unfinished_step(player);
     }
-    status = status ? status : check_target(player, &meant);
+    status = status ? status : check_command_target(player, &meant);
     if (!status && stops)
         player_note(player, "step abandoned: the last whole one is shown");
     else if (!status)
         status = functions[meant.kind](player, &meant);
     if (flags & IN_SCRIPT && status != STATUS_INVALID_INPUT &&
         script_add(&player->commands.journal,
-                   step + comes_after_step(past, meant.kind), &meant,
+                   step + command_waits_for_goal(past, meant.kind), &meant,
                    player->commands.gesture))
         return STATUS_OUT_OF_MEMORY;
     bool worked = past_is_working(past);
     player_sample_line_energy(player); /* a card may draw E along p now */
     if (past_is_working(past) && (!worked || !(flags & KEEPS_STEP))) {
-        Status shown = player_work(player);
+        Status shown = player_do_work(player);
         status = status ? status : shown;
     }
     if (past->current > now && meant.kind != COMMAND_REDO &&
@@ -228,9 +228,9 @@ Status player_obey(Player *player, const Command *command)
     return status ? status : player_obey_queue(player, false);
 }
 
-Status player_continue(Player *player)
+Status player_continue_work(Player *player)
 {
-    Status status = player_work(player);
+    Status status = player_do_work(player);
     return status
                ? status
                : player_show_refusal(player, player_obey_queue(player, false));
@@ -239,5 +239,5 @@ Status player_continue(Player *player)
 Status player_make_step(Player *player)
 {
     Status status = player_seek(player, player->past.step + 1, AFTER_NOTHING);
-    return status ? status : player_continue(player);
+    return status ? status : player_continue_work(player);
 }

@@ -8,12 +8,12 @@
 
 #include "simulation/message.h"
 
-bool output_is_standard(const char *name)
+bool output_is_stdout(const char *name)
 {
     return strcmp(name, "-") == 0 || strcmp(name, "/dev/stdout") == 0;
 }
 
-const char *output_reason(Status status)
+const char *output_explain(Status status)
 {
     return status != STATUS_FILE_FAILED ? status_text(status)
                                         : strerror(errno ? errno : EIO);
@@ -32,22 +32,22 @@ Status output_report(char *message, const char *name, Status status,
 {
     if (message && !message[0])
         snprintf(message, MESSAGE_BYTES, "%s: %s", name,
-                 why ? why : output_reason(status));
+                 why ? why : output_explain(status));
     return status;
 }
 
-Status output_report_failure(const Output *output, const char *why)
+Status output_report_failure(const OutputFile *output, const char *why)
 {
     return output_report(output->message, output->name, STATUS_FILE_FAILED,
                          why);
 }
 
-Status output_open(const char *name, char *message, Output *output)
+Status output_open(const char *name, char *message, OutputFile *output)
 {
     struct stat info;
-    bool standard = output_is_standard(name);
+    bool standard = output_is_stdout(name);
     bool exists = !standard && stat(name, &info) == 0;
-    *output = (Output){.message = message};
+    *output = (OutputFile){.message = message};
     snprintf(output->name, sizeof output->name, "%s",
              standard ? "standard output" : name);
     if (standard)
@@ -62,7 +62,7 @@ Status output_open(const char *name, char *message, Output *output)
 }
 
 /* Checks every call that can report a failed write. */
-Status output_close(Output *output, CloseAction keep)
+Status output_close(OutputFile *output, CloseAction keep)
 {
     FILE *file = output->file;
     bool beside = output->part_name[0];
@@ -80,7 +80,7 @@ Status output_close(Output *output, CloseAction keep)
     return whole ? STATUS_OK : output_report_failure(output, NULL);
 }
 
-void table_add_columns(Table *table, const char *names)
+void table_add_columns(CsvTable *table, const char *names)
 {
     for (const char *at = names; at && *at; at += *at == ',') {
         char name[TABLE_NAME_SIZE];
@@ -97,7 +97,7 @@ void table_add_columns(Table *table, const char *names)
     }
 }
 
-Status table_open(const char *name, char *message, Table *table)
+Status table_open(const char *name, char *message, CsvTable *table)
 {
     Status status = output_open(name, message, &table->output);
     if (status)
@@ -108,7 +108,7 @@ Status table_open(const char *name, char *message, Table *table)
     return table_check(table);
 }
 
-void table_add_row(Table *table, const double *value)
+void table_add_row(CsvTable *table, const double *value)
 {
     FILE *file = table->output.file;
     for (int c = 0; c < table->columns && !ferror(file); c++) {
@@ -124,7 +124,7 @@ void table_add_row(Table *table, const double *value)
 }
 
 /* A stream remembers that a write failed. */
-Status table_check(const Table *table)
+Status table_check(const CsvTable *table)
 {
     FILE *file = table->output.file;
     return file && ferror(file) ? output_report_failure(&table->output, NULL)

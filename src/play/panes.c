@@ -26,7 +26,7 @@ static const IntegratorMethod *find_next_method(Player *player, int pane)
     return NULL;
 }
 
-Status obey_method(Player *player, const Command *command)
+Status obey_next_method(Player *player, const Command *command)
 {
     const IntegratorMethod *next = find_next_method(player, player->active);
     if (!next)
@@ -53,7 +53,7 @@ Status obey_add_pane(Player *player, const Command *command)
         return STATUS_INVALID_INPUT;
     const Command change = make_set_command(
         option_find("integrator"), (double)(next - integrator_methods));
-    Status status = player_edit_step(player, command, PAST_ALL, false);
+    Status status = player_edit_step(player, command, ALL_PANES, false);
     if (!status && !player->tour.is_page_running)
         status = player_edit_step(player, &change, panes, false);
     if (status)
@@ -63,9 +63,9 @@ Status obey_add_pane(Player *player, const Command *command)
     return STATUS_OK;
 }
 
-Status obey_end_pane(Player *player, const Command *command)
+Status obey_close_pane(Player *player, const Command *command)
 {
     if (past_panes(&player->past) < 2)
         return player_refuse(player, "there is only one");
-    return player_edit_step(player, command, PAST_ALL, false);
+    return player_edit_step(player, command, ALL_PANES, false);
 }

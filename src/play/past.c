@@ -35,7 +35,7 @@ static int find_pane_below(const Branch *branch, int pane)
 
 /* Returns the entry of a step, from a branch below if the step is earlier.  The
  * step after the last one has the entry being made.  NULL: no entry. */
-static Entry *find_branch_entry(const Branch *branch, int pane, long step)
+static PastEntry *find_branch_entry(const Branch *branch, int pane, long step)
 {
     for (; step < branch->first_step && !branch->from_options; branch--)
         pane = find_pane_below(branch, pane);
@@ -45,12 +45,12 @@ static Entry *find_branch_entry(const Branch *branch, int pane, long step)
                : &branch->entry[i * branch->panes + pane];
 }
 
-static Entry *find_entry(const Past *past, int pane, long step)
+static PastEntry *find_entry(const Past *past, int pane, long step)
 {
     return find_branch_entry(present_branch(past), pane, step);
 }
 
-const Entry *past_entry(const Past *past, int pane, long step)
+const PastEntry *past_entry(const Past *past, int pane, long step)
 {
     return step > past_newest(past) ? NULL : find_entry(past, pane, step);
 }
@@ -68,27 +68,27 @@ const UserControl *past_start_control(const Past *past, int pane)
     return branch->entry[pane].control;
 }
 
-static bool entry_is_failure(const Entry *entry)
+static bool entry_is_failure(const PastEntry *entry)
 {
     return status_is_failure(entry->outcome.status);
 }
 
 /* Whether a failure has ended a pane before it could make an entry's step. */
-static bool pane_has_ended(const Entry *entry)
+static bool entry_ends_pane(const PastEntry *entry)
 {
     return entry->substeps == 0 && entry_is_failure(entry);
 }
 
 long past_find_made_step(const Past *past, int pane, long step)
 {
-    while (step > 0 && pane_has_ended(past_entry(past, pane, step)))
+    while (step > 0 && entry_ends_pane(past_entry(past, pane, step)))
         step--;
     return step;
 }
 
 long past_find_drawable_step(const Past *past, int pane, long step)
 {
-    const Entry *first = past_entry(past, pane, 1);
+    const PastEntry *first = past_entry(past, pane, 1);
     if (!first)
         return step;
     double most = PAST_EXPLODED * fmax(first->outcome.max_x, 1e-300);
@@ -100,9 +100,9 @@ long past_find_drawable_step(const Past *past, int pane, long step)
 /* ---- entries and branches ------------------------------------------------ */
 
 /* Drops the state of an entry, and its sample. */
-static void drop_state(Past *past, Entry *entry)
+static void drop_state(Past *past, PastEntry *entry)
 {
-    State *state = entry->state;
+    SavedState *state = entry->state;
     if (state && --state->ref_count == 0) {
         past->used_bytes -= state->size;
         control_release(state->control);
@@ -115,17 +115,17 @@ static void drop_state(Past *past, Entry *entry)
     entry->sample = NULL;
 }
 
-static void drop_entry(Past *past, Entry *entry)
+static void drop_entry(Past *past, PastEntry *entry)
 {
     control_release(entry->control);
     drop_state(past, entry);
-    *entry = (Entry){0};
+    *entry = (PastEntry){0};
 }
 
 /* Reserves an entry of each pane; without states only two entries stay. */
 static Status reserve_entry(Past *past, Branch *branch)
 {
-    size_t row = (size_t)branch->panes * sizeof(Entry);
+    size_t row = (size_t)branch->panes * sizeof(PastEntry);
     if (!past->stores_states && branch->entries == 2) {
         for (int p = 0; p < branch->panes; p++)
             drop_entry(past, &branch->entry[p]);
@@ -137,7 +137,7 @@ static Status reserve_entry(Past *past, Branch *branch)
     if (branch->entries < branch->capacity)
         return STATUS_OK;
     long room = branch->capacity ? 2 * branch->capacity : 4;
-    Entry *entry = realloc(branch->entry, (size_t)room * row);
+    PastEntry *entry = realloc(branch->entry, (size_t)room * row);
     if (!entry)
         return STATUS_OUT_OF_MEMORY;
     memset((char *)entry + (size_t)branch->capacity * row, 0,
@@ -161,7 +161,7 @@ static void drop_branches(Past *past, int from)
 
 /* Whether an entry keeps its state when its pane leaves the step.  In a thinned
  * branch entry 0 keeps only a state that the user set. */
-static bool branch_keeps_state(const Branch *branch, const Entry *entry)
+static bool branch_keeps_state(const Branch *branch, const PastEntry *entry)
 {
     long i = (entry - branch->entry) / branch->panes;
     return i % branch->stride == 0 && (i > 0 || branch->stride == 1 ||
@@ -207,7 +207,7 @@ void past_fill_history(const Past *past, int pane, History *history)
 }
 
 /* Stores a pane's state in an entry; drops others beyond the memory's limit. */
-static Status store_state(Past *past, int p, bool set, Entry *entry)
+static Status store_state(Past *past, int p, bool set, PastEntry *entry)
 {
     const PastPane *pane = &past->pane[p];
     const Simulation *simulation = &pane->simulation;
@@ -217,10 +217,10 @@ static Status store_state(Past *past, int p, bool set, Entry *entry)
     drop_state(past, entry);
     while (past->used_bytes + both > past->max_bytes && halve_states(past))
         continue;
-    State *state = malloc(size);
+    SavedState *state = malloc(size);
     if (!state)
         return STATUS_OUT_OF_MEMORY;
-    *state = (State){1, size, set, control_retain(pane->control)};
+    *state = (SavedState){1, size, set, control_retain(pane->control)};
     state_save(simulation, state->bytes);
     past->used_bytes += size;
     entry->state = state;
@@ -237,7 +237,7 @@ static void pane_leave_step(Past *past, int p)
         return;
     while (pane->step < branch->first_step && !branch->from_options)
         branch--;
-    Entry *entry = find_entry(past, p, pane->step);
+    PastEntry *entry = find_entry(past, p, pane->step);
     if (!branch_keeps_state(branch, entry))
         drop_state(past, entry);
     pane->has_state = false;
@@ -252,7 +252,7 @@ static void leave_steps_of_panes(Past *past)
 /* Puts a branch on top of the present one, and drops undone branches.  The
  * first `copies` entries are copies from the branch below; entry 0 shares its
  * state with the copied entry.  Returns NULL if memory is missing. */
-static Branch *push_branch(Past *past, Branch wanted, const Command *edit)
+static Branch *push_new_branch(Past *past, Branch wanted, const Command *edit)
 {
     drop_branches(past, past->current + 1);
     if (past->branches == past->capacity) {
@@ -276,7 +276,7 @@ static Branch *push_branch(Past *past, Branch wanted, const Command *edit)
             pane_leave_step(past, p);
     for (int p = 0; p < branch->panes && !branch->from_options; p++)
         for (int i = 0; i < branch->copied; i++) {
-            Entry *to = &branch->entry[i * branch->panes + p];
+            PastEntry *to = &branch->entry[i * branch->panes + p];
             *to = *find_branch_entry(branch - 1, find_pane_below(branch, p),
                                      branch->first_step + i);
             control_retain(to->control);
@@ -326,7 +326,7 @@ static bool observe_newton(void *user, const NewtonRecord *record)
     const Newton *newton = find_newton_to_trace(&pane->simulation);
     if (newton && pane->trace.x_length > 0 && record->iteration >= 0)
         step_trace_add_iterate(&pane->trace, newton, record);
-    Records *records = &pane->records;
+    NewtonRecords *records = &pane->records;
     if (records_reserve(records, records->count + 1))
         records->record[records->count++] = *record;
     else
@@ -377,7 +377,7 @@ static Status pane_use_control(PastPane *pane, const UserControl *control)
 static Status pane_set_step(Past *past, int p, long step)
 {
     PastPane *pane = &past->pane[p];
-    Entry *entry = find_entry(past, p, step);
+    PastEntry *entry = find_entry(past, p, step);
     bool samples = past->stores_states &&
                    (!entry->sample || pane->control != entry->control);
     Status status = pane_use_control(pane, entry->control);
@@ -393,14 +393,14 @@ static Status pane_set_step(Past *past, int p, long step)
         const Picture *picture = picture_of_scene(pane->simulation.scene);
         entry->sample->time = simulation_time(&pane->simulation);
         entry->sample->energy_count = 0;
-        if (picture->sample)
+        if (picture->get_energies)
             entry->sample->energy_count =
-                picture->sample(&pane->simulation, entry->sample->energy);
+                picture->get_energies(&pane->simulation, entry->sample->energy);
     }
     return STATUS_OK;
 }
 
-static Status pane_load_state(PastPane *pane, const State *state)
+static Status pane_load_state(PastPane *pane, const SavedState *state)
 {
     Status status = pane_use_control(pane, state->control);
     if (!status)
@@ -422,7 +422,7 @@ static Status pane_seek(Past *past, int p, long goal)
                    (pane->step >= from || pane->step >= goal - 1);
     if (is_near && pane->control == find_entry(past, p, pane->step)->control)
         return pane_set_step(past, p, pane->step);
-    const Entry *entry = find_entry(past, p, from);
+    const PastEntry *entry = find_entry(past, p, from);
     if (!entry->state)
         return STATUS_OUT_OF_MEMORY;
     Status status = STATUS_OK;
@@ -444,7 +444,7 @@ static Status pane_seek(Past *past, int p, long goal)
 
 /* Ends the present work at the last whole step.  A pane that has left this step
  * must load its state again. */
-static void abandon_work(Past *past)
+static void abandon_past_work(Past *past)
 {
     if (past->work_stage == WORK_DONE)
         return;
@@ -475,7 +475,7 @@ static Status pane_iterate(Past *past, int p);
 
 /* Ends a pane that has failed while other panes go on.  From now on the pane
  * shows its last state that a picture can show (PAST_EXPLODED). */
-static Status end_failed_pane(Past *past, int p, Status why)
+static Status end_pane_by_failure(Past *past, int p, Status why)
 {
     PastPane *pane = &past->pane[p];
     long step = pane->step, last = past_find_drawable_step(past, p, step);
@@ -500,11 +500,11 @@ static Status pane_record_failure(Past *past, int p, Status status)
     PastPane *pane = &past->pane[p];
     if (past_makes_step(past) && past->panes_fail_alone &&
         past_panes(past) > 1 && !is_out_of_memory(status)) {
-        status = end_failed_pane(past, p, status);
+        status = end_pane_by_failure(past, p, status);
         if (status == STATUS_RUNNING)
             return status;
     }
-    abandon_work(past);
+    abandon_past_work(past);
     if (!is_out_of_memory(status) && pane->start_control) {
         pane->has_failed = pane->has_trace = true;
         pane->outcome.status = status;
@@ -520,7 +520,7 @@ static Status pane_finish_step(Past *past, int p)
 {
     PastPane *pane = &past->pane[p];
     long step = pane->step + 1;
-    Entry *to = find_entry(past, p, step);
+    PastEntry *to = find_entry(past, p, step);
     Status status = STATUS_OK;
     if (step > past_newest(past)) {
         if (!to->control)
@@ -570,7 +570,7 @@ static Status pane_end_iteration(Past *past, int p, Status status)
         past->bad_status = status;
     double middle =
         simulation_time(simulation) + 0.5 * find_pane_timestep(pane);
-    const Entry *to = past_entry(past, p, pane->step + 1);
+    const PastEntry *to = past_entry(past, p, pane->step + 1);
     bool more = to ? pane->substeps < to->substeps
                    : moved && middle < past->end_time &&
                          (simulation->scene->parts & HAS_TIME);
@@ -581,8 +581,8 @@ static Status pane_end_iteration(Past *past, int p, Status status)
 static Status pane_iterate(Past *past, int p)
 {
     PastPane *pane = &past->pane[p];
-    const Entry *from = past_entry(past, p, pane->step);
-    const Entry *to = past_entry(past, p, pane->step + 1);
+    const PastEntry *from = past_entry(past, p, pane->step);
+    const PastEntry *to = past_entry(past, p, pane->step + 1);
     if (pane->is_iterating)
         return pane_end_iteration(past, p,
                                   simulation_advance(&pane->simulation));
@@ -590,12 +590,12 @@ static Status pane_iterate(Past *past, int p)
         pane->outcome = (StepOutcome){0};
         pane_forget_step(pane);
     }
-    if (pane_has_ended(from)) {
+    if (entry_ends_pane(from)) {
         pane->outcome = from->outcome;
         return pane_finish_step(past, p);
     }
     if (to && entry_is_failure(to))
-        return end_failed_pane(past, p, to->outcome.status);
+        return end_pane_by_failure(past, p, to->outcome.status);
     if (past->stores_states)
         step_trace_begin(&pane->trace, &pane->simulation, past->samples_energy,
                          p == past->line_energy_pane);
@@ -614,7 +614,7 @@ static Status begin_new_step(Past *past)
     for (int p = 0; p < past_panes(past); p++) {
         const PastPane *pane = &past->pane[p];
         double pace = find_pane_timestep(pane);
-        if (pace <= longest || pane_has_ended(past_entry(past, p, pane->step)))
+        if (pace <= longest || entry_ends_pane(past_entry(past, p, pane->step)))
             continue;
         longest = pace;
         past->end_time = simulation_time(&pane->simulation) + pace;
@@ -637,7 +637,7 @@ static Status end_past_work(Past *past)
         past->goal_step = past_newest(past);
         for (int p = 0; p < past_panes(past); p++)
             past->pane[p].step = past->goal_step;
-        abandon_work(past);
+        abandon_past_work(past);
     }
     past->work_stage = WORK_DONE;
     past->step = past->goal_step;
@@ -682,7 +682,7 @@ static bool can_trace_goal(const Past *past)
     for (int p = 0; p < past_panes(past); p++) {
         const PastPane *pane = &past->pane[p];
         const Simulation *simulation = &pane->simulation;
-        const Entry *entry = past_entry(past, p, past->goal_step);
+        const PastEntry *entry = past_entry(past, p, past->goal_step);
         long behind = past->goal_step - pane->step;
         bool is_known = pane->has_state &&
                         (behind == 1 || (behind == 0 && pane->has_trace));
@@ -695,7 +695,7 @@ static bool can_trace_goal(const Past *past)
 
 void past_set_goal(Past *past, long step, bool again)
 {
-    abandon_work(past);
+    abandon_past_work(past);
     long newest = past_newest(past);
     past->goal_step = step < 0 ? 0 : step > newest ? newest + 1 : step;
     past->load_step = past->goal_step < newest ? past->goal_step : newest;
@@ -718,8 +718,8 @@ static void invalidate_tables(Past *past, long step, bool changed)
 {
     if (past->written_step > step - changed)
         past->written_step = step - changed;
-    if (past->booked_step > step - 1)
-        past->booked_step = step - 1;
+    if (past->energies_step > step - 1)
+        past->energies_step = step - 1;
 }
 
 /* Brings the simulations of all panes to the step that is shown. */
@@ -735,7 +735,7 @@ Status past_begin_runs(Past *past, const Options *options, int panes,
     const Branch wanted = {
         .from_options = true, .panes = panes, .gesture = gesture};
     Status status = STATUS_OK;
-    abandon_work(past);
+    abandon_past_work(past);
     leave_steps_of_panes(past);
     for (int p = 0; p < panes && !status; p++) {
         PastPane *pane = &past->pane[p];
@@ -756,12 +756,12 @@ Status past_begin_runs(Past *past, const Options *options, int panes,
         past_set_goal(past, past->step, false);
     if (status)
         return status;
-    Branch *branch = push_branch(past, wanted, edit);
+    Branch *branch = push_new_branch(past, wanted, edit);
     if (!branch)
         return STATUS_OUT_OF_MEMORY;
     invalidate_tables(past, 0, true);
     for (int p = 0; p < panes && !status; p++) {
-        Entry *entry = &branch->entry[p];
+        PastEntry *entry = &branch->entry[p];
         entry->control = control_retain(past->pane[p].start_control);
         entry->substeps = 1;
         if (past->stores_states)
@@ -821,7 +821,7 @@ static const UserControl *make_edited_control(const UserControl *from,
 }
 
 static Status apply_pane_edit(Past *past, int pane, const Command *edit,
-                              Entry *entry)
+                              PastEntry *entry)
 {
     Simulation *simulation = &past->pane[pane].simulation;
     if (!edit_sets_state(edit)) {
@@ -866,7 +866,7 @@ Status past_edit(Past *past, const Command *edit, int pane, bool again,
     if (joins) /* the edit replaces undone branches */
         drop_branches(past, past->current + 1);
     else
-        branch = push_branch(past, wanted, edit);
+        branch = push_new_branch(past, wanted, edit);
     if (!branch)
         return STATUS_OUT_OF_MEMORY;
     if (edit->kind == branch->edit.kind)
@@ -874,7 +874,7 @@ Status past_edit(Past *past, const Command *edit, int pane, bool again,
     invalidate_tables(past, past->step, edit_changes_state(edit));
     for (long i = branch->entries - 1; i < branch->entries + again; i++)
         for (int p = 0; p < panes && !counts && !status; p++)
-            if (pane == PAST_ALL || pane == p)
+            if (pane == ALL_PANES || pane == p)
                 status = apply_pane_edit(past, p, edit,
                                          &branch->entry[i * panes + p]);
     return status || again ? status : finish_shown_step(past);
@@ -894,7 +894,7 @@ const Command *past_undo(Past *past, int way)
         invalidate_tables(past, past->branch[b].first_step,
                           past->branch[b].from_options ||
                               edit_changes_state(&past->branch[b].edit));
-    abandon_work(past);
+    abandon_past_work(past);
     leave_steps_of_panes(past);
     present_branch(past)->left_step = past->step;
     past->current = to;
@@ -909,7 +909,7 @@ void past_create(bool stores_states, bool panes_fail_alone, Past *past)
                    .stores_states = stores_states,
                    .panes_fail_alone = panes_fail_alone,
                    .written_step = -1,
-                   .booked_step = -1,
+                   .energies_step = -1,
                    .max_bytes = PAST_BYTES,
                    .line_energy_pane = -1};
 }

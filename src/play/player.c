@@ -12,7 +12,7 @@ enum {
     FRAME_SIZE = 900,       /* pixels of a frame without a window */
     WINDOWLESS_STEPS = 100, /* default number of steps without a window */
     FRAME_RATE = 60,        /* frames a second at most */
-    IDLE_WAIT = 200         /* ms, longest wait; then signals are noticed */
+    MAX_IDLE_WAIT = 200     /* ms, longest wait; then signals are noticed */
 };
 
 static const double EARLY = 0.002; /* s by which a frame may be drawn early */
@@ -60,7 +60,7 @@ bool player_has_ended(const Player *player)
            (!player->screen.window && player_is_stopped(player));
 }
 
-static Status obey_script(Player *player)
+static Status obey_due_script_lines(Player *player)
 {
     Status status = STATUS_OK;
     while (!status && !player->is_quitting) {
@@ -98,12 +98,12 @@ static Status make_due_steps(Player *player)
             break;
         if (player_is_stopped(player) && !past_is_working(past))
             break;
-        status = past_is_working(past) ? player_continue(player)
+        status = past_is_working(past) ? player_continue_work(player)
                                        : player_make_step(player);
         if (past_is_working(past))
             break;
         if (!status)
-            status = obey_script(player);
+            status = obey_due_script_lines(player);
     }
     return status;
 }
@@ -122,7 +122,7 @@ Status player_make_frame(Player *player)
         status = player_show_refusal(player, player_obey_input(player, &input));
     }
     if (!status && !past_is_working(&player->past))
-        status = obey_script(player);
+        status = obey_due_script_lines(player);
     double now = player->screen.window ? clock_now() : 0;
     if (player->screen.drawn_step < 0) /* draw a run before its first step */
         player->play.due_time = now + period;
@@ -141,7 +141,7 @@ Status player_make_frame(Player *player)
     }
     if (lives && due) {
         player->play.due_time = now + 1.0 / FRAME_RATE;
-        sheet_advance(player);
+        sheet_advance_cells(player);
     }
     if (!status && !player->is_quitting && player->screen.must_redraw)
         status = player_draw(player);
@@ -159,11 +159,11 @@ int player_find_wait_time(const Player *player)
 {
     double wait = 1e3 * (player->play.due_time - clock_now());
     if (player_is_idle(player))
-        return IDLE_WAIT;
+        return MAX_IDLE_WAIT;
     if (!player->screen.window || past_is_working(&player->past) ||
         (player_is_stopped(player) && !script_is_over(&player->setup.script)))
         return 0;
-    return (int)fmax(fmin(ceil(wait), IDLE_WAIT), 0);
+    return (int)fmax(fmin(ceil(wait), MAX_IDLE_WAIT), 0);
 }
 
 Status player_run(Player *player)

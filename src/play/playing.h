@@ -23,7 +23,7 @@ const Options *player_active_options(const Player *player);
 Options player_shown_options(const Player *player);
 
 /* Whether the scene uses this option, and its value is a number or a choice. */
-bool player_has_number(const Player *player, const OptionRow *row);
+bool player_shows_number(const Player *player, const OptionRow *row);
 
 /* Lists the row of numbers, or all numbers of the scene.  Returns how many. */
 int player_list_options(const Player *player, bool all,
@@ -53,12 +53,12 @@ bool player_is_stopped(const Player *player);
 bool player_is_slow(const Player *player);
 
 /* Lets E along p be sampled from now on if a card draws it.  Prepares to make
- * the shown step once more if its samples are missing; player_work makes it. */
+ * the shown step once more (player_do_work) if its samples are missing. */
 void player_sample_line_energy(Player *player);
 
 /* Returns log_speed at the start of a run: from the options; else of the scene,
  * if the run is attended and no page; else 0, or UPDATE_SPEED without time. */
-int player_initial_speed(const Player *player, const Options *options);
+int player_find_first_speed(const Player *player, const Options *options);
 
 /* Whether a list of pages or numbers is open, from which a number chooses. */
 bool player_shows_list(const Player *player);
@@ -98,7 +98,7 @@ Status player_enqueue_lines(Player *player, const char *lines);
 /* ---- sheet.c ------------------------------------------------------------- */
 
 /* Makes steps of the scenes on the sheet, for a part of the time of a frame. */
-void sheet_advance(Player *player);
+void sheet_advance_cells(Player *player);
 void sheet_build_content(const Player *player, FrameContent *content);
 void sheet_close(Player *player);
 
@@ -114,13 +114,13 @@ Status player_edit_step(Player *player, const Command *change, int pane,
                         bool again);
 
 /* Iterates until the chosen step is shown; in a window at most for SLICE. */
-Status player_work(Player *player);
+Status player_do_work(Player *player);
 
-/* Sets the step to show, cut to 0 ... newest + 1.  player_work makes it;
+/* Sets the step to show, cut to 0 ... newest + 1.  player_do_work makes it;
  * player_obey calls it unless KEEPS_STEP keeps a step that is being made. */
-Status player_seek(Player *player, long step, AfterWork after);
+Status player_seek(Player *player, long step, ActionAfterWork after);
 
-/* Edits a pane, or each one.  player_work then makes the shown step, or the
+/* Edits a pane, or each one.  player_do_work then makes the shown step, or the
  * step that failed, once more.  The active pane keeps the shown step as a
  * ghost, unless the step failed or the edit begins a new run. */
 Status player_repeat_step(Player *player, const Command *change, int pane);
@@ -196,4 +196,4 @@ long player_count_targets(const Player *player, int pane, CommandKind kind);
 Status player_obey_queue(Player *player, bool now);
 
 /* Continues the work that leads to a step, and obeys the queue. */
-Status player_continue(Player *player);
+Status player_continue_work(Player *player);

@@ -19,7 +19,7 @@
     (print_line(stderr, "elasto: " format, __VA_ARGS__), (int)(code))
 
 /* Whether the reader of standard output has closed it, as head(1) does. */
-static bool pipe_is_closed(void)
+static bool stdout_is_closed(void)
 {
     struct pollfd out = {.fd = STDOUT_FILENO};
     return poll(&out, 1, 0) == 1 && out.revents & (POLLERR | POLLHUP);
@@ -31,9 +31,9 @@ static int check_standard_output(void)
 {
     if (!ferror(stdout) && fflush(stdout) == 0)
         return EXIT_FINE;
-    return pipe_is_closed() ? EXIT_FAILED
-                            : print_error(EXIT_FAILED, "standard output: %s",
-                                          output_reason(STATUS_FILE_FAILED));
+    return stdout_is_closed() ? EXIT_FAILED
+                              : print_error(EXIT_FAILED, "standard output: %s",
+                                            output_explain(STATUS_FILE_FAILED));
 }
 
 /* Prints the answer to --help, --version, --lecture --list or --list.  Returns
@@ -78,7 +78,7 @@ static int report_failure(const Player *player, Status status)
     int panes = past_panes(&player->past), p = 0;
     char pane[32] = "";
     if (status == STATUS_FILE_FAILED && player->recording.uses_stdout &&
-        pipe_is_closed())
+        stdout_is_closed())
         return code;
     if (!message[0])
         message = player->recording.message;
@@ -170,7 +170,7 @@ static void print_summary(FILE *file, const Player *player)
         print_newton_counters(file, simulation);
         if (in_time) {
             print_quantity(file, "energy at start", "%.9g J",
-                           simulation->ledger[0].start + 0.0); /* no -0 */
+                           simulation->ledger[0].start_energy + 0.0); /* no -0 */
             print_quantity(file, "energy at end", "%.9g J",
                            simulation_get_energies(simulation, 0).total);
             print_energy_gain(file, simulation);
@@ -198,8 +198,8 @@ static void print_summary(FILE *file, const Player *player)
 static void print_old_frames(const Recording *recording)
 {
     long count = 0, first = 0, last = 0;
-    for (long step = 0; recording->old_frame && step < MAX_FRAMES; step++)
-        if (recording->old_frame[step]) {
+    for (long step = 0; recording->is_old_frame && step < MAX_FRAMES; step++)
+        if (recording->is_old_frame[step]) {
             first = count++ == 0 ? step : first;
             last = step;
         }
@@ -268,8 +268,8 @@ static void warn_of_reset_terms(const Options *options)
 {
     const Scene *scene = options->scene;
     bool moves = options->ceiling[1] != 0 ||
-                 (scene->body.obstacle &&
-                  scene->body.obstacle(options).motion.phases > 0);
+                 (scene->body.make_obstacle &&
+                  scene->body.make_obstacle(options).motion.phases > 0);
     bool springs =
         !options->state_springs && (options->tear > 0 || options->yield > 0);
     if (options->state && springs)

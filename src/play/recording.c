@@ -22,7 +22,7 @@ typedef struct RunAtStep {
     int first_run, first_node, first_spring; /* counts in the runs before */
 } RunAtStep;
 
-static void add_states(Table *table, const RunAtStep *at)
+static void add_state_rows(CsvTable *table, const RunAtStep *at)
 {
     for (int i = 0; i < at->run->system->nodes; i++) {
         const double *x = at->run->x + 2 * i, *v = at->run->v + 2 * i;
@@ -33,7 +33,7 @@ static void add_states(Table *table, const RunAtStep *at)
     }
 }
 
-static void add_springs(Table *table, const RunAtStep *at)
+static void add_spring_rows(CsvTable *table, const RunAtStep *at)
 {
     const System *system = at->run->system;
     const Plasticity *flow = system_term_data(system, &plastic_energy);
@@ -54,21 +54,21 @@ static void add_springs(Table *table, const RunAtStep *at)
 }
 
 /* Writes the energies of a run.  An energy that the run does not have is 0. */
-static void add_energies(Table *table, const RunAtStep *at)
+static void add_energy_rows(CsvTable *table, const RunAtStep *at)
 {
     const Energies energies =
         simulation_get_energies(at->simulation, at->run_index);
     double row[TABLE_MAX_COLUMNS] = {at->step, at->time};
     for (int c = 2; c < table->columns; c++)
-        for (int r = 0; r < energies.rows; r++)
-            if (strcmp(energies.row[r].name, table->column[c].name) == 0)
-                row[c] = energies.row[r].value;
+        for (int r = 0; r < energies.count; r++)
+            if (strcmp(energies.energy[r].name, table->column[c].name) == 0)
+                row[c] = energies.energy[r].value;
     row[table->columns - 1] = at->first_run;
     table_add_row(table, row);
 }
 
 /* Returns the text of a number in a column of the log. */
-static const char *name_log_code(const char *column, int number)
+static const char *get_log_code_name(const char *column, int number)
 {
     static const char *const kinds[] = {"value", "estimate"};
     return strcmp(column, "status") == 0   ? status_name((Status)number)
@@ -80,22 +80,22 @@ static const char *name_log_code(const char *column, int number)
 static const struct {
     size_t file;         /* offset of the file's name in Options */
     const char *columns; /* names of columns, for table_add_columns */
-    void (*write_rows)(Table *table, const RunAtStep *at); /* adds the rows of
-                                a step; NULL: the log, a row an iteration */
-} kinds[TABLE_COUNT] = {
+    void (*write_rows)(CsvTable *table, const RunAtStep *at); /* adds the rows
+                                of a step; NULL: the log, a row an iteration */
+} kinds[RECORDING_TABLES] = {
     {offsetof(Options, states), "step:whole,time,node:whole,x,y,vx,vy",
-     add_states},
+     add_state_rows},
     {offsetof(Options, log),
      "step:whole,iteration:whole,residual,alpha,trials:whole,slope,change,"
      "projected:whole,factorised:whole,shift,status:text,seconds,"
      "solver:text,kind:text",
      NULL},
     {offsetof(Options, energies), "step:whole,time,total,kinetic,gravity",
-     add_energies},
+     add_energy_rows},
     {offsetof(Options, springs),
      "step:whole,time,spring:whole,i:whole,j:whole,whole:whole,rest,strain,"
      "plastic,flowed",
-     add_springs},
+     add_spring_rows},
 };
 
 /* Writes red, green, blue of each pixel; libpng keeps errno of a failure. */
@@ -122,7 +122,7 @@ static Status png_write(FILE *file, const Canvas *canvas)
 
 Status png_file_write(const char *name, char *message, const Canvas *canvas)
 {
-    Output output;
+    OutputFile output;
     Status status = output_open(name, message, &output);
     if (status)
         return status;
@@ -139,13 +139,13 @@ static void find_old_frames(Recording *recording)
 {
     DIR *folder = opendir(recording->folder);
     struct dirent *file;
-    recording->old_frame = calloc(MAX_FRAMES, 1);
-    while (folder && recording->old_frame && (file = readdir(folder))) {
+    recording->is_old_frame = calloc(MAX_FRAMES, 1);
+    while (folder && recording->is_old_frame && (file = readdir(folder))) {
         int end = 0, step = 0;
         if (sscanf(file->d_name, "frame_%6d.png%n", &step, &end) == 1 &&
             end == (int)strlen("frame_000000.png") && !file->d_name[end] &&
             step >= 0)
-            recording->old_frame[step] = 1;
+            recording->is_old_frame[step] = 1;
     }
     if (folder)
         closedir(folder);
@@ -155,20 +155,20 @@ static void find_old_frames(Recording *recording)
  * energy of any scene; with several panes other tables have a column `pane`. */
 static Status open_table(const Options *options, Recording *recording, int t)
 {
-    Table *table = &recording->table[t];
+    CsvTable *table = &recording->table[t];
     const char *name = *(char *const *)((const char *)options + kinds[t].file);
     if (!name)
         return STATUS_OK;
-    recording->uses_stdout = recording->uses_stdout || output_is_standard(name);
+    recording->uses_stdout = recording->uses_stdout || output_is_stdout(name);
     recording->has_tables = true;
-    table->get_text = name_log_code;
+    table->get_text = get_log_code_name;
     table_add_columns(table, kinds[t].columns);
     for (const OptionRow *row = option_rows; row->name; row++)
-        if (t == TABLE_ENERGIES && row->term) {
+        if (t == ENERGIES_TABLE && row->term) {
             table_add_columns(table, row->term->energy_name);
             table_add_columns(table, row->term->loss_name);
         }
-    if (t == TABLE_ENERGIES)
+    if (t == ENERGIES_TABLE)
         table_add_columns(table, "work,dissipated,run:whole");
     else if (recording->panes > 1)
         table_add_columns(table, "pane:whole");
@@ -187,7 +187,7 @@ Status recording_open(const Options *options, Recording *recording)
         find_old_frames(recording);
     if (!status && options->film)
         status = film_open(options->film, message, &recording->film);
-    for (int t = 0; t < TABLE_COUNT && !status; t++)
+    for (int t = 0; t < RECORDING_TABLES && !status; t++)
         status = open_table(options, recording, t);
     return status;
 }
@@ -203,8 +203,8 @@ Status recording_write_frame(Recording *recording, const Canvas *canvas,
         return status;
     snprintf(name, sizeof name, "%s/frame_%06ld.png", recording->folder, step);
     recording->frames++;
-    if (recording->old_frame && step < MAX_FRAMES)
-        recording->old_frame[step] = 0;
+    if (recording->is_old_frame && step < MAX_FRAMES)
+        recording->is_old_frame[step] = 0;
     return png_file_write(name, recording->message, canvas);
 }
 
@@ -221,15 +221,15 @@ Status recording_write_states(Recording *recording, bool energies_only,
             at.time = simulation_time(simulation[i]);
             at.run_index = r;
             at.pane = i + 1;
-            for (int t = 0; t < TABLE_COUNT; t++)
+            for (int t = 0; t < RECORDING_TABLES; t++)
                 if (kinds[t].write_rows && recording->table[t].output.file &&
-                    (!energies_only || t == TABLE_ENERGIES))
+                    (!energies_only || t == ENERGIES_TABLE))
                     kinds[t].write_rows(&recording->table[t], &at);
             at.first_run++;
             at.first_node += at.run->system->nodes;
             at.first_spring += at.run->system->springs;
         }
-    for (int t = 0; t < TABLE_COUNT && !status; t++)
+    for (int t = 0; t < RECORDING_TABLES && !status; t++)
         status = table_check(&recording->table[t]);
     return status;
 }
@@ -237,7 +237,7 @@ Status recording_write_states(Recording *recording, bool energies_only,
 Status recording_write_iteration(Recording *recording, const NewtonRecord *at,
                                  int pane)
 {
-    Table *log = &recording->table[TABLE_LOG];
+    CsvTable *log = &recording->table[LOG_TABLE];
     /* An iteration below 0 is the end of a step by a prescribed motion. */
     double iteration = at->iteration < 0 ? NAN : at->iteration;
     double step = (double)at->step_number;
@@ -254,7 +254,7 @@ Status recording_write_iteration(Recording *recording, const NewtonRecord *at,
 Status recording_close(Recording *recording, CloseAction keep)
 {
     bool failed = recording->message[0];
-    for (int t = 0; t < TABLE_COUNT; t++) {
+    for (int t = 0; t < RECORDING_TABLES; t++) {
         FILE *file = recording->table[t].output.file;
         if (file)
             fflush(file);
@@ -262,7 +262,7 @@ Status recording_close(Recording *recording, CloseAction keep)
     }
     keep = failed && !keep ? KEEP_PART : keep;
     failed = film_close(&recording->film, keep) || failed;
-    for (int t = 0; t < TABLE_COUNT; t++) {
+    for (int t = 0; t < RECORDING_TABLES; t++) {
         keep = failed && !keep ? KEEP_PART : keep;
         failed = output_close(&recording->table[t].output, keep) || failed;
     }
@@ -272,5 +272,5 @@ Status recording_close(Recording *recording, CloseAction keep)
 void recording_free(Recording *recording)
 {
     recording_close(recording, KEEP_NOTHING);
-    free(recording->old_frame);
+    free(recording->is_old_frame);
 }

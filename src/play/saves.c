@@ -9,8 +9,8 @@
 enum { NOTED_LINE_BYTES = 100 }; /* longest command line of a note */
 
 /* Finds a name that no file has: elasto_SCENE_000012.png, ..._2.png, ... */
-static void find_free_file_name(const Player *player, const char *end,
-                                char *name, size_t size)
+static void find_unused_file_name(const Player *player, const char *end,
+                                  char *name, size_t size)
 {
     char number[16] = "";
     for (int i = 2; i < 100000; i++) {
@@ -22,7 +22,7 @@ static void find_free_file_name(const Player *player, const char *end,
     }
 }
 
-Status obey_shot(Player *player, const Command *command)
+Status obey_save_picture(Player *player, const Command *command)
 {
     char name[80];
     const bool draws = player->screen.draws_frames;
@@ -30,26 +30,26 @@ Status obey_shot(Player *player, const Command *command)
     Paper *paper = player_prepare_paper(player);
     Status status = paper ? STATUS_OK : STATUS_OUT_OF_MEMORY;
     player->screen.draws_frames = draws;
-    find_free_file_name(player, ".png", name, sizeof name);
+    find_unused_file_name(player, ".png", name, sizeof name);
     if (paper) {
         player_paint_frame(player, paper);
         status = png_file_write(name, NULL, &paper->canvas);
     }
     if (status)
-        player_note(player, "not saved: %s", output_reason(status));
+        player_note(player, "not saved: %s", output_explain(status));
     else
         player_note(player, "saved %s", name);
     return STATUS_OK;
 }
 
-Status obey_film(Player *player, const Command *command)
+Status obey_toggle_film(Player *player, const Command *command)
 {
     char name[80], message[MESSAGE_BYTES] = "";
     Film *film = &player->recording.film;
     bool ends = film_is_open(film);
     if (!player->screen.draws_frames)
         return player_refuse(player, "nothing is drawn that could be filmed");
-    find_free_file_name(player, ".mp4", name, sizeof name);
+    find_unused_file_name(player, ".mp4", name, sizeof name);
     film->output.message = message;
     Status status =
         ends ? film_close(film, KEEP_FILE) : film_open(name, message, film);
@@ -127,7 +127,7 @@ static char *write_command_line(const Player *player, const char *script)
 
 /* Saves the journal as a script, with a pause at its end.
  *   line  in, command line that plays the script */
-static Status write_journal(Player *player, const char *name, const char *line)
+static Status save_journal(Player *player, const char *name, const char *line)
 {
     const Command pause = {.kind = COMMAND_PAUSE};
     Script *journal = &player->commands.journal;
@@ -144,7 +144,7 @@ static Status write_journal(Player *player, const char *name, const char *line)
 /* Reports the hash of the state and the command line that leads to it, and
  * saves the script of this line if there were commands.  A step that is being
  * made ends before, since its panes have states of two steps. */
-Status obey_hash(Player *player, const Command *command)
+Status obey_report_hash(Player *player, const Command *command)
 {
     if (past_is_working(&player->past)) {
         player_enqueue(player, command);
@@ -152,15 +152,15 @@ Status obey_hash(Player *player, const Command *command)
     }
     char name[80], hash[64];
     bool commands = player->commands.journal.lines > 0;
-    find_free_file_name(player, ".script", name, sizeof name);
+    find_unused_file_name(player, ".script", name, sizeof name);
     char *line = write_command_line(player, commands ? name : NULL);
     Status status = line ? STATUS_OK : STATUS_OUT_OF_MEMORY;
     if (!status && commands)
-        status = write_journal(player, name, line);
+        status = save_journal(player, name, line);
     snprintf(hash, sizeof hash, "state %016llx at step %ld",
              (unsigned long long)player_hash(player), player->past.step);
     if (status) {
-        player_note(player, "%s: no script: %s", hash, output_reason(status));
+        player_note(player, "%s: no script: %s", hash, output_explain(status));
     } else {
         bool fits = strlen(line) <= NOTED_LINE_BYTES;
         const char *where = commands ? name : "the terminal";

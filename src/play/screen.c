@@ -14,7 +14,7 @@ static bool could_lose_work(const Player *player)
                                  clock_now() - player->setup.start_time > LONG);
 }
 
-Status obey_screen(Player *player, const Command *command)
+Status obey_change_screen(Player *player, const Command *command)
 {
     const Window *window = player->screen.window;
     CommandKind kind = command->kind;
@@ -37,7 +37,7 @@ Status obey_screen(Player *player, const Command *command)
     return STATUS_OK;
 }
 
-Status obey_column(Player *player, const Command *command)
+Status obey_show_column(Player *player, const Command *command)
 {
     ColumnContent column = command->kind == COMMAND_KEYS      ? COLUMN_KEYS
                            : command->kind == COMMAND_PAGES   ? COLUMN_PAGES
@@ -96,7 +96,7 @@ Status obey_escape(Player *player, const Command *command)
     return STATUS_OK;
 }
 
-Status obey_camera(Player *player, const Command *command)
+Status obey_move_camera(Player *player, const Command *command)
 {
     const Paper *paper = player_prepare_paper(player);
     const FrameContent *content = &player->screen.frame.content;
@@ -123,7 +123,7 @@ Status obey_camera(Player *player, const Command *command)
     return STATUS_OK;
 }
 
-Status obey_card(Player *player, const Command *command)
+Status obey_toggle_card(Player *player, const Command *command)
 {
     int card = (int)command->number;
     const CardSets *sets = &player->screen.frame.content.cards;
@@ -142,7 +142,7 @@ Status obey_card(Player *player, const Command *command)
 /* Chooses another cell of the sheet.  Left and Right choose the next cell; Up
  * the last cell before it that lies higher and not further right; Down the
  * first cell after it that lies lower and not further left. */
-Status obey_choose(Player *player, const Command *command)
+Status obey_choose_cell(Player *player, const Command *command)
 {
     const FrameContent *content = &player->screen.frame.content;
     int *chosen = &player->screen.view.selected_cell;

@@ -44,7 +44,7 @@ int player_copy_options(const Player *player,
     return past_panes(past);
 }
 
-bool player_has_number(const Player *player, const OptionRow *row)
+bool player_shows_number(const Player *player, const OptionRow *row)
 {
     return (row->needed_parts & player_active_options(player)->scene->parts) &&
            row->kind != OPTION_SWITCH && row->kind != OPTION_TEXT;
@@ -57,7 +57,7 @@ int player_list_options(const Player *player, bool all,
     int own = all ? 0 : options_list_visible_rows(&options, found), count = own;
     for (const OptionRow *row = option_rows; row->name; row++) {
         bool more = all || player->hands.added_rows >> (row - option_rows) & 1;
-        more = more && player_has_number(player, row);
+        more = more && player_shows_number(player, row);
         for (int i = 0; i < own; i++)
             more = more && found[i] != row;
         if (more)
@@ -165,7 +165,7 @@ void player_sample_line_energy(Player *player)
         past_set_goal(past, past->step, true);
 }
 
-int player_initial_speed(const Player *player, const Options *options)
+int player_find_first_speed(const Player *player, const Options *options)
 {
     double speed = options->speed;
     if (speed == 0 && !options->page && player->setup.is_attended)
@@ -251,9 +251,9 @@ void player_enqueue(Player *player, const Command *command)
 {
     CommandQueue *queue = &player->commands.queue;
     Command *last = queue->command + (queue->count > 0 ? queue->count - 1 : 0);
-    if (queue->count > 0 && command_replaces(command, last))
+    if (queue->count > 0 && command_replaces_last(command, last))
         *last = *command;
-    else if (queue->count < MAX_QUEUED)
+    else if (queue->count < MAX_QUEUED_COMMANDS)
         queue->command[queue->count++] = *command;
 }
 
@@ -281,7 +281,7 @@ Status player_enqueue_lines(Player *player, const char *lines)
         snprintf(line, sizeof line, "& %.*s", (int)length, lines);
         lines += length + (lines[length] == ';');
         status = command_parse(line, &command, MESSAGE(player->message));
-        if (!status && player->commands.queue.count == MAX_QUEUED)
+        if (!status && player->commands.queue.count == MAX_QUEUED_COMMANDS)
             status = player_refuse(player, "too many commands at once");
         if (!status)
             player_enqueue(player, &command);

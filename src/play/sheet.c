@@ -8,8 +8,8 @@
 #include "scenes/scenes.h"
 
 enum {
-    CELL_LIFE = 240, /* frames until the scene of a cell begins again */
-    CELL_PAUSE = 24  /* frames between two steps in scenes without time */
+    CELL_LIFE_FRAMES = 240, /* frames until the scene of a cell begins again */
+    CELL_PAUSE_FRAMES = 24 /* frames between two steps in scenes without time */
 };
 
 /* s, computing time in a frame for the steps of all scenes together */
@@ -34,7 +34,7 @@ void sheet_close(Player *player)
 }
 
 /* Closes the sheet, or opens it and selects the scene's cell or the tour's. */
-Status obey_sheet(Player *player, const Command *command)
+Status obey_toggle_sheet(Player *player, const Command *command)
 {
     const Options *options = player_active_options(player);
     bool opens = !player->screen.sheet;
@@ -57,7 +57,7 @@ Status obey_sheet(Player *player, const Command *command)
 }
 
 /* Begins the scene of a cell; a cell that fails stays empty. */
-static void begin_cell_scene(Sheet *sheet, int i)
+static void begin_scene_of_cell(Sheet *sheet, int i)
 {
     char message[256];
     Options options;
@@ -74,7 +74,7 @@ static void begin_cell_scene(Sheet *sheet, int i)
         simulation_free(simulation);
 }
 
-void sheet_advance(Player *player)
+void sheet_advance_cells(Player *player)
 {
     Sheet *sheet = player->screen.sheet;
     double begin = clock_now();
@@ -83,12 +83,12 @@ void sheet_advance(Player *player)
     for (int i = 0; i < sheet->cells && clock_now() - begin < STEP_TIME; i++) {
         int cell = sheet->next_cell, age = sheet->turns[cell]++;
         Simulation *simulation = &sheet->simulation[cell];
-        if (age % CELL_LIFE == 0)
-            begin_cell_scene(sheet, cell);
+        if (age % CELL_LIFE_FRAMES == 0)
+            begin_scene_of_cell(sheet, cell);
         else if (simulation->scene && !simulation->is_over &&
                  !status_is_failure(simulation->status) &&
                  ((simulation->scene->parts & HAS_TIME) ||
-                  age % CELL_PAUSE == 0))
+                  age % CELL_PAUSE_FRAMES == 0))
             simulation_step(simulation);
         sheet->next_cell = (cell + 1) % sheet->cells;
     }
@@ -119,7 +119,7 @@ void sheet_build_content(const Player *player, FrameContent *content)
 
 /* Opens the scene or page of the chosen cell by a command, which scripts can
  * repeat.  An open page stays if the chosen cell is the tour. */
-Status obey_open(Player *player, const Command *command)
+Status obey_open_cell(Player *player, const Command *command)
 {
     char line[32] = "page-on";
     int cell = player->screen.view.selected_cell;

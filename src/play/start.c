@@ -13,7 +13,7 @@
 
 /* Begins another scene.  The scene begins paused if the last one was paused, or
  * if the user is to step through it (Scene.starts_paused). */
-Status obey_scene(Player *player, const Command *command)
+Status obey_open_scene(Player *player, const Command *command)
 {
     Options options[OPTIONS_MAX_PANES];
     bool runs = player->play.mode >= MODE_END || !player_is_stopped(player);
@@ -72,7 +72,7 @@ Status player_restore_pins(Player *player, const UserControl *before)
             .kind = COMMAND_PIN, .number = i, .x = before->pinned[i]};
         now = past_control(&player->past, 0);
         if (now->pinned[i] != before->pinned[i])
-            status = player_edit_step(player, &pin, PAST_ALL, false);
+            status = player_edit_step(player, &pin, ALL_PANES, false);
     }
     control_release(before);
     return status;
@@ -144,7 +144,7 @@ void player_store_page_options(Player *player, const Options *options)
 bool player_hides_answer(const Player *player)
 {
     const LecturePage *page = player_active_options(player)->page;
-    return page && page->question && player->tour.revealed != page &&
+    return page && page->question && player->tour.revealed_page != page &&
            player->setup.asks_guess && !player->tour.is_page_running;
 }
 
@@ -161,7 +161,7 @@ Status player_reveal_answer(Player *player, const char *typed)
         return player_refuse(player, "a number is wanted: 0.25 or 1/4");
     bool right = fabs(guess - truth) <= 0.025 * fabs(truth);
     bool judged = typed && page->answer && !isnan(truth);
-    player->tour.revealed = page;
+    player->tour.revealed_page = page;
     player->tour.guesses += judged;
     player->tour.right_guesses += judged && right;
     player->tour.verdict[0] = '\0';
@@ -182,7 +182,7 @@ Status player_reveal_answer(Player *player, const char *typed)
 
 /* Opens a page by its name, the next page, or the previous page.  Outside of
  * the lecture: the last open page, the page after it, or the first page. */
-Status obey_page(Player *player, const Command *command)
+Status obey_open_page(Player *player, const Command *command)
 {
     Options options;
     const LecturePage *page = player_active_options(player)->page;
@@ -208,9 +208,9 @@ Status obey_page(Player *player, const Command *command)
         return status;
     player_store_page_options(player, &options);
     status = player_begin_runs(player, &options, 1, command);
-    player->play.log_speed = player_initial_speed(player, &options);
+    player->play.log_speed = player_find_first_speed(player, &options);
     player->tour.last_page = page;
-    player->tour.revealed = NULL;
+    player->tour.revealed_page = NULL;
     player->tour.verdict[0] = '\0';
     player_deselect(player);
     player->screen.column = COLUMN_CARDS;
@@ -224,7 +224,7 @@ Status obey_page(Player *player, const Command *command)
 
 /* Stores a guess of the point to which the next step leads.  A page that asks
  * for the guess judges it: the guess may be wrong by a tenth of the way. */
-Status obey_predict(Player *player, const Command *command)
+Status obey_store_guess(Player *player, const Command *command)
 {
     double at[2];
     Simulation *simulation = &player->past.pane[player->active].simulation;
@@ -247,7 +247,7 @@ Status obey_predict(Player *player, const Command *command)
     return status;
 }
 
-Status obey_cell(Player *player, const Command *command)
+Status obey_run_envelope_cell(Player *player, const Command *command)
 {
     int cell = (int)command->number;
     return envelope_run_cell(&player->past.pane[player->active].simulation,

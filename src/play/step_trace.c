@@ -6,9 +6,9 @@
 #include <string.h>
 
 /* From this number of trials on, the walk shows only the last trial. */
-enum { MAX_TRIALS = 12 };
+enum { MAX_WALK_TRIALS = 12 };
 
-bool records_reserve(Records *records, int count)
+bool records_reserve(NewtonRecords *records, int count)
 {
     if (count <= records->capacity)
         return true;
@@ -29,7 +29,7 @@ static void free_iterate(TraceIterate *iterate)
 
 void step_trace_clear(StepTrace *trace)
 {
-    for (int i = 0; i < trace->capacity; i++)
+    for (int i = 0; i < trace->iterate_capacity; i++)
         free_iterate(&trace->iterate[i]);
     free(trace->x_tilde);
     free(trace->end_x);
@@ -158,15 +158,15 @@ void step_trace_add_iterate(StepTrace *trace, const Newton *newton,
                             const NewtonRecord *record)
 {
     int count = trace->records.count + 1;
-    if (count > trace->capacity) {
+    if (count > trace->iterate_capacity) {
         TraceIterate *iterate =
             realloc(trace->iterate, 2 * (size_t)count * sizeof *iterate);
         if (!iterate)
             return;
-        memset(iterate + trace->capacity, 0,
-               (size_t)(2 * count - trace->capacity) * sizeof *iterate);
+        memset(iterate + trace->iterate_capacity, 0,
+               (size_t)(2 * count - trace->iterate_capacity) * sizeof *iterate);
         trace->iterate = iterate;
-        trace->capacity = 2 * count;
+        trace->iterate_capacity = 2 * count;
     }
     if (!records_reserve(&trace->records, count))
         return;
@@ -194,7 +194,7 @@ void step_trace_end(StepTrace *trace, const Options *options)
     int count = trace->records.count;
     TracePosition *grown =
         realloc(trace->position,
-                ((size_t)count + 1) * (MAX_TRIALS + 8) * sizeof *grown);
+                ((size_t)count + 1) * (MAX_WALK_TRIALS + 8) * sizeof *grown);
     trace->position_count = 0;
     if (!grown)
         return;
@@ -209,7 +209,7 @@ void step_trace_end(StepTrace *trace, const Options *options)
         if (options->projection != PROJECTION_NONE)
             append_position(trace, i, LINE_PROJECT, 0);
         append_position(trace, i, LINE_SOLVE, 0);
-        for (int t = 1; searches && t < trials && trials < MAX_TRIALS; t++)
+        for (int t = 1; searches && t < trials && trials < MAX_WALK_TRIALS; t++)
             append_position(trace, i, LINE_SEARCH, t);
         if (searches || fails)
             append_position(trace, i, LINE_SEARCH, trials);
@@ -286,8 +286,8 @@ static void show_iterate_values(const StepTrace *trace, const TracePosition *at,
     shown->difference_data = iterate;
 }
 
-const double *step_trace_show(const StepTrace *trace, int position,
-                              NewtonTrace *shown)
+const double *step_trace_show_position(const StepTrace *trace, int position,
+                                       NewtonTrace *shown)
 {
     int count = trace->records.count;
     const NewtonRecord *row = trace->records.record;

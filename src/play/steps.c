@@ -37,7 +37,7 @@ static Status record_step(Player *player)
     const Simulation *simulation[OPTIONS_MAX_PANES];
     int panes = past_panes(past);
     long step = past->step;
-    bool due = step == past->booked_step + 1,
+    bool due = step == past->energies_step + 1,
          again = step <= past->written_step;
     for (int p = 0; p < panes; p++) {
         const PastPane *pane = &past->pane[p];
@@ -49,7 +49,7 @@ static Status record_step(Player *player)
         return STATUS_OK;
     Status status =
         step > 0 && !again ? record_iterations(player, step) : STATUS_OK;
-    past->booked_step = step;
+    past->energies_step = step;
     if (!again)
         past->written_step = step;
     return status ? status
@@ -69,14 +69,14 @@ Status player_write_remaining(Player *player)
         status = record_iterations(player, shown + 1);
     if (!past->stores_states || !player->recording.has_tables)
         return status;
-    while (past->booked_step < past_newest(past) && !status &&
+    while (past->energies_step < past_newest(past) && !status &&
            !*player->setup.stop_signal) {
-        long next = past->booked_step + 1;
+        long next = past->energies_step + 1;
         past_set_goal(past, next, again);
         status = past_finish_work(past);
         if (!status_is_failure(status))
             status = record_step(player);
-        again = past->booked_step < next;
+        again = past->energies_step < next;
     }
     past_set_goal(past, shown, false);
     past_finish_work(past);
@@ -99,8 +99,8 @@ void player_reset_view(Player *player)
         player->play.mode = MODE_END;
     leave_algorithm_lines(player);
     for (int p = 0; p < OPTIONS_MAX_PANES; p++) {
-        free(player->view_of_pane[p].ghost);
-        player->view_of_pane[p].ghost = NULL;
+        free(player->view_of_pane[p].ghost_x);
+        player->view_of_pane[p].ghost_x = NULL;
     }
 }
 
@@ -111,13 +111,13 @@ static void drop_hand_and_queue(Player *player)
 }
 
 /* Resets camera and cards for another scene or page. */
-static void enter_scene(Player *player)
+static void reset_screen_for_scene(Player *player)
 {
     const Options *options = player_active_options(player);
     char title[128];
     player->screen.scene = options->scene;
     player->screen.page = options->page;
-    player->play.log_speed = player_initial_speed(player, options);
+    player->play.log_speed = player_find_first_speed(player, options);
     player->screen.view.lens = LENS_FITS;
     player->screen.toggled_cards = 0;
     player->screen.enlarged_card = -1;
@@ -131,7 +131,7 @@ static void enter_scene(Player *player)
 }
 
 /* Adapts the player to an edit of the past: frame, active pane, scene. */
-static void update_after_edit(Player *player)
+static void update_player_after_edit(Player *player)
 {
     const Past *past = &player->past;
     player->screen.must_redraw = true;
@@ -141,7 +141,7 @@ static void update_after_edit(Player *player)
         player->active = past_panes(past) - 1;
     const Options *now = player_active_options(player);
     if (now->scene != player->screen.scene || now->page != player->screen.page)
-        enter_scene(player);
+        reset_screen_for_scene(player);
 }
 
 Status player_begin_runs(Player *player, const Options *options, int count,
@@ -159,7 +159,7 @@ Status player_begin_runs(Player *player, const Options *options, int count,
     player->screen.drawn_step = -1;
     player->play.has_warned = player->play.reported_gain = false;
     drop_hand_and_queue(player);
-    update_after_edit(player);
+    update_player_after_edit(player);
     return record_step(player);
 }
 
@@ -171,7 +171,7 @@ Status player_edit_step(Player *player, const Command *change, int pane,
     Status status =
         past_edit(&player->past, change, pane, again, player->commands.gesture);
     if (!status)
-        update_after_edit(player);
+        update_player_after_edit(player);
     return status || again ? status : record_step(player);
 }
 
@@ -251,7 +251,7 @@ static void stop_run_if_over(Player *player)
         player->note[0] = '\0';
     player->play.has_warned = player->play.has_warned || bad;
     if (past->step == options->pause_step && past->step > 0 &&
-        options->page == player->tour.revealed &&
+        options->page == player->tour.revealed_page &&
         !player_has_changed_page(player))
         player->play.mode = MODE_PAUSE;
     if (player->play.mode == MODE_REST)
@@ -262,7 +262,7 @@ static void stop_run_if_over(Player *player)
 
 /* Shows a line of Algorithm 3 in each pane whose step has some: the first line,
  * the last one, or the update at which E was highest if E exploded. */
-static void enter_line_walk(Player *player, AfterWork after)
+static void begin_line_walk(Player *player, ActionAfterWork after)
 {
     for (int p = 0; p < past_panes(&player->past); p++) {
         const StepTrace *trace = &player->past.pane[p].trace;
@@ -276,7 +276,7 @@ static void enter_line_walk(Player *player, AfterWork after)
             continue;
         player->play.mode = MODE_PAUSE;
         player->view_of_pane[p].trace_index = place;
-        const double *x = step_trace_show(trace, place, &shown);
+        const double *x = step_trace_show_position(trace, place, &shown);
         if (after != AFTER_SHOW_END)
             continue;
         for (int i = 0; x && i < trace->x_length; i++)
@@ -289,7 +289,7 @@ static void enter_line_walk(Player *player, AfterWork after)
 }
 
 /* Walks a line or update on (1) or back (-1).  Returns whether a pane moved. */
-static bool walk_lines(Player *player, int way)
+static bool walk_algorithm_lines(Player *player, int way)
 {
     bool moved = false;
     for (int p = 0; p < past_panes(&player->past); p++) {
@@ -364,9 +364,9 @@ Status player_repeat_step(Player *player, const Command *change, int pane)
     player_reset_view(player);
     describe_outcome(player, row, view->ghost_label, sizeof view->ghost_label);
     if (row->effect == EFFECT_REPEAT && !failed && !simulation->scene->step)
-        view->ghost = malloc(bytes);
-    if (view->ghost)
-        memcpy(view->ghost, simulation->run[0].x, bytes);
+        view->ghost_x = malloc(bytes);
+    if (view->ghost_x)
+        memcpy(view->ghost_x, simulation->run[0].x, bytes);
     Status status = player_edit_step(player, change, pane, !failed);
     if (status)
         return status;
@@ -384,7 +384,7 @@ Status player_repeat_step(Player *player, const Command *change, int pane)
 static Status finish_work(Player *player, Status status, long before, bool made)
 {
     const Past *past = &player->past;
-    AfterWork after = player->play.after_work;
+    ActionAfterWork after = player->play.after_work;
     bool runs = made && after == AFTER_NOTHING && !player_is_stopped(player);
     player->play.after_work = AFTER_NOTHING;
     player->screen.must_redraw = true;
@@ -410,11 +410,11 @@ static Status finish_work(Player *player, Status status, long before, bool made)
     else if (!status && after == AFTER_COMPARE)
         compare_outcomes(player);
     else if (!status && after != AFTER_NOTHING)
-        enter_line_walk(player, after);
+        begin_line_walk(player, after);
     return status;
 }
 
-Status player_work(Player *player)
+Status player_do_work(Player *player)
 {
     Past *past = &player->past;
     double begin = clock_now();
@@ -444,7 +444,7 @@ Status player_work(Player *player)
 
 /* Releases what the hand held in an old step, if the user holds nothing now.
  * The release is a gesture of its own. */
-static Status release_old_hand(Player *player)
+static Status release_unused_hand(Player *player)
 {
     const Command release = {.kind = COMMAND_RELEASE};
     int gesture = player->commands.gesture;
@@ -452,12 +452,12 @@ static Status release_old_hand(Player *player)
         player->hands.is_holding)
         return STATUS_OK;
     player->commands.gesture = ++player->commands.gestures;
-    Status status = player_edit_step(player, &release, PAST_ALL, false);
+    Status status = player_edit_step(player, &release, ALL_PANES, false);
     player->commands.gesture = gesture;
     return status;
 }
 
-Status player_seek(Player *player, long step, AfterWork after)
+Status player_seek(Player *player, long step, ActionAfterWork after)
 {
     Past *past = &player->past;
     bool known = step <= past_newest(past);
@@ -465,7 +465,7 @@ Status player_seek(Player *player, long step, AfterWork after)
     if (known)
         drop_hand_and_queue(player);
     if (!status && !known)
-        status = release_old_hand(player);
+        status = release_unused_hand(player);
     if (status)
         return status;
     player_reset_view(player);
@@ -488,11 +488,12 @@ Status obey_pause(Player *player, const Command *command)
 
 Status obey_next(Player *player, const Command *command)
 {
-    AfterWork after = command->kind == COMMAND_STEP         ? AFTER_NOTHING
-                      : player->play.walk_unit != UNIT_STEP ? AFTER_SHOW_FIRST
-                                                            : AFTER_SHOW_END;
+    ActionAfterWork after = command->kind == COMMAND_STEP ? AFTER_NOTHING
+                            : player->play.walk_unit != UNIT_STEP
+                                ? AFTER_SHOW_FIRST
+                                : AFTER_SHOW_END;
     player_pause(player);
-    if (after == AFTER_SHOW_FIRST && walk_lines(player, 1))
+    if (after == AFTER_SHOW_FIRST && walk_algorithm_lines(player, 1))
         return STATUS_OK;
     if (after == AFTER_SHOW_END &&
         player->view_of_pane[player->active].trace_index >= 0) {
@@ -524,15 +525,15 @@ Status obey_back(Player *player, const Command *command)
     if (player->view_of_pane[player->active].trace_index < 0 && step > 0) {
         if (!player_active_pane(player)->has_trace)
             return player_seek(player, step, AFTER_SHOW_LAST);
-        enter_line_walk(player, AFTER_SHOW_LAST);
+        begin_line_walk(player, AFTER_SHOW_LAST);
     }
     if (player->view_of_pane[player->active].trace_index >= 0 &&
-        walk_lines(player, -1))
+        walk_algorithm_lines(player, -1))
         return STATUS_OK;
     return player_seek(player, step - 1, AFTER_SHOW_LAST);
 }
 
-Status obey_walk_unit(Player *player, const Command *command)
+Status obey_change_unit(Player *player, const Command *command)
 {
     static const char *const paces[] = {
         "whole steps", "updates of Newton's method", "lines of Algorithm 3"};
@@ -596,7 +597,7 @@ Status obey_undo(Player *player, const Command *command)
     player->play.mode = MODE_PAUSE;
     drop_hand_and_queue(player);
     player->hands.mouse.gesture = ++player->commands.gestures;
-    update_after_edit(player);
+    update_player_after_edit(player);
     player_reset_view(player);
     describe_edit(player, &edit, line, sizeof line);
     player_note(player, "%s: %s", way < 0 ? "undone" : "done again", line);

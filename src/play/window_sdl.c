@@ -139,7 +139,7 @@ static Status sdl_show(const Canvas *canvas)
 /* Reads a key with "Ctrl+", "Shift+", "Tab+" before its name.  Signs and digits
  * come as texts, whatever the keyboard; Tab is a key when it is released,
  * unless it was a part of Tab+M. */
-static void read_key(const SDL_KeyboardEvent *event, Input *input)
+static void read_key_event(const SDL_KeyboardEvent *event, Input *input)
 {
     SDL_Keycode key = event->keysym.sym;
     SDL_Scancode place = event->keysym.scancode;
@@ -200,7 +200,7 @@ static Input read_event(const SDL_Event *event)
     if (event->type == SDL_QUIT) {
         input.kind = INPUT_CLOSE;
     } else if (event->type == SDL_KEYDOWN || event->type == SDL_KEYUP) {
-        read_key(&event->key, &input);
+        read_key_event(&event->key, &input);
     } else if (event->type == SDL_TEXTINPUT &&
                isgraph((unsigned char)text[0]) &&
                !isalpha((unsigned char)text[0]) && text[1] == '\0') {
@@ -246,12 +246,12 @@ static Input sdl_read_input(void)
  * it sends itself an event of a second connection. */
 static void sdl_wait_for_input(int milliseconds)
 {
-    enum { PAUSE = 8 }; /* ms, between two looks for an event */
-    for (; milliseconds > 0; milliseconds -= PAUSE) {
+    enum { POLL_MS = 8 }; /* ms, between two looks for an event */
+    for (; milliseconds > 0; milliseconds -= POLL_MS) {
         SDL_PumpEvents();
         if (SDL_HasEvents(SDL_FIRSTEVENT, SDL_LASTEVENT))
             return;
-        SDL_Delay((Uint32)(milliseconds < PAUSE ? milliseconds : PAUSE));
+        SDL_Delay((Uint32)(milliseconds < POLL_MS ? milliseconds : POLL_MS));
     }
 }
 

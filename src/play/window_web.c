@@ -45,7 +45,7 @@ Status page_show_card(const Canvas *canvas, int card)
     return STATUS_OK;
 }
 
-static Status page_show(const Canvas *canvas)
+static Status page_show_frame(const Canvas *canvas)
 {
     return page_show_card(canvas, -1);
 }
@@ -101,7 +101,7 @@ const Window window_web = {
     .find_font_size = page_find_font_size,
     .has_document = page_has_document,
     .set_title = page_set_title,
-    .show = page_show,
+    .show = page_show_frame,
     .set_full_screen = page_set_full_screen,
     .is_full_screen = page_is_full_screen,
     .read_input = page_read_input,

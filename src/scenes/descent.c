@@ -176,7 +176,7 @@ static LocalModel evaluate_local_model(const Simulation *simulation)
  * RUNNING, tests the residual: OK if it is small enough; DIVERGED if E is then
  * above E at the start, as may happen without a line search.  Returns a failure
  * if there is no p here.  After any other failure p stays visible. */
-static Status evaluate_iterate(Simulation *simulation, Status status)
+static Status update_iterate_values(Simulation *simulation, Status status)
 {
     TimeIntegrator *run = &simulation->run[0];
     Descent *descent = &simulation->descent;
@@ -218,7 +218,7 @@ void descent_update_direction(Simulation *simulation)
     Descent *descent = &simulation->descent;
     choose_stopping_test(simulation);
     descent->start_value = INFINITY; /* E at the start is computed below */
-    Status status = evaluate_iterate(simulation, STATUS_RUNNING);
+    Status status = update_iterate_values(simulation, STATUS_RUNNING);
     simulation->status = simulation->is_over ? status : STATUS_OK;
     if (!descent->scalar)
         descent->start_value = descent->value;
@@ -255,12 +255,12 @@ Status step_descent(Simulation *simulation)
     record.change = descent_energy_difference(simulation, record.alpha);
     for (int i = 0; i < 2; i++)
         x[i] += record.alpha * p[i];
-    record.status = evaluate_iterate(simulation, status);
+    record.status = update_iterate_values(simulation, status);
     memcpy(record.x_after, x, sizeof record.x_after);
     if (descent->count < DESCENT_MAX_RECORDS)
         descent->record[descent->count++] = record;
     if (simulation->observer)
-        simulation->observer(simulation->user_data, &record);
+        simulation->observer(simulation->observer_data, &record);
     return simulation->is_over ? record.status : STATUS_OK;
 }
 

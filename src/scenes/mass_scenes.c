@@ -109,8 +109,8 @@ SpringValues spring_evaluate(const double d[2], double l2, double k)
         .eigenvalue_along = c * spring_eigenvalue_along(d2, l2),
         .eigenvalue_across = c * spring_eigenvalue_across(d2, l2),
         .root_energy = 2 * k * (r - l) * (r - l),
-        .root_along = 4 * k,
-        .root_across = 4 * k * (1 - l / r),
+        .root_eigenvalue_along = 4 * k,
+        .root_eigenvalue_across = 4 * k * (1 - l / r),
     };
 }
 

@@ -120,13 +120,13 @@ const Scene scenes[] = {
           "--ground -0.3420201433256687,0.9396926207859084,0,0",
      /* A block just stays at rest with the friction of this line. */
      create_square_scene, .view = {-2.3, -2.75, 0.9, 2.0}, .body.runs = 3,
-     .body.lift = 2.6, .body.friction_factor = {0.5, 0.9, 1.1}},
+     .body.height_step = 2.6, .body.friction_factor = {0.5, 0.9, 1.1}},
     {"squeeze", "Contact: pressed flat",
      "a ceiling comes down and lets go: all of it returns", SQUARE,
      FALL "--segments 16 --timestep 0.01 --friction 0.8 "
           "--ground 0,1,0,-0.51",
      create_squeeze_scene, .view = {-0.9, -0.7, 0.9, 0.7},
-     .strain_colour_max = 0.5, .body.obstacle = make_squeeze_ceiling},
+     .strain_colour_max = 0.5, .body.make_obstacle = make_squeeze_ceiling},
     {"return", "Solids that never turn over",
      "pressed to 3 % of its width, a square again", SQUARE,
      "--segments 10 --stretch 0.03 --timestep 0.01 --tolerance 1e-3 "
@@ -174,7 +174,7 @@ const Scene scenes[] = {
      create_bend_scene, .view = {-1.25, -1.1, 1.25, 0.75},
      .strain_colour_max = 0.05, .body.aspect = 0.1875,
      .body.cell_stiffness = 0.3, .body.notch = {-1, -0.4},
-     .body.obstacle = make_bend_ball},
+     .body.make_obstacle = make_bend_ball},
     {"race", "Run time and error", "run time against error, measured now",
      PICTURE_RACE, HAS_MESH | HAS_SPRINGS | HAS_MINIMUM | HAS_BODY,
      /* motion without chaos; a tolerance below the error of every time step */

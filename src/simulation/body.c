@@ -79,8 +79,8 @@ SquareMesh body_make_mesh(const Options *options)
  * without a ball -1. */
 static int find_ball_node(const Options *options)
 {
-    return options->scene->body.obstacle
-               ? options->scene->body.obstacle(options).node
+    return options->scene->body.make_obstacle
+               ? options->scene->body.make_obstacle(options).node
                : -1;
 }
 
@@ -168,8 +168,8 @@ static int list_obstacles(const Options *options,
                                    .node = -1,
                                    .motion = {1, {end}, {{0, ceiling[1]}}}};
     }
-    if (options->scene->body.obstacle)
-        list[count++] = options->scene->body.obstacle(options);
+    if (options->scene->body.make_obstacle)
+        list[count++] = options->scene->body.make_obstacle(options);
     for (int k = 0; k < count; k++)
         memcpy(list[k].options_o, list[k].o, sizeof list->o);
     return count;
@@ -278,7 +278,7 @@ static Status place_body(const Options *options, int run, double *x, double *v,
         memcpy(v + 2 * i, start + 3, sizeof rest);
     }
     if (ball >= 0) {
-        memcpy(x + 2 * ball, options->scene->body.obstacle(options).o,
+        memcpy(x + 2 * ball, options->scene->body.make_obstacle(options).o,
                2 * sizeof *x);
         v[2 * ball] = v[2 * ball + 1] = 0;
     }
@@ -287,7 +287,7 @@ static Status place_body(const Options *options, int run, double *x, double *v,
 
 double body_find_added_height(const Options *options, int run)
 {
-    return options->scene->body.lift * options->side * (1 - run);
+    return options->scene->body.height_step * options->side * (1 - run);
 }
 
 /* Returns the options of one run: with its own friction and height. */
@@ -395,8 +395,8 @@ Status body_check_method(const Options *options, Message message)
 }
 
 /* Writes the name of an obstacle: "the ball", or "ball 2" of several. */
-static void name_obstacle(const Options *options, int number, char *name,
-                          size_t size)
+static void write_obstacle_name(const Options *options, int number, char *name,
+                                size_t size)
 {
     int ball = number - (int)options->grounds,
         other = ball - (int)options->balls;
@@ -421,7 +421,7 @@ static Status refuse_obstacle_position(const Options *options, int number,
     bool square = options->bodies <= 1 && options->scene->body.aspect == 0;
     const char *body = square ? "the square" : "a body";
     char name[32];
-    name_obstacle(options, number, name, sizeof name);
+    write_obstacle_name(options, number, name, sizeof name);
     if (gap < 0)
         return refuse(message,
                       "%s would overlap %s by %.3g m; move one of them", name,

@@ -7,11 +7,11 @@
 static void add_energy(Energies *energies, const char *name, double value)
 {
     int i = 0;
-    while (i < energies->rows && strcmp(energies->row[i].name, name) != 0)
+    while (i < energies->count && strcmp(energies->energy[i].name, name) != 0)
         i++;
-    if (i == energies->rows)
-        energies->row[energies->rows++] = (Energy){name, 0};
-    energies->row[i].value += value;
+    if (i == energies->count)
+        energies->energy[energies->count++] = (Energy){name, 0};
+    energies->energy[i].value += value;
 }
 
 Energies simulation_get_energies(const Simulation *simulation, int run)
@@ -42,9 +42,9 @@ Energies simulation_get_energies(const Simulation *simulation, int run)
         add_energy(&energies, system->losses[i].name, system->losses[i].energy);
         lost += system->losses[i].energy;
     }
-    energies.row[0].value = energies.total;
-    energies.dissipated =
-        simulation->ledger[run].start + energies.work - energies.total - lost;
+    energies.energy[0].value = energies.total;
+    energies.dissipated = simulation->ledger[run].start_energy + energies.work -
+                          energies.total - lost;
     add_energy(&energies, "work", energies.work);
     add_energy(&energies, "dissipated", energies.dissipated);
     return energies;

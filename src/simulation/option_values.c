@@ -165,7 +165,7 @@ double option_find_value_after_wheel(const OptionRow *row,
     static const double FIRST =
         0.01; /* value after a notch of the wheel from 0 */
     double value = options->number[row->slot];
-    double increment = row->display.increment;
+    double increment = row->display.notch_increment;
     char text[32];
     if (row->kind == OPTION_NAME) {
         int count = names_count(row->names), turns = (int)rint(notches);

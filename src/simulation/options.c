@@ -51,7 +51,8 @@ REASON(why_start_is_given, options->bodies == 0 && !options->state,
        options->state ? "the table of --state gives the start"
                       : "each --body has its own; add it there")
 REASON(why_own_bodies,
-       !options->scene->body.obstacle && options->scene->body.pin_speed == 0 &&
+       !options->scene->body.make_obstacle &&
+           options->scene->body.pin_speed == 0 &&
            options->scene->body.runs == 0,
        "this scene has its own bodies; --body works in square")
 REASON(why_no_springs, options->material == 0,
@@ -391,10 +392,10 @@ int options_list_visible_rows(const Options *options,
     int count = 0;
     for (int place = 1; place < OPTIONS_MAX_ROWS; place++)
         for (const OptionRow *row = option_rows; row->name; row++)
-            if (row->display.position == place &&
+            if (row->display.row_position == place &&
                 (row->needed_parts & options->scene->parts) &&
                 !(row->idle_reason && row->idle_reason(options)) &&
-                (row->kind == OPTION_NAME || row->display.increment > 0 ||
+                (row->kind == OPTION_NAME || row->display.notch_increment > 0 ||
                  options->number[row->slot] > 0))
                 found[count++] = row;
     return count;

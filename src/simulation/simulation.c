@@ -27,7 +27,7 @@ Status simulation_start_run(Simulation *simulation, int run,
                             const double *x, const double *v)
 {
     NewtonSettings settings = {.observer = simulation->observer,
-                               .user_data = simulation->user_data};
+                               .user_data = simulation->observer_data};
     options_fill_newton_settings(&simulation->options, &settings);
     return time_integrator_create(method, system, &settings, x, v,
                                   &simulation->run[run]);
@@ -39,14 +39,15 @@ Status simulation_create(const Options *options, NewtonObserver observer,
     *simulation = (Simulation){.scene = options->scene,
                                .options = *options,
                                .observer = observer,
-                               .user_data = user};
+                               .observer_data = user};
     Status status = options->scene->create(simulation);
     for (int i = 0; i < SCENE_MAX_SWITCHES && !status; i++)
         if ((unsigned)options->flips >> i & 1)
             exhibit_flip_switch(simulation, i);
     for (int r = 0; r < simulation->runs && !status; r++)
-        simulation->ledger[r].start = simulation->ledger[r].last_balance =
-            -simulation_get_energies(simulation, r).dissipated;
+        simulation->ledger[r].start_energy =
+            simulation->ledger[r].last_balance =
+                -simulation_get_energies(simulation, r).dissipated;
     return status;
 }
 
@@ -95,14 +96,14 @@ static Status finish_simulation_step(Simulation *simulation, Status status)
 static void book_energy_gain(Simulation *simulation)
 {
     int run = simulation->step_run;
-    Ledger *ledger = &simulation->ledger[run];
+    EnergyLedger *ledger = &simulation->ledger[run];
     const Energies now = simulation_get_energies(simulation, run);
     double kept = now.total - now.work, gained = kept - ledger->last_balance;
     double abs_sum = fabs(now.work);
     bool backward_euler = simulation->run[run].method->supports_all_terms;
     ledger->last_balance = kept;
-    for (int i = 1; i < now.rows; i++)
-        abs_sum += fabs(now.row[i].value);
+    for (int i = 1; i < now.count; i++)
+        abs_sum += fabs(now.energy[i].value);
     if (!backward_euler || !(gained > 1e-8 * abs_sum))
         return;
     ledger->gain_steps++;

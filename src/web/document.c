@@ -43,15 +43,15 @@
 /* A text that grows; words that do not fit in are left out. */
 typedef struct Writer {
     char *text; /* [DOCUMENT_SIZE] */
-    size_t used;
+    size_t used_bytes;
 } Writer;
 
 __attribute__((format(printf, 2, 3))) static void print(Writer *to,
                                                         const char *format, ...)
 {
-    char *end = to->text + to->used;
-    write_formatted(end, DOCUMENT_SIZE - to->used, format);
-    to->used += strlen(end);
+    char *end = to->text + to->used_bytes;
+    write_formatted(end, DOCUMENT_SIZE - to->used_bytes, format);
+    to->used_bytes += strlen(end);
 }
 
 /* Returns the relative luminance of a colour (WCAG 2.1), 0 ... 1. */
@@ -95,7 +95,7 @@ static void write_page_texts(Writer *to, const FrameContent *content)
 {
     const LecturePage *page = content->lecture.page;
     const LiveValues *values = &active_pane(content)->values;
-    write_page_text(to, values, "text", page->text);
+    write_page_text(to, values, "text", page->intro);
     write_page_text(to, values, "formula", page->formula);
     write_page_text(to, values, "ask", page->question);
     if (content->lecture.hides_answer) {
@@ -129,7 +129,7 @@ static void write_algorithm_lines(Writer *to, const FrameContent *content,
             continue;
         const ShownRow now = listing_make_row(pane, row);
         print(to, "row\t%d\t%d\t%d\t%d\t%s\t%s\n", card, now.is_highlighted,
-              now.is_struck, row->indented, now.text.text, now.value.text);
+              now.is_struck, row->is_indented, now.text.text, now.value.text);
     }
 }
 
@@ -137,9 +137,9 @@ static void write_algorithm_lines(Writer *to, const FrameContent *content,
 static void write_energies(Writer *to, const Simulation *simulation)
 {
     const Energies energies = simulation_get_energies(simulation, 0);
-    for (int i = 0; i < energies.rows; i++)
-        print(to, "%s%s %s J", i ? ", " : "", energies.row[i].name,
-              format_number(energies.row[i].value).text);
+    for (int i = 0; i < energies.count; i++)
+        print(to, "%s%s %s J", i ? ", " : "", energies.energy[i].name,
+              format_number(energies.energy[i].value).text);
 }
 
 /* Writes the values of a graph without legend, of energies or residuals. */
@@ -187,8 +187,8 @@ static bool write_table(Writer *to, const FrameContent *content, int index,
 
 /* Writes a card: a line for its graph with the rows of its legend below, and a
  * line for its text with the rows of this text below. */
-static void write_card(Writer *to, const FrameContent *content, int index,
-                       const Card *card)
+static void write_document_card(Writer *to, const FrameContent *content,
+                                int index, const Card *card)
 {
     const Pane *pane = active_pane(content);
     const LecturePage *page = content->lecture.page;
@@ -206,7 +206,8 @@ static void write_card(Writer *to, const FrameContent *content, int index,
               star ? "star" : "graph", closed, title.text, title.text);
         write_live_values(to, pane, card->name);
         print(to, "\n");
-        for (int i = 0; card->legend_row && card->legend_row(content, i, &row);
+        for (int i = 0;
+             card->make_legend_row && card->make_legend_row(content, i, &row);
              i++)
             write_table_row(to, "legend", index, &row);
         TextLine line = text_begin(&pane->values, card->legend);
@@ -384,7 +385,7 @@ void document_write(const Player *player, char *text)
     for (int i = 0; i < picture->count && content->sheet.cells == 0; i++)
         if (!(content->cards.hidden_cards >> i & 1) &&
             strcmp(picture->cards[i]->name, "page") != 0)
-            write_card(to, content, i, picture->cards[i]);
+            write_document_card(to, content, i, picture->cards[i]);
     write_settings(to, player);
     write_handles_and_switches(to, active_pane(content)->simulation);
     write_picture_fields(to, player);

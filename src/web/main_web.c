@@ -204,9 +204,9 @@ EMSCRIPTEN_KEEPALIVE void web_print_page(int page, int width, int height)
     status = status ? status : player_obey_queue(player, false);
     status = status ? status : player_enqueue_lines(player, row->on_answer);
     status = status ? status : player_obey_queue(player, false);
-    for (int i = 0; i < row->presses && !status; i++)
+    for (int i = 0; i < row->print_presses && !status; i++)
         status = player_obey(player, &next);
-    if (!status && !row->presses)
+    if (!status && !row->print_presses)
         player_run(player);
     /* With a window, the player also writes the texts of the page. */
     player->screen.window = &window_web;
@@ -223,7 +223,7 @@ EMSCRIPTEN_KEEPALIVE void web_print_page(int page, int width, int height)
 EMSCRIPTEN_KEEPALIVE void web_print_hide_answer(void)
 {
     session->player.setup.asks_guess = true;
-    session->player.tour.revealed = NULL;
+    session->player.tour.revealed_page = NULL;
     player_build_frame(&session->player);
 }
 

@@ -181,10 +181,10 @@ TEST(pages_show_their_code)
     for (const LecturePage *page = lecture_pages; page->name; page++) {
         char names[160], *rest = names, *name;
         int lit = 0, functions = 0, ends = 0;
-        snprintf(names, sizeof names, "%s", page->function);
+        snprintf(names, sizeof names, "%s", page->functions);
         name = strtok_r(rest, ",", &rest);
         for (const char *const *line = page->code; *line; line++) {
-            lit += strstr(*line, page->highlight) != NULL;
+            lit += strstr(*line, page->lit_code) != NULL;
             CHECK(!strstr(*line, "FAIL(")); /* pages leave out error messages */
             ends += (*line)[0] == '}';
             if (name && ends == functions && strstr(*line, name)) {
@@ -196,7 +196,7 @@ TEST(pages_show_their_code)
             fail_msg("page %s: no %s in %s", page->name, name, page->file);
         if (lit < 1 || lit > 5)
             fail_msg("page %s: '%s' is in %d lines", page->name,
-                     page->highlight, lit);
+                     page->lit_code, lit);
     }
 }
 
@@ -303,7 +303,7 @@ static const char *find_missing_line(const FrameContent *content,
 static const char *find_missing_text(const FrameContent *content)
 {
     const LecturePage *page = content->lecture.page;
-    const char *texts[] = {page->text, page->formula,
+    const char *texts[] = {page->intro, page->formula,
                            content->lecture.hides_answer ? page->question
                                                          : page->answer_text,
                            content->lecture.hides_answer ? NULL : page->try};

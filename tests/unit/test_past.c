@@ -40,7 +40,7 @@ static uint64_t go_to_step(long step)
 static void edit_past(CommandKind kind, long number, double x, double y)
 {
     const Command command = {.kind = kind, .number = number, .x = x, .y = y};
-    CHECK_OK(past_edit(&past, &command, PAST_ALL, false, 0));
+    CHECK_OK(past_edit(&past, &command, ALL_PANES, false, 0));
 }
 
 enum { STEPS = 48 };
@@ -169,7 +169,7 @@ TEST(an_edit_ends_what_was_undone)
     const Command add = {.kind = COMMAND_ADD_PANE};
     begin_past("square --segments 3");
     CHECK_OK(past_edit(&past, &grab, 0, false, 7));
-    CHECK_OK(past_edit(&past, &add, PAST_ALL, false, 0));
+    CHECK_OK(past_edit(&past, &add, ALL_PANES, false, 0));
     past_undo(&past, -1);
     CHECK_OK(past_edit(&past, &grab, 0, false, 7));
     CHECK(!past_undo(&past, 1));
@@ -269,7 +269,7 @@ static bool make_step_after_jerk(bool descends)
         return false;
     }
     CHECK(past.step == before + 1);
-    const Records *records = &past.pane[0].records;
+    const NewtonRecords *records = &past.pane[0].records;
     for (int i = 0; i < records->count; i++)
         CHECK(records->record[i].change <= 0);
     for (int k = 0; k < size; k++)

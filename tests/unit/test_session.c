@@ -594,8 +594,8 @@ static void add_facts_to_record(const char *line)
     player_build_frame(&player);
     const LiveValues *values = &active_pane(content)->values;
     collect_window_facts();
-    for (int i = 0; i < now.rows; i++)
-        add_fact("%s %.9g", now.row[i].name, now.row[i].value);
+    for (int i = 0; i < now.count; i++)
+        add_fact("%s %.9g", now.energy[i].name, now.energy[i].value);
     if (content->lecture.page)
         for (char *at = facts; (at = strchr(at, '\t'));)
             memset(at, '.', strcspn(at, "\n"));
@@ -788,7 +788,7 @@ static void check_fact(const char *line)
 static int get_newton_records(const Simulation *simulation,
                               const NewtonRecord **row)
 {
-    const Records *made = &player.past.pane[content->active_pane].records;
+    const NewtonRecords *made = &player.past.pane[content->active_pane].records;
     bool descends = simulation->scene->step == step_descent;
     *row = descends ? simulation->descent.record : made->record;
     return descends ? simulation->descent.count : made->count;
@@ -1057,9 +1057,9 @@ static double find_value_by_name(const char *name)
                           row->change, row->slope,    row->x_after[0]}[k];
     }
     const Energies ledger = simulation_get_energies(simulation, 0);
-    for (i = 0; i < ledger.rows; i++)
-        if (strcmp(ledger.row[i].name, name) == 0)
-            return ledger.row[i].value;
+    for (i = 0; i < ledger.count; i++)
+        if (strcmp(ledger.energy[i].name, name) == 0)
+            return ledger.energy[i].value;
     return values_find_number(&pane->values, name);
 }
 
@@ -1134,7 +1134,7 @@ static void run_session_line(const char *line)
     else if (strcmp(verb, "half") == 0)
         stop_within_step();
     else if (strcmp(verb, "whole") == 0)
-        show_refusal(player_continue(&player));
+        show_refusal(player_continue_work(&player));
     else if (strcmp(verb, "asks") == 0)
         player.setup.asks_guess = player.screen.must_redraw = true;
     else if (strstr("reads lacks list", verb))

@@ -28,8 +28,8 @@ static void sample_energies(void)
 {
     Energy row[HISTORY_SERIES];
     const Picture *picture = picture_of_scene(simulation.scene);
-    int rows = picture->sample ? picture->sample(&simulation, row) : 0;
-    history_add_point(&history, simulation_time(&simulation), rows, row);
+    int n = picture->get_energies ? picture->get_energies(&simulation, row) : 0;
+    history_add_point(&history, simulation_time(&simulation), n, row);
 }
 
 /* Creates the simulation of a test, and frees the last one. */
@@ -357,9 +357,9 @@ TEST(texts_contain_known_values)
     values_add(&values, "d", 0.25);
     values_add(&values, "e", 1234.567);
     values_add(&values, "nothing", NAN);
-    values.run = 2;
+    values.next_run = 2;
     values_add(&values, "f", 2);
-    values.run = 0;
+    values.next_run = 0;
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         TextLine line = text_first_line(&values, rows[i].text);
         assert_string_equal(line.text, rows[i].line);

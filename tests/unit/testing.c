@@ -252,9 +252,9 @@ void free_simulations(void)
 
 double get_energy(const Energies *energies, const char *name)
 {
-    for (int i = 0; i < energies->rows; i++)
-        if (strcmp(energies->row[i].name, name) == 0)
-            return energies->row[i].value;
+    for (int i = 0; i < energies->count; i++)
+        if (strcmp(energies->energy[i].name, name) == 0)
+            return energies->energy[i].value;
     return 0;
 }
 
@@ -278,8 +278,8 @@ uint64_t hash_with_ledger(const Simulation *simulation, uint64_t hash)
     for (int r = 0; r < simulation->runs; r++) {
         const Energies ledger = simulation_get_energies(simulation, r);
         hash = hash_number(hash, ledger.work);
-        for (int i = 0; i < ledger.rows; i++)
-            hash = hash_number(hash, ledger.row[i].value);
+        for (int i = 0; i < ledger.count; i++)
+            hash = hash_number(hash, ledger.energy[i].value);
         hash = hash_number(hash, simulation->ledger[r].gained_energy);
     }
     return hash;
