@@ -45,7 +45,7 @@ extern const TermKind friction_energy, self_friction_energy;
 
 /* Returns the work that moving obstacles did by friction in this step, J.
  *   u  [2n] m, in, displacement of the step */
-double friction_work_of_obstacles(const System *system, const double *u);
+double friction_obstacle_work(const System *system, const double *u);
 
 /* Adds one of the two terms, changes its eps_v, or removes it.
  *   wanted      false: remove

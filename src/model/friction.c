@@ -214,7 +214,7 @@ const TermKind friction_energy = {FRICTION, .name = "friction",
                                   .is_external = true};
 const TermKind self_friction_energy = {FRICTION};
 
-double friction_work_of_obstacles(const System *system, const double *u)
+double friction_obstacle_work(const System *system, const double *u)
 {
     const Friction *friction = system_term_data(system, &friction_energy);
     double sum = 0;

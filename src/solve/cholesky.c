@@ -165,7 +165,7 @@ static void solve_by_columns(const cholmod_factor *L, double *y)
  * x += (L D L^T)^-1 (b - A x), restores the accuracy. */
 Status cholesky_solve(Cholesky *cholesky, const double *b, double *x)
 {
-    enum { MAX_REFINEMENTS = 21 };
+    enum { MAX_SOLVES = 21 };
     size_t n = cholesky->L->n;
     double *own = cholesky->b, *r = cholesky->r;
     if (cholesky->kind == CHOLESKY_DEFINITE) {
@@ -177,7 +177,7 @@ Status cholesky_solve(Cholesky *cholesky, const double *b, double *x)
     memcpy(own, b, n * sizeof *own); /* x may be b */
     memcpy(r, b, n * sizeof *r);
     memset(x, 0, n * sizeof *x);
-    for (int i = 0; i < MAX_REFINEMENTS; i++) {
+    for (int i = 0; i < MAX_SOLVES; i++) {
         solve_by_columns(cholesky->L, r);
         if (!all_finite(r, n))
             return STATUS_NOT_FINITE;

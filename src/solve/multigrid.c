@@ -156,7 +156,7 @@ static Status multigrid_copy_problem(Newton *newton)
     incremental_potential_absorb_pulls(at, m, u_tilde);
     if (mg->weight != at->E.weight || mg->version != system->version) {
         grid_copy_system(&mg->grid, at, m);
-        v_cycle_copy_masses(&mg->cycle);
+        v_cycle_copy_system(&mg->cycle);
     }
     mg->weight = at->E.weight;
     mg->version = system->version;

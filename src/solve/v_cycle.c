@@ -185,7 +185,7 @@ INLINE void set_up_rows(const VCycle *cycle, const Level *level, int i)
         coarsen_row(level, level->coarse, i / 2);
 }
 
-void v_cycle_copy_masses(VCycle *cycle)
+void v_cycle_copy_system(VCycle *cycle)
 {
     const Grid *grid = cycle->grid;
     double m = grid->min_mass;

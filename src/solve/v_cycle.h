@@ -53,7 +53,7 @@ void v_cycle_lay_out(const Grid *grid, ArrayMemory *memory, VCycle *cycle);
 
 /* Copies masses, pins and stiffnesses from the grid, coarsens the masses, and
  * sets the number of levels. */
-void v_cycle_copy_masses(VCycle *cycle);
+void v_cycle_copy_system(VCycle *cycle);
 
 /* Computes p = -H^-1 g up to a linear residual.
  *   g         [2 planes] grad E; anything at pins

@@ -247,5 +247,5 @@ double prescribed_compute_work(const TimeIntegrator *run)
                    contact_normal_force(&contact->barrier, walk.element.s) *
                    (n[0] * v[0] + n[1] * v[1]);
         }
-    return pins + (run->h * sum + friction_work_of_obstacles(system, u));
+    return pins + (run->h * sum + friction_obstacle_work(system, u));
 }

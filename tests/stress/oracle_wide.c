@@ -49,7 +49,7 @@ static Real square_root(Real a)
     return (root + a / root) / 2;
 }
 
-static Real vector_length(Real x, Real y)
+static Real hypotenuse(Real x, Real y)
 {
     return square_root(x * x + y * y);
 }
@@ -77,7 +77,7 @@ static Real logarithm(Real a)
 #define fabsl     magnitude
 #define sqrtl     square_root
 #define logl      logarithm
-#define hypotl    vector_length
+#define hypotl    hypotenuse
 #define fminl     smaller
 #define fmaxl     larger
 #define copysignl with_sign

@@ -37,14 +37,14 @@ static void print_tally(const char *name, const VerdictTally *tally)
 {
     printf("%-22s %7ld %9ld %8ld %5ld %9ld %7ld\n", name, tally->cases,
            tally->steps[VERDICT_CONVERGED], tally->steps[VERDICT_REPORTED],
-           tally->wrong, tally->judged_residuals, tally->undecided);
+           tally->wrong_cases, tally->judged_residuals, tally->undecided);
     fflush(stdout);
 }
 
 static void add_tally(const VerdictTally *tally, VerdictTally *sum)
 {
     sum->cases += tally->cases;
-    sum->wrong += tally->wrong;
+    sum->wrong_cases += tally->wrong_cases;
     sum->updates += tally->updates;
     sum->judged_residuals += tally->judged_residuals;
     sum->undecided += tally->undecided;
@@ -63,7 +63,7 @@ static void run_named_cases(bool quick, VerdictTally *sum)
             continue;
         begin_case(row->name);
         if (!row->run(&tally, reason)) {
-            tally.wrong += tally.wrong == 0;
+            tally.wrong_cases += tally.wrong_cases == 0;
             printf("%s: %s\n", row->name, reason);
         }
         print_tally(row->name, &tally);
@@ -102,7 +102,7 @@ static void run_random_families(uint64_t seed, bool quick, VerdictTally *sum)
                                      tally.steps_by_status[STATUS_BLOCKED]);
         if (!(good >= families[i].least_share * all)) {
             printf("only %g of %g steps converged\n", good, all);
-            tally.wrong++;
+            tally.wrong_cases++;
         }
         print_tally(families[i].name, &tally);
         add_tally(&tally, sum);
@@ -149,11 +149,11 @@ static void run_envelope(Solver solver, VerdictTally *sum)
     print_tally("envelope", &tally);
     printf("%s: %.2f %% converged where stretch >= 0.1, %d without an update\n",
            get_solver_name(solver), 100.0 * converged / cells, idle);
-    tally.wrong += converged < 0.99 * cells || idle > 0;
+    tally.wrong_cases += converged < 0.99 * cells || idle > 0;
     add_tally(&tally, sum);
 }
 
-static void print_summary(const VerdictTally *sum)
+static void print_totals(const VerdictTally *sum)
 {
     print_tally("all", sum);
     puts("steps by status:");
@@ -161,7 +161,7 @@ static void print_summary(const VerdictTally *sum)
         if (sum->steps_by_status[i] > 0)
             printf("  %-22s %9ld\n", status_name((Status)i),
                    sum->steps_by_status[i]);
-    printf("%ld violated\n", sum->wrong);
+    printf("%ld violated\n", sum->wrong_cases);
 }
 
 int main(int argc, char **argv)
@@ -190,6 +190,6 @@ int main(int argc, char **argv)
     run_random_families(seed, quick, &sum);
     for (int solver = 0; solver < SOLVER_COUNT && !quick; solver++)
         run_envelope((Solver)solver, &sum);
-    print_summary(&sum);
-    return sum.wrong > 0;
+    print_totals(&sum);
+    return sum.wrong_cases > 0;
 }

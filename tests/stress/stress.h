@@ -47,7 +47,7 @@ typedef enum Verdict {
 /* Counts of cases, wrong cases, updates, judged residuals, those of them that
  * rounding leaves undecided, and steps by verdict and by status. */
 typedef struct VerdictTally {
-    long cases, wrong, updates, judged_residuals, undecided;
+    long cases, wrong_cases, updates, judged_residuals, undecided;
     long steps[VERDICT_COUNT], steps_by_status[STATUS_COUNT];
 } VerdictTally;
 

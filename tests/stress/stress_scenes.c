@@ -185,7 +185,7 @@ Verdict stress_run_line(const char *line, int steps, VerdictTally *tally,
     Verdict verdict = run_steps(&simulation, shaken, steps, tally, reason);
     simulation_free(&simulation);
     tally->cases++;
-    tally->wrong += verdict == VERDICT_WRONG;
+    tally->wrong_cases += verdict == VERDICT_WRONG;
     return verdict;
 }
 
@@ -298,7 +298,7 @@ static bool run_many_steps(VerdictTally *tally, char *reason)
     watch_free(&watch);
     simulation_free(&simulation);
     tally->cases++;
-    tally->wrong += !good;
+    tally->wrong_cases += !good;
     return good;
 }
 
