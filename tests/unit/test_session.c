@@ -643,14 +643,13 @@ static int write_ink(const Canvas *canvas, Box box, const char *name, char *out)
 }
 
 /* Writes how much is drawn besides words: in each of 25 parts of the picture,
- * and in each card unless the text of a page changes the sizes of cards. */
+ * and in each card. */
 static int write_shape_ink(const Layout *layout, char *out)
 {
     enum { STAGE_PARTS = 5 };
     Paper *paper = &player.screen.paper;
     Text *text = paper->text;
     const Box stage = layout->stage;
-    const bool has_text = content->lecture.page && content->cards.enlarged < 1;
     char name[32], *at = out;
     paper->text = NULL;
     player_paint_frame(&player, paper);
@@ -665,7 +664,7 @@ static int write_shape_ink(const Layout *layout, char *out)
         snprintf(name, sizeof name, "picture %d %d", column, row);
         at += write_ink(&paper->canvas, part, name, at);
     }
-    for (int c = 0; c < layout->cards && !has_text; c++)
+    for (int c = 0; c < layout->cards; c++)
         at += write_ink(&paper->canvas, layout->card[c],
                         active_picture(content)->cards[c]->name, at);
     if (layout->has_list)
