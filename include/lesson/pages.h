@@ -71,6 +71,8 @@ bool page_wants_click(const LecturePage *page);
 /* Sets options->page, and the options that a page has beside its line. */
 void lecture_apply_page(const LecturePage *page, Options *options);
 
+/* ---- command_line.c ----------------------------------------------------- */
+
 /* Sets options to the defaults, changed by the command line of the page.
  * Returns OK or INVALID_INPUT.  A test checks that all pages return OK. */
 Status lecture_make_options(const LecturePage *page, Options *options,

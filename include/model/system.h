@@ -60,6 +60,8 @@ void system_mark_changed(System *system, bool pattern);
 /* Frees all arrays and terms.  Accepts a zeroed struct. */
 void system_free(System *system);
 
+/* ---- the list of terms (term.c) ------------------------------------------ */
+
 /* Returns the data of the first term of this kind.  If there is none, adds one
  * at its place in the list, with `bytes` bytes of data, all 0.  NULL: no
  * memory, or the list is full. */
@@ -76,6 +78,8 @@ void system_remove_term(System *system, const TermKind *kind);
 
 /* Adds `energy`, J, to the loss of this kind's column of the ledger. */
 void system_book_loss(System *system, const TermKind *kind, double energy);
+
+/* ---- sums over all terms and nodes (system.c) ---------------------------- */
 
 /* Whether the point is feasible for all terms (elements_are_feasible). */
 bool system_is_feasible(EvalPoint at);

@@ -75,7 +75,7 @@ WindowHit layout_find_hit(const Layout *layout, double x, double y);
 /* Returns the box of the cross that closes a card; -1: the code or list. */
 Box layout_cross_box(const Layout *layout, int card);
 
-/* ---- stage and world ---------------------------------------------------- */
+/* ---- stage and world (camera.c) ----------------------------------------- */
 
 /* Maps the world to pixels: pixel = origin + (scale[0] x, -scale[1] y). */
 typedef struct Camera {

@@ -172,5 +172,16 @@ void newton_start(Newton *newton, const double *x_n, const double *u,
  * the minimisation failed. */
 Status newton_minimise(Newton *newton);
 
+/* Large squares take longer for an update and get fewer of them, at least
+ * MIN_ITERATION_LIMIT, so that a step ends within seconds. */
+enum { MAX_UPDATES_TIMES_NODES = 250000, MIN_ITERATION_LIMIT = 1000 };
+
 /* Returns the limit of iterations: max_iterations, or less on large squares. */
-int newton_iteration_limit(const Newton *newton);
+static inline int newton_iteration_limit(const Newton *newton)
+{
+    int most = MAX_UPDATES_TIMES_NODES / newton->system->nodes;
+    most = most > MIN_ITERATION_LIMIT ? most : MIN_ITERATION_LIMIT;
+    return most < newton->settings.max_iterations
+               ? most
+               : newton->settings.max_iterations;
+}

@@ -476,3 +476,16 @@ Status options_parse_line(const char *line, Options *options, Message message)
     Status status = read_text_words(line, &words);
     return status ? status : apply_argument_line(&words, 0);
 }
+
+Status lecture_make_options(const LecturePage *page, Options *options,
+                            Message message)
+{
+    Status status = options_parse_line(page->command_line, options, message);
+    const char *pin = strstr(page->command_line, "--pin ");
+    if (pin) /* the text of --pin has to stay valid */
+        options->pin = pin + strlen("--pin ");
+    lecture_apply_page(page, options);
+    options->flips = page->switch_flips;
+    options->speed = page->speed;
+    return status;
+}

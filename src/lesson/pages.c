@@ -1,9 +1,7 @@
-/* pages.c - finds pages of the tour, and the options with which they open. */
+/* pages.c - finds pages of the tour. */
 #include "lesson/pages.h"
 
 #include <string.h>
-
-#include "lesson/command_line.h"
 
 int lecture_count_pages(void)
 {
@@ -29,17 +27,4 @@ void lecture_apply_page(const LecturePage *page, Options *options)
     options->pause_step = page->pause_step;
     options->law_name = page->law_name;
     options->main_card = page->main_card;
-}
-
-Status lecture_make_options(const LecturePage *page, Options *options,
-                            Message message)
-{
-    Status status = options_parse_line(page->command_line, options, message);
-    const char *pin = strstr(page->command_line, "--pin ");
-    if (pin) /* the text of --pin has to stay valid */
-        options->pin = pin + strlen("--pin ");
-    lecture_apply_page(page, options);
-    options->flips = page->switch_flips;
-    options->speed = page->speed;
-    return status;
 }

@@ -1,4 +1,4 @@
-/* system.c - masses, springs, pins, gravity and the list of energy terms. */
+/* system.c - masses, springs, pins, gravity, and sums over the energy terms. */
 #include "model/system.h"
 
 #include <float.h>
@@ -29,79 +29,14 @@ Status system_create(int nodes, int springs, System *system)
                : STATUS_OUT_OF_MEMORY;
 }
 
-void system_mark_changed(System *system, bool pattern)
-{
-    system->version++;
-    system->pattern_version += pattern;
-}
-
-static void free_term(EnergyTerm *term)
-{
-    if (term->kind->free)
-        term->kind->free(term->data);
-    free(term->data);
-}
-
 void system_free(System *system)
 {
     free(system->m);
     free(system->e);
     free(system->pin_v);
-    for (int t = 0; t < system->terms; t++)
-        free_term(&system->term[t]);
+    while (system->terms > 0)
+        system_remove_term(system, system->term[0].kind);
     *system = (System){0};
-}
-
-EnergyTerm *system_find_term(const System *system, const TermKind *kind)
-{
-    for (int t = 0; t < system->terms; t++)
-        if (system->term[t].kind == kind)
-            return (EnergyTerm *)&system->term[t];
-    return NULL;
-}
-
-void *system_term_data(const System *system, const TermKind *kind)
-{
-    const EnergyTerm *term = system_find_term(system, kind);
-    return term ? term->data : NULL;
-}
-
-void *system_add_term(System *system, const TermKind *kind, size_t bytes)
-{
-    int place = system->terms;
-    void *data = system_term_data(system, kind);
-    if (data || place == SYSTEM_MAX_TERMS || !(data = calloc(1, bytes)))
-        return data;
-    for (; place > 0 && system->term[place - 1].kind->rank > kind->rank;
-         place--)
-        system->term[place] = system->term[place - 1];
-    system->term[place] = (EnergyTerm){.kind = kind, .data = data};
-    system->terms++;
-    system_mark_changed(system, true);
-    return data;
-}
-
-void system_remove_term(System *system, const TermKind *kind)
-{
-    EnergyTerm *term = system_find_term(system, kind);
-    if (!term)
-        return;
-    free_term(term);
-    EnergyTerm *end = system->term + --system->terms;
-    for (; term < end; term++)
-        term[0] = term[1];
-    system_mark_changed(system, true);
-}
-
-/* Adds to the lost energy of the kind's name.  A name that is not in the table
- * yet takes the first free row. */
-void system_book_loss(System *system, const TermKind *kind, double energy)
-{
-    EnergyLoss *loss = system->losses;
-    while (loss->name && strcmp(loss->name, kind->loss_name) != 0)
-        loss++;
-    loss->name = kind->loss_name;
-    loss->energy += energy;
 }
 
 EvalPoint make_eval_point(const System *system, const double *x_n,
@@ -116,14 +51,6 @@ EvalPoint make_eval_point(const System *system, const double *x_n,
                        .damping = damped,
                        .k = damped ? damped->k : system->k,
                        .l2 = damped ? damped->l2 : system->l2};
-}
-
-const TermKind *eval_point_next_term(EvalPoint *at)
-{
-    const System *system = at->system;
-    const EnergyTerm *next = at->term ? at->term + 1 : system->term;
-    at->term = next < system->term + system->terms ? next : NULL;
-    return at->term ? at->term->kind : NULL;
 }
 
 bool system_is_feasible(EvalPoint at)
@@ -240,23 +167,6 @@ double system_curvature_bound(const System *system)
         if (kind->curvature_bound)
             most = max_or_nan(most, kind->curvature_bound(&at));
     return most;
-}
-
-void add_block_triplets(const System *system, int i, int j, Triplets *triplets)
-{
-    int r = system->elimination_order[i], c = system->elimination_order[j];
-    triplets_add(triplets, 2 * r, 2 * c);
-    triplets_add(triplets, 2 * r, 2 * c + 1);
-    if (r != c)
-        triplets_add(triplets, 2 * r + 1, 2 * c);
-    triplets_add(triplets, 2 * r + 1, 2 * c + 1);
-}
-
-void add_diagonal_triplets(const System *system, int i, Triplets *triplets)
-{
-    int place = system->elimination_order[i];
-    triplets_add(triplets, 2 * place, 2 * place);
-    triplets_add(triplets, 2 * place + 1, 2 * place + 1);
 }
 
 double system_kinetic_energy(const System *system, const double *v)

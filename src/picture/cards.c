@@ -7,23 +7,11 @@
 
 static const double CODE_LETTER = 0.7; /* ems, width of a letter of code */
 
-double trace_step_length(const NewtonTrace *trace, int trial)
-{
-    return ldexp(trace->first_alpha > 0 ? trace->first_alpha : 1, 1 - trial);
-}
-
 Box card_inner_box(Box card, double em)
 {
     int margin = (int)lround(0.8 * em), bar = (int)lround(TITLE_BAR * em);
     return (Box){card.x + margin, card.y + bar, card.width - 2 * margin,
                  card.height - bar - margin / 2};
-}
-
-void card_write_hint(const Plot *card, const char *text)
-{
-    TextLine line = text_first_line(&card->pane->values, text);
-    paper_write_in_box(card->paper, FACE_REGULAR, 0.92, COLOUR_GREY, card->box,
-                       ALIGN_CENTRE, line.text);
 }
 
 /* Draws frame, title and cross of a card.  Returns the box inside. */
@@ -170,67 +158,6 @@ static void draw_code(Paper *paper, Box inside, const FrameContent *content)
 }
 
 /* ---- cards -------------------------------------------------------------- */
-
-bool card_make_row(const FrameContent *content, const Card *card, int row,
-                   CardTableRow *cells)
-{
-    const LiveValues *values = &active_pane(content)->values;
-    const TextLine heads = text_first_line(values, card->column_heads);
-    size_t length;
-    *cells = (CardTableRow){.colour = COLOUR_TEXT};
-    for (const char *at = heads.text; *at; cells->columns++) {
-        length = strcspn(at, "|");
-        if (row == 0)
-            snprintf(cells->cell[cells->columns], CARD_CELL, "%.*s",
-                     (int)length, at);
-        at += length + (at[length] == '|');
-    }
-    return card->make_row(content, row, cells);
-}
-
-void card_draw_table(const Plot *card, const Card *table, const int *order)
-{
-    /* Largest size of letters and height of a row, ems. */
-    const double largest = 1.4, most = 2.2;
-    Paper *paper = card->paper;
-    const Box *box = &card->box;
-    CardTableRow cells;
-    double wide[CARD_COLUMNS] = {0}, em = paper->em, gap = 0.7 * em, all = 0;
-    int rows = 0, columns = 0;
-    bool shown[CARD_COLUMNS] = {false};
-    for (; card_make_row(card->content, table, rows, &cells); rows++)
-        for (int c = 0; c < cells.columns && cells.cell[0][0]; c++)
-            wide[c] = fmax(wide[c],
-                           paper_measure(paper, rows ? FACE_REGULAR : FACE_BOLD,
-                                         1, cells.cell[c]));
-    for (int c = 0; c < cells.columns; c++)
-        all += wide[c] + gap;
-    double size = fmin(box->width / all, box->height / (rows * CARD_ROW * em));
-    size = fmin(fmax(size, 1), largest);
-    double rest = box->width / size + gap;
-    for (; columns < cells.columns && order[columns] >= 0 &&
-           wide[order[columns]] + gap <= rest;
-         columns++) {
-        rest -= wide[order[columns]] + gap;
-        shown[order[columns]] = true;
-    }
-    gap += rest / fmax(columns - 1, 1);
-    double line = fmin(fmax(box->height / (double)rows, CARD_ROW * size * em),
-                       most * size * em);
-    int skipped = rows - (int)fmin(rows, box->height / line + 0.01);
-    for (int i = 0; i < rows - skipped; i++) {
-        double right = box->x - size * gap;
-        card_make_row(card->content, table, i > 1 ? i + skipped : i, &cells);
-        for (int c = 0; c < cells.columns; c++) {
-            right += shown[c] ? size * (wide[c] + gap) : 0;
-            if (shown[c])
-                paper_write(paper, i ? FACE_REGULAR : FACE_BOLD, size,
-                            c ? COLOUR_TEXT : cells.colour, c ? right : box->x,
-                            box->y + i * line, c ? ALIGN_RIGHT : ALIGN_LEFT,
-                            "%s", cells.cell[c]);
-        }
-    }
-}
 
 void card_draw(Paper *paper, Box inside, const FrameContent *content, int card)
 {

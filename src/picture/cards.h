@@ -150,8 +150,5 @@ void draw_highlight(Paper *paper, const FrameContent *content);
 void window_rows_draw(Paper *paper, const Layout *layout,
                       const FrameContent *content);
 
-/* Returns the number of steps that the time line has room for, at least 60. */
-long time_line_steps(const FrameContent *content);
-
 /* Returns the step length alpha of trial 1, 2, ... of the line search. */
 double trace_step_length(const NewtonTrace *trace, int trial);

@@ -1,5 +1,4 @@
 /* live_values.c - the live values of a frame, which are filled into texts. */
-#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -388,54 +387,6 @@ bool text_has_known_line(const LiveValues *values, const char *text)
 {
     TextLine line = text_begin(values, text);
     return text_next_line(&line);
-}
-
-/* Draws a line at the upper edge of the box, or only measures it; long lines
- * wrap.  Returns the height in pixels. */
-static int draw_text_line(Paper *paper, Box box, double size,
-                          const TextLine *line, bool draw)
-{
-    const double air = 0.2, empty = 0.6; /* ems */
-    int high = paper_write_paragraph(paper, line->face, size, line->colour, box,
-                                     draw ? INT_MAX : 0, line->text);
-    return high + paper_pixels(paper, size * (high > 0 ? air : empty));
-}
-
-void card_write_text(const Plot *card, const LiveValues *values,
-                     const char *text)
-{
-    Paper *paper = card->paper;
-    Box box = card->box;
-    double height = 0, size = 1;
-    if (card->content->lecture.page) /* a page is read from a distance */
-        size = box.width > MAIN_CARD_WIDTH * paper->em ? 1.6 : 1.2;
-    const TextLine begin = text_begin(values, text);
-    for (TextLine line = begin; text_next_line(&line);) {
-        int width = paper_measure(paper, line.face, 1, line.text);
-        height += draw_text_line(paper, box, 1, &line, false);
-        if (width > 0)
-            size = fmin(size, 0.97 * box.width / width);
-    }
-    size = fmax(fmin(size, box.height / height), paper->min_letter);
-    for (TextLine line = begin; text_next_line(&line);)
-        box.y += draw_text_line(paper, box, size, &line, true);
-}
-
-int card_write_lines(const Plot *card, int at[2], double size, double gap,
-                     const TextLine *line, bool draw)
-{
-    Paper *paper = card->paper;
-    int width = paper_measure(paper, line->face, size, line->text);
-    if (at[0] > 0 && at[0] + width > card->box.width) {
-        at[0] = 0;
-        at[1] += paper_pixels(paper, 1.35 * size);
-    }
-    if (draw)
-        paper_write_on_panel(paper, line->face, size, line->colour,
-                             card->box.x + at[0], card->box.y + at[1],
-                             ALIGN_LEFT, "%s", line->text);
-    at[0] += width + paper_pixels(paper, gap);
-    return at[1] + paper_pixels(paper, 1.5 * size);
 }
 
 /* ---- the title bar ------------------------------------------------------- */

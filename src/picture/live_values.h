@@ -54,6 +54,8 @@ TextLine text_first_line(const LiveValues *values, const char *text);
 /* Whether a text has a line with known values. */
 bool text_has_known_line(const LiveValues *values, const char *text);
 
+/* ---- texts in a card (words.c) ------------------------------------------- */
+
 /* Writes all lines with known values into a card, as large as they fit: up to
  * the size of plain text, on a page up to 1.2, in its main card 1.6 times. */
 void card_write_text(const Plot *card, const LiveValues *values,

@@ -13,61 +13,6 @@ static const double HANDLE_REACH = 14;   /* pixels, reach of the mouse */
 static const double SWITCH_WIDTH = 13;   /* ems */
 static const double SWITCH_HEIGHT = 1.8; /* ems */
 
-const Picture *picture_of_scene(const struct Scene *scene)
-{
-    return &pictures[scene->picture];
-}
-
-bool frame_has_card(const FrameContent *content, const char *name)
-{
-    int card = picture_find_card(active_picture(content), name);
-    return card >= 0 && !(content->cards.hidden_cards >> card & 1);
-}
-
-int picture_find_card(const Picture *picture, const char *name)
-{
-    for (int c = 0; c < picture->count; c++)
-        if (strcmp(picture->cards[c]->name, name) == 0)
-            return c;
-    return -1;
-}
-
-/* Returns the cards that the page or scene hides or closes at first. */
-static CardSets find_start_card_sets(const Simulation *simulation)
-{
-    const Picture *picture = picture_of_scene(simulation->scene);
-    const LecturePage *page = simulation->options.page;
-    CardSets sets = {.enlarged = -1};
-    for (int c = 0; c < picture->count; c++) {
-        /* No card's name is part of another card's name. */
-        const Card *card = picture->cards[c];
-        bool has = page ? strstr(page->open_cards, card->name) != NULL
-                        : !card->is_only_in_lecture;
-        sets.hidden_cards |= (unsigned)!has << c;
-        sets.closed_cards |= (unsigned)(card->starts_closed && !page) << c;
-    }
-    return sets;
-}
-
-void frame_create(const Simulation *simulation, FrameContent *content)
-{
-    static const FrameView whole = {.lens = {.zoom = 1}};
-    *content = (FrameContent){
-        .panes = 1, .view = &whole, .cards = find_start_card_sets(simulation)};
-    content->pane[0].simulation = simulation;
-}
-
-bool cards_need_line_energy(const Simulation *simulation, unsigned toggled)
-{
-    const Picture *picture = picture_of_scene(simulation->scene);
-    const CardSets sets = find_start_card_sets(simulation);
-    unsigned shut = sets.hidden_cards | (sets.closed_cards ^ toggled);
-    for (int c = 0; c < picture->count; c++)
-        if (picture->cards[c]->needs_line_energy && !(shut >> c & 1))
-            return true;
-    return false;
-}
-
 /* Returns the box of a pane without its rows of words above and below the
  * picture.  On a page a pane has these rows if it is low or one of several. */
 static Box find_picture_room(const FrameContent *content, const Layout *layout,
@@ -273,52 +218,6 @@ Pick frame_find_pick(const FrameContent *content, const Layout *layout,
     if (picture->pick)
         picture->pick(&stage, x, y, &pick);
     return pick;
-}
-
-/* ---- small queries ------------------------------------------------------- */
-
-long frame_find_bar_step(const FrameContent *content, const Layout *layout,
-                         double x)
-{
-    const Box *bars = &layout->bars;
-    double step =
-        (x - bars->x) / fmax(bars->width, 1) * time_line_steps(content);
-    return (long)fmin(fmax(step < 0.25 ? 0 : floor(step) + 1, 0),
-                      content->time_line.steps);
-}
-
-const double *pane_positions(const Pane *pane)
-{
-    return pane->x ? pane->x : pane->simulation->run[0].x;
-}
-
-/* ---- history ------------------------------------------------------------ */
-
-void history_add_point(History *history, double time, int rows,
-                       const Energy *row)
-{
-    double sum = time;
-    for (int i = 0; i < rows; i++)
-        sum += 0 * row[i].value; /* NaN if the value is not finite */
-    if (!isfinite(sum) || history->count == HISTORY_POINTS)
-        return;
-    int last = history->count++;
-    history->time[last] = time;
-    for (int s = 0; s < history->series; s++)
-        history->value[s][last] = 0;
-    for (int i = 0; i < rows; i++) {
-        int s = 0;
-        while (s < history->series &&
-               strcmp(history->name[s], row[i].name) != 0)
-            s++;
-        if (s == HISTORY_SERIES)
-            continue; /* the history has no room for more quantities */
-        if (s == history->series) {
-            history->name[history->series++] = row[i].name;
-            memset(history->value[s], 0, sizeof history->value[s]);
-        }
-        history->value[s][last] = row[i].value;
-    }
 }
 
 /* ---- drawing ------------------------------------------------------------- */

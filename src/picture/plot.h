@@ -176,6 +176,8 @@ double plot_label_cost(const Plot *plot, Box place);
 void plot_label(const Plot *plot, int points, const double *at, Colour colour,
                 const char *format, ...);
 
+/* ---- numbers (number_text.c) --------------------------------------------- */
+
 /* A number as markup, 100000 or 2.5 10^{7}; format_number: three digits. */
 typedef struct NumberText {
     char text[48];

@@ -89,10 +89,21 @@ static void draw_setting(Paper *paper, Box box, const Setting *setting,
 
 /* ---- the time line ------------------------------------------------------ */
 
-long time_line_steps(const FrameContent *content)
+/* Returns the number of steps that the time line has room for. */
+static long time_line_steps(const FrameContent *content)
 {
     long steps = content->time_line.steps;
     return steps > MIN_STEPS ? steps : MIN_STEPS;
+}
+
+long frame_find_bar_step(const FrameContent *content, const Layout *layout,
+                         double x)
+{
+    const Box *bars = &layout->bars;
+    double step =
+        (x - bars->x) / fmax(bars->width, 1) * time_line_steps(content);
+    return (long)fmin(fmax(step < 0.25 ? 0 : floor(step) + 1, 0),
+                      content->time_line.steps);
 }
 
 /* Draws a bar for each step, or for the largest step of each group. */

@@ -1,12 +1,8 @@
-/* words.c - words of a plot: legend, scale, numbers, labels on free ground. */
+/* words.c - words of a plot: texts, legend, scale, labels on free ground. */
+#include <limits.h>
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
-#include "picture/colour_map.h"
-#include "picture/live_values.h"
-#include "picture/plot.h"
+#include "picture/cards.h"
 
 enum { LABEL_TEXT_SIZE = 512 }; /* bytes of a label */
 
@@ -24,50 +20,61 @@ static const double LABEL_MARGIN = 0.2; /* ems, free margin of a label */
 static const double LABEL_DISTANCE[] = {0.8, 2};
 static const Colour INK = 190; /* a pixel with a channel below this is ink */
 
-/* ---- numbers ------------------------------------------------------------ */
+/* ---- texts of cards ------------------------------------------------------ */
 
-NumberText format_digits(double value, int digits)
+/* Draws a line at the upper edge of the box, or only measures it; long lines
+ * wrap.  Returns the height in pixels. */
+static int draw_text_line(Paper *paper, Box box, double size,
+                          const TextLine *line, bool draw)
 {
-    NumberText out;
-    size_t size = sizeof out.text;
-    char plain[26];
-    const char *sign = value < 0 ? "\u2212" : "";
-    double most = fabs(value), large = fmax(1e5, pow(10, digits) - 0.5);
-    snprintf(plain, sizeof plain, "%.*e", digits - 1, most);
-    if (!isfinite(value)) {
-        snprintf(out.text, size, "%s%s", sign,
-                 isnan(value) ? "no number" : "\u221e");
-    } else if (most == 0 || (most >= 1e-3 && most < large)) {
-        snprintf(out.text, size, "%s%.15g", sign, strtod(plain, NULL));
-    } else {
-        char *power = strchr(plain, 'e');
-        int exponent = (int)strtol(power + 1, NULL, 10);
-        *power = '\0';
-        double part = strtod(plain, NULL);
-        snprintf(plain, sizeof plain, "%.15g\u00b7", part);
-        snprintf(out.text, size, "%s%s10^{%s%d}", sign, part == 1 ? "" : plain,
-                 exponent < 0 ? "\u2212" : "", abs(exponent));
+    const double air = 0.2, empty = 0.6; /* ems */
+    int high = paper_write_paragraph(paper, line->face, size, line->colour, box,
+                                     draw ? INT_MAX : 0, line->text);
+    return high + paper_pixels(paper, size * (high > 0 ? air : empty));
+}
+
+void card_write_text(const Plot *card, const LiveValues *values,
+                     const char *text)
+{
+    Paper *paper = card->paper;
+    Box box = card->box;
+    double height = 0, size = 1;
+    if (card->content->lecture.page) /* a page is read from a distance */
+        size = box.width > MAIN_CARD_WIDTH * paper->em ? 1.6 : 1.2;
+    const TextLine begin = text_begin(values, text);
+    for (TextLine line = begin; text_next_line(&line);) {
+        int width = paper_measure(paper, line.face, 1, line.text);
+        height += draw_text_line(paper, box, 1, &line, false);
+        if (width > 0)
+            size = fmin(size, 0.97 * box.width / width);
     }
-    return out;
+    size = fmax(fmin(size, box.height / height), paper->min_letter);
+    for (TextLine line = begin; text_next_line(&line);)
+        box.y += draw_text_line(paper, box, size, &line, true);
 }
 
-NumberText format_number(double value)
+int card_write_lines(const Plot *card, int at[2], double size, double gap,
+                     const TextLine *line, bool draw)
 {
-    return format_digits(value, 3);
+    Paper *paper = card->paper;
+    int width = paper_measure(paper, line->face, size, line->text);
+    if (at[0] > 0 && at[0] + width > card->box.width) {
+        at[0] = 0;
+        at[1] += paper_pixels(paper, 1.35 * size);
+    }
+    if (draw)
+        paper_write_on_panel(paper, line->face, size, line->colour,
+                             card->box.x + at[0], card->box.y + at[1],
+                             ALIGN_LEFT, "%s", line->text);
+    at[0] += width + paper_pixels(paper, gap);
+    return at[1] + paper_pixels(paper, 1.5 * size);
 }
 
-NumberText format_power(const char *value)
+void card_write_hint(const Plot *card, const char *text)
 {
-    char *rest;
-    double number = strtod(value, &rest);
-    const char *power = strchr(value, 'e');
-    NumberText out;
-    if (power && power < rest && *rest != '_')
-        snprintf(out.text, sizeof out.text, "%.30s%.16s",
-                 format_digits(number, 6).text, rest);
-    else
-        snprintf(out.text, sizeof out.text, "%.47s", value);
-    return out;
+    TextLine line = text_first_line(&card->pane->values, text);
+    paper_write_in_box(card->paper, FACE_REGULAR, 0.92, COLOUR_GREY, card->box,
+                       ALIGN_CENTRE, line.text);
 }
 
 /* ---- scale and legend ---------------------------------------------------- */

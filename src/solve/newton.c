@@ -31,16 +31,6 @@ void newton_start(Newton *newton, const double *x_n, const double *u,
         multigrid_accepts_problem(newton) ? SOLVER_MULTIGRID : SOLVER_NEWTON;
 }
 
-void swap_iterates(Newton *newton)
-{
-    Iterate *at = &newton->iterate;
-    double *u = at->u, *x = at->x;
-    at->u = newton->u_trial;
-    at->x = newton->x_trial;
-    newton->u_trial = u;
-    newton->x_trial = x;
-}
-
 /* Makes the trial point, u + alpha p, the iterate.  The iterate stays if the
  * trial point is not finite or, with a line search, its E exceeds the limit. */
 static Status update_iterate(Newton *newton)
@@ -59,19 +49,6 @@ static Status update_iterate(Newton *newton)
     newton->has_gradient = false;
     newton->counters.updates++;
     return STATUS_OK;
-}
-
-/* Large squares take longer for an update and get fewer of them, at least
- * MIN_ITERATION_LIMIT, so that a step ends within seconds. */
-enum { MAX_UPDATES_TIMES_NODES = 250000, MIN_ITERATION_LIMIT = 1000 };
-
-int newton_iteration_limit(const Newton *newton)
-{
-    int most = MAX_UPDATES_TIMES_NODES / newton->system->nodes;
-    most = most > MIN_ITERATION_LIMIT ? most : MIN_ITERATION_LIMIT;
-    return most < newton->settings.max_iterations
-               ? most
-               : newton->settings.max_iterations;
 }
 
 /* Decides, after the turn of a free body, whether the loop ends: p or a bound

@@ -26,6 +26,17 @@ typedef struct NewtonPhases {
     Status (*test)(Newton *newton, Status status);
 } NewtonPhases;
 
+/* Exchanges the iterate and the trial. */
+static inline void swap_iterates(Newton *newton)
+{
+    Iterate *at = &newton->iterate;
+    double *u = at->u, *x = at->x;
+    at->u = newton->u_trial;
+    at->x = newton->x_trial;
+    newton->u_trial = u;
+    newton->x_trial = x;
+}
+
 /* ---- direction.c: gradient, Hessian, search direction (slide: search_dir) */
 
 /* Frees the matrix and its factor, which are made when they are needed. */
@@ -47,11 +58,6 @@ bool next_direction_is_negligible(Newton *newton);
 /* ---- line_search.c: how far to go along p (slide: Algorithm 2) */
 
 Status find_step_length(Newton *newton);
-
-/* ---- newton.c */
-
-/* Exchanges the iterate and the trial. */
-void swap_iterates(Newton *newton);
 
 /* ---- turn.c: turns of free bodies, which Newton's directions cannot make */
 
