@@ -14,7 +14,7 @@
  *                                 an option.  CHOICES: names with | between, or
  *                                 "" for a number; IDLE: why it has no effect
  *                                 now, or ""; SHOWN: row (it is in the window's
- *                                 row), tried (and Try wants it dragged), or
+ *                                 row), tried (and Try asks to change it), or
  *                                 others
  *     point INDEX X Y             a handle, m
  *     switch INDEX ON LABEL
@@ -231,16 +231,17 @@ static void write_document_card(Writer *to, const FrameContent *content,
 
 /* ---- what can be set ----------------------------------------------------- */
 
-/* Whether a sentence "Drag ..." of the text names the option. */
-static bool text_asks_to_drag(const char *text, const OptionRow *row)
+/* Whether a sentence "Drag ..." or "Set ..." of the text names the option. */
+static bool text_asks_to_change(const char *text, const OptionRow *row)
 {
     const char *name = option_get_label(row);
     size_t length = strlen(name);
-    for (; text && (text = strstr(text, "Drag ")); text++)
-        for (const char *at = text; *at && !strchr(".;:", *at); at++)
-            if (strchr(" (", *at) && strncmp(at + 1, name, length) == 0 &&
-                strchr(" ,.;:\n\302", at[1 + length])) /* \302: ~ */
-                return true;
+    for (; text && *text; text++)
+        if (strncmp(text, "Drag ", 5) == 0 || strncmp(text, "Set ", 4) == 0)
+            for (const char *at = text; *at && !strchr(".;:", *at); at++)
+                if (strchr(" (", *at) && strncmp(at + 1, name, length) == 0 &&
+                    strchr(" ,.;:'\n\302", at[1 + length])) /* \302: ~ */
+                    return true;
     return false;
 }
 
@@ -265,10 +266,10 @@ static void write_settings(Writer *to, const Player *player)
         bool named = row[i]->kind == OPTION_NAME;
         for (int k = 0; named && names_get(row[i]->names, k); k++)
             print(to, "%s%s", k ? "|" : "", names_get(row[i]->names, k));
+        bool tried = !named && page && text_asks_to_change(page->try, row[i]);
+        const char *place = tried ? "tried" : "row";
         print(to, "\t%s\t%s\t%s\n", row[i]->help, idle ? idle : "",
-              !shown ? "others"
-              : !named && page && text_asks_to_drag(page->try, row[i]) ? "tried"
-                                                                       : "row");
+              shown ? place : "others");
     }
 }
 

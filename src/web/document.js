@@ -72,14 +72,18 @@ const paragraph = ([colour, bold, text], asFormula) => {
 const makeInput = (ariaLabel, onchange, more) =>
   Object.assign(make('input'), { ariaLabel, onchange, inputMode: 'decimal', ...more });
 
-// Makes a slider from a tenth to ten times the first value, or from a quarter to
-// four times a whole number.
-const makeSlider = (name, first, whole) => {
-  const most = Math.log(whole ? 4 : 10);
+// Makes a slider from a tenth to ten times the first value, or as far as the number
+// that Try names after the label: "h to 0.01", "k to 10^{9}", "k to 2·10^{5}".
+const makeSlider = (name, label, first) => {
+  const text = (now.try ?? []).map((line) => line[2]).join(' ');
+  const after = text.slice(text.indexOf(label));
+  const [, factor = 1, base = first, power = 1] =
+    / to (?:([\d.]+)·)?(\d+(?:\.\d+)?)(?:\^\{(\d+)\})?/.exec(after) ?? [];
+  const most = Math.max(Math.log(10), Math.abs(Math.log((factor * base ** power) / first)));
   const range = { type: 'range', min: -most, max: most, step: most / 100, value: 0, first };
   range.oninput = ({ target }) => {
-    const number = first * Math.exp(target.value);
-    obey(`set ${name} ${whole ? Math.max(1, Math.round(number)) : Number(number.toPrecision(3))}`);
+    const number = Number((first * Math.exp(target.value)).toPrecision(3));
+    obey(`set ${name} ${name === 'segments' ? Math.round(number) || 1 : number}`);
   };
   return makeInput(name, null, range);
 };
@@ -92,7 +96,7 @@ const makeNumber = ([name, label, value, unit, choices, , , shown]) => {
   const element = choices ? make('select', options) : makeInput();
   Object.assign(element, { name, ariaLabel: full, onchange: change });
   const item = make('label', [words, element, setMarkup(make('span'), unit)]);
-  if (shown === 'tried') item.append(makeSlider(name, Number(value), name === 'segments'));
+  if (shown === 'tried') item.append(makeSlider(name, label, Number(value) || 1));
   return item;
 };
 
@@ -124,7 +128,7 @@ const showNumbers = () => {
     if (element.options) put(element.parentNode, 'hidden', !element.value); // panes differ
     if (!slider || document.activeElement === slider || !isNew(slider, 'shown', value)) continue;
     slider.setAttribute('aria-valuetext', value);
-    slider.value = Math.log(value / slider.first);
+    slider.value = Math.max(-99, Math.log(value / slider.first));
   }
 };
 

@@ -106,9 +106,7 @@ const updateAddress = () => {
   entry = field('page', 2);
   history[turns ? 'pushState' : 'replaceState'](null, '', shown);
 };
-addEventListener('hashchange', () => {
-  if (location.hash !== shown) begin(readAddress());
-});
+addEventListener('hashchange', () => location.hash !== shown && begin(readAddress()));
 
 // ---- the loop ---------------------------------------------------------------
 
@@ -192,9 +190,7 @@ canvas.addEventListener('keydown', (event) => {
   const copied = navigator.clipboard?.writeText(location.href);
   copied?.then(() => say('The link to this is copied.', true)).catch(() => {});
 });
-canvas.addEventListener('blur', () => {
-  if (last.clicks) tell(RELEASE, last); // a drag ends with the focus
-});
+canvas.addEventListener('blur', () => last.clicks && tell(RELEASE, last)); // a drag ends
 
 // ---- mouse, pen and fingers -------------------------------------------------
 

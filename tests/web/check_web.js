@@ -20,18 +20,14 @@ const hashIn = (text) => (/state(?: hash)? +([0-9a-f]{16})/.exec(text) || [])[1]
 
 // Runs a command line without a window in an open tab and returns its summary.
 const headless = async (tab, line) => {
-  await tab.run(
-    `$('summary').textContent = $('said').textContent = ''; location.hash = ${JSON.stringify(at(line).split('#')[1])}`,
-  );
+  await tab.run(`$('summary').textContent = $('said').textContent = '';
+    location.hash = ${JSON.stringify(at(line).split('#')[1])}`);
   await tab.until(`/state hash/.test($('summary').textContent) || $('said').textContent`);
   return tab.run(`$('summary').textContent || $('said').textContent`);
 };
 
 const names = (line) =>
-  native(line)
-    .stdout.trim()
-    .split('\n')
-    .map((row) => row.trim().split(/\s+/));
+  native(line).stdout.trim().split('\n').map((row) => row.trim().split(/\s+/));
 const SCENES = names('--list').map(([name]) => name);
 const PAGES = names('--list --lecture').map(([, name]) => '--lecture ' + name);
 
@@ -168,9 +164,8 @@ const sessions = async (browser) => {
       const played = native(`${SQUARE} --headless --script ${file}`);
       if (!hashIn(text) || hashIn(text) !== hashIn(played.stdout) || played.stderr)
         wrong.push(`${text}, the program ${hashIn(played.stdout)} ${played.stderr}`);
-      if (name !== 'keys' && !/grab|drag/.test(fs.readFileSync(file, 'utf8')))
-        wrong.push('no hand');
-      if (name !== 'keys' && !/pin/.test(fs.readFileSync(file, 'utf8'))) wrong.push('no pin');
+      for (const deed of name === 'keys' ? [] : [/grab|drag/, /pin/])
+        if (!deed.test(fs.readFileSync(file, 'utf8'))) wrong.push(`no ${deed}`);
       if (name === 'mouse') await dropped(browser, SQUARE, file, hashIn(text));
     }
     verdict(`a_session_by_${name}_is_the_programs`, wrong);
@@ -190,10 +185,9 @@ const dropped = async (browser, scene, file, hash) => {
   const wrong = [];
   await tab.run(`line = ${JSON.stringify((scene + ' --headless').split(' '))}`);
   await drop(tab, 'mine.script', fs.readFileSync(file, 'utf8'));
-  await tab.until(
-    `/state hash/.test($('summary').textContent) && !/steps +0\\n/.test($('summary').textContent)`,
-  );
-  const text = await tab.run(`$('summary').textContent`);
+  const summary = `$('summary').textContent`;
+  await tab.until(`/state hash/.test(${summary}) && !/steps +0\\n/.test(${summary})`);
+  const text = await tab.run(summary);
   if (hashIn(text) !== hash) wrong.push(`${hashIn(text)} for ${hash}`);
   verdict(`the_dropped_${path.basename(file)}_is_played`, [...wrong, ...tab.trouble]);
 };
@@ -210,18 +204,13 @@ const pushed = async (browser) => {
 const saved = async (browser) => {
   const wrong = [];
   for (const ratio of [1, 2]) {
-    const tab = await browser.open(at('hang --paused'), {
-      width: 800,
-      height: 500,
-      ratio,
-      before: CATCH,
-    });
+    const screen = { width: 800, height: 500, ratio, before: CATCH };
+    const tab = await browser.open(at('hang --paused'), screen);
     const frames = await tab.run('stats.frames');
     await tab.key('0'); // the first key removes the greeting
     await tab.until(`stats.frames > ${frames}`);
-    await tab.run(
-      `ours = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data`,
-    );
+    await tab.run(`paper = canvas.getContext('2d');
+      ours = paper.getImageData(0, 0, canvas.width, canvas.height).data`);
     await tab.key('s');
     await tab.until(`Object.keys(files).length === 1`);
     const same = await tab.run(`Object.values(files)[0].then(createImageBitmap).then((picture) => {
@@ -278,10 +267,8 @@ const addresses = async (browser) => {
   const bad = [];
   await tab.run(`$('said').textContent = ''; location.hash = 'square+--segments+0'`);
   await tab.until(`$('said').textContent`);
-  const [ours, theirs] = [
-    native('square --segments 0').stderr.trim(),
-    await tab.run(`$('said').textContent`),
-  ];
+  const ours = native('square --segments 0').stderr.trim();
+  const theirs = await tab.run(`$('said').textContent`);
   if (ours !== theirs) bad.push(`'${theirs}', not '${ours}'`);
   await drop(tab, 'x.script', '3 no such command\n');
   await tab
@@ -343,10 +330,8 @@ const lacking = async (browser) => {
   await tab.run(`away = false; document.dispatchEvent(new Event('visibilitychange'))`);
   await tab.until(`stats.frames > ${after}`, 60000).catch(() => {});
   const back = await tab.run('stats.frames');
-  verdict(
-    'a_tab_in_the_background_stops',
-    after === frames && back > after ? [] : [`${frames}, ${after}, ${back} frames`],
-  );
+  const stops = after === frames && back > after;
+  verdict('a_tab_in_the_background_stops', stops ? [] : [`${frames}, ${after}, ${back} frames`]);
 
   // A paused run draws no frame and writes no text.
   await tab.run(`wake(ask('web_obey_lines', null, 'pause'))`);
@@ -358,10 +343,8 @@ const lacking = async (browser) => {
   await sleep(700);
   const more = (await tab.run('stats.frames')) - still;
   const changes = await tab.run('changes');
-  verdict(
-    'a_paused_page_makes_no_frame_and_writes_nothing',
-    more || changes ? [`${more} frames, ${changes} changes`] : [],
-  );
+  const busy = more || changes ? [`${more} frames, ${changes} changes`] : [];
+  verdict('a_paused_page_makes_no_frame_and_writes_nothing', busy);
 };
 
 finish(async () => {
