@@ -375,7 +375,7 @@ typedef struct Screen {
     SDL_Renderer *renderer;
     double scale, radius; /* pixels in a metre; pixels, radius of a node */
     Vec2 *x_start, mouse; /* [nodes] m, positions at the beginning; m */
-    int held;             /* the node that the mouse pulls, or -1 */
+    int pulled;           /* the node that the mouse pulls, or -1 */
     bool paused;
 } Screen;
 
@@ -428,7 +428,7 @@ static void draw(const Screen *screen, const Solid *solid)
 static Screen open_screen(const Solid *solid)
 {
     double size = fmax(fabs(solid->x[0].x), fabs(solid->x[0].y));
-    Screen screen = {.scale = PIXELS / (4 * size), .held = -1};
+    Screen screen = {.scale = PIXELS / (4 * size), .pulled = -1};
     screen.x_start = allocate(solid->nodes, sizeof(Vec2));
     memcpy(screen.x_start, solid->x, (size_t)solid->nodes * sizeof(Vec2));
     screen.radius = fmax(0.1 * screen.scale * sqrt(solid->e[0].l2), 1.5);
@@ -467,19 +467,19 @@ static bool handle_event(Screen *screen, Solid *solid, const SDL_Event *event)
     if (event->type == SDL_MOUSEMOTION)
         screen->mouse = (Vec2){(event->motion.x - PIXELS / 2) / screen->scale,
                                (PIXELS / 2 - event->motion.y) / screen->scale};
-    if (event->type == SDL_MOUSEBUTTONDOWN && screen->held < 0) {
-        screen->held = 0;
+    if (event->type == SDL_MOUSEBUTTONDOWN && screen->pulled < 0) {
+        screen->pulled = 0;
         for (int i = 1; i < solid->nodes; i++)
             if (distance(solid->x[i], screen->mouse) <
-                distance(solid->x[screen->held], screen->mouse))
-                screen->held = i;
-        solid->m[screen->held] *= HEAVY;
+                distance(solid->x[screen->pulled], screen->mouse))
+                screen->pulled = i;
+        solid->m[screen->pulled] *= HEAVY;
     }
     bool leaves = event->type == SDL_WINDOWEVENT &&
                   event->window.event == SDL_WINDOWEVENT_FOCUS_LOST;
-    if ((leaves || event->type == SDL_MOUSEBUTTONUP) && screen->held >= 0) {
-        solid->m[screen->held] /= HEAVY;
-        screen->held = -1;
+    if ((leaves || event->type == SDL_MOUSEBUTTONUP) && screen->pulled >= 0) {
+        solid->m[screen->pulled] /= HEAVY;
+        screen->pulled = -1;
     }
     return event->type != SDL_QUIT && key != SDLK_ESCAPE;
 }
@@ -507,9 +507,9 @@ static bool show(Screen *screen, Solid *solid, double h, int step)
         }
         SDL_Delay(5); /* SDL_WaitEvent may fail on X as the window closes */
     } while (screen->paused || !SDL_TICKS_PASSED(SDL_GetTicks(), end));
-    if (screen->held >= 0) { /* a third of the way to the mouse */
-        Vec2 way = sub(screen->mouse, solid->x[screen->held]);
-        solid->v[screen->held] = mul(1 / (3 * h), way);
+    if (screen->pulled >= 0) { /* a third of the way to the mouse */
+        Vec2 way = sub(screen->mouse, solid->x[screen->pulled]);
+        solid->v[screen->pulled] = mul(1 / (3 * h), way);
     }
     return true;
 }

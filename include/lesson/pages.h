@@ -39,11 +39,11 @@ typedef struct LecturePage {
     const char *const *line_highlight;
     const char *claim;      /* statement that a test checks */
     unsigned switch_flips;  /* bit s: switch s of the scene is turned over */
-    int print_step;         /* step that the printed page shows */
+    int printed_step;       /* step that the printed page shows */
     double speed;           /* steps for each frame; 0: as in the scene */
     const char *on_open;    /* commands at the opening, separated by ';' */
     const char *on_answer;  /* commands at the answer, separated by ';' */
-    int print_presses;      /* presses of N before the print; 0: print_step */
+    int print_presses;      /* presses of N before the print; 0: printed_step */
     unsigned layers;        /* bits of PictureLayer: additions to the picture */
     NextAction next_action; /* effect of the key N after the answer */
     int pause_step;         /* step at which a run pauses; 0: none */

@@ -72,12 +72,12 @@ enum { CONTACT_MAX_OBSTACLES = 20 };
 
 /* An obstacle that a hand pulls to a point (push.c). */
 typedef struct ObstaclePush {
-    bool is_held;     /* whether a hand holds an obstacle */
-    int obstacle;     /* number of the obstacle */
-    double target[2]; /* m, target of the obstacle's point o */
-    SquareMesh mesh;  /* mesh of the bodies, whose cells no ball may enter */
-    bool is_blocked;  /* the obstacle found no room to move in this step */
-    double free_path_part; /* part of the step before the obstacle stopped */
+    bool is_held;       /* whether a hand holds an obstacle */
+    int obstacle;       /* number of the obstacle */
+    double target[2];   /* m, target of the obstacle's point o */
+    SquareMesh mesh;    /* mesh of the bodies, whose cells no ball may enter */
+    bool is_blocked;    /* the obstacle found no room to move in this step */
+    double moving_part; /* part of the step before the obstacle stopped */
 } ObstaclePush;
 
 typedef struct Contact {

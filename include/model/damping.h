@@ -25,8 +25,8 @@ typedef struct Damping {
     double *l2;   /* [springs] m^2, squared rest length l2' in this step */
 } Damping;
 
-/* Damping as a term; data: Damping.  The option's number is eta.  The term has
- * no value, since the springs' term evaluates their energy with k' and l2'.
+/* Damping as a term; data: Damping.  The option's number is eta.  The term adds
+ * no energy of its own: the term of the springs takes k' and l2' for k and l2.
  * After a step it books the dissipated energy k l2 theta (E - E_n)^2, which is
  * the power k l2 eta (dE/dt)^2 times h. */
 extern const TermKind damping;

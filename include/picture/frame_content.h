@@ -112,7 +112,7 @@ typedef struct Pane {
     const History *history;  /* energies or radii over time */
     const NewtonTrace *trace; /* trace of the time step, or NULL */
     const char *label;        /* differences from other panes, "h 0.01, k 5" */
-    Status failure;           /* status of the shown, or a failed next step */
+    Status failure;           /* status of the shown or of a failed next step */
     /* frame_compute_values fills values, descent and shown_trace. */
     LiveValues values;
     DescentTrace descent;

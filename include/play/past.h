@@ -67,8 +67,9 @@ typedef struct PastEntry {
                                NULL: this entry's step is still being made */
     SavedState *state;          /* state after the step; NULL: not stored */
     EnergySample *sample; /* energies of the state under `control`, or NULL */
-    int substeps; /* steps of the simulation in this step; 0: the scene is over,
-                     or the pane has ended with the status of the outcome */
+    /* Steps that the simulation made in this step.  0: the scene is over, or
+     * the pane has ended, with the status in `outcome`. */
+    int substeps;
     StepOutcome outcome;
 } PastEntry;
 

@@ -34,7 +34,7 @@ Status film_open(const char *name, char *message, Film *film);
  * smaller one filled with white.  Returns OK, FILE_FAILED. */
 Status film_add_frame(Film *film, const Canvas *canvas, int times);
 
-/* Ends a film, if any.  Returns OK, FILE_FAILED; a film needs a frame. */
+/* Ends a film, if any.  Returns OK; FILE_FAILED, also if it has no frame. */
 Status film_close(Film *film, CloseAction keep);
 
 /* Whether a film was begun and not ended. */
@@ -48,7 +48,7 @@ typedef enum RecordingTable {
     LOG_TABLE,
     ENERGIES_TABLE,
     SPRINGS_TABLE,
-    RECORDING_TABLES
+    RECORDING_TABLE_COUNT
 } RecordingTable;
 
 enum { MAX_FRAMES = 1000000 }; /* frames have numbers of six digits */
@@ -59,7 +59,7 @@ typedef struct Recording {
     unsigned char *is_old_frame; /* [step] 1: is of an earlier run; or NULL */
     Film film;
     int panes; /* number of panes at the start */
-    CsvTable table[RECORDING_TABLES];
+    CsvTable table[RECORDING_TABLE_COUNT];
     bool has_tables;             /* a table is open */
     bool uses_stdout;            /* a table goes to standard output */
     char message[MESSAGE_BYTES]; /* the first failure, or "" */

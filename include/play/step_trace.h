@@ -46,7 +46,7 @@ typedef struct TracePosition {
 } TracePosition;
 
 typedef struct StepTrace {
-    NewtonTrace start_trace;   /* h and tolerance, the same at all positions */
+    NewtonTrace common_trace;  /* h and tolerance, the same at all positions */
     int x_length;              /* 2n; 0: no iterates are stored */
     NewtonRecords records;     /* Newton's record at each iterate */
     TraceIterate *iterate;     /* [records.count] */

@@ -79,7 +79,7 @@ typedef struct Options {
             double projection;  /* enum Projection */
             double line_search; /* enum LineSearch */
             double flips;   /* bit s: switch s starts in the other position */
-            double steps;   /* -1: unlimited in a window, else 100 */
+            double steps;   /* -1: without a window 100, in one no limit */
             double speed;   /* steps a frame; 0: the speed of the scene */
             double size[2]; /* pixels; 0: the usual size */
             double paused, fullscreen, headless, quiet, big;

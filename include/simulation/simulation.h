@@ -18,8 +18,8 @@ typedef struct EnergyLedger {
     double start_energy; /* J, total energy at the start */
     double work; /* J, work of placed nodes and of changed options and pins */
     double last_balance;  /* J, total energy minus work, after the last step */
-    long gain_steps;      /* number of steps with growth beyond the work */
-    double gained_energy; /* J, growth beyond the work, in all gain_steps */
+    long gain_steps;      /* steps in which energy grew by more than the work */
+    double gained_energy; /* J, sum of what it grew beyond the work in them */
 } EnergyLedger;
 
 struct Simulation {

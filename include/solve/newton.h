@@ -68,7 +68,7 @@ typedef struct NewtonSettings {
 typedef struct NewtonCounters {
     long updates;          /* number of updates of x */
     long factorisations;   /* number of factorisations of the Hessian */
-    long solves;           /* number of solves with a factor */
+    long solves;           /* linear solves with a factor of H */
     long projected;        /* blocks projected, summed over factorisations */
     long cycles;           /* V-cycles of multigrid */
     long tile_sweeps;      /* sweeps of multigrid's tiles (tiles.h) */

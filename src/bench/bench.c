@@ -213,10 +213,11 @@ static const double time_limit = 60;
 
 /* Results of one program on one square, for each start. */
 typedef struct ProgramResults {
-    double ms[STARTS];             /* processor time a step */
-    double newton_updates[STARTS]; /* number of updates of x a step */
-    double energy[STARTS]; /* energy at the end, % of the energy at the start */
-    long unconverged;      /* steps of all starts that did not converge */
+    double ms[STARTS];               /* processor time a step */
+    double updates_per_step[STARTS]; /* number of updates of x a step */
+    double end_energy[STARTS]; /* energy at the end, % of the energy at the
+                                  start */
+    long unconverged;          /* steps of all starts that did not converge */
 } ProgramResults;
 
 /* Makes a step by step_forward of lecture.c, with the springs and masses of a
@@ -265,10 +266,10 @@ static Status measure_run_from_start(BenchSolver program, int segments,
         }
     }
     runs->ms[start] = 1e3 * (clock_processor_time() - began) / steps;
-    runs->newton_updates[start] =
+    runs->updates_per_step[start] =
         (double)simulation_sum_newton_counters(&simulation).updates / steps;
     if (!status)
-        runs->energy[start] =
+        runs->end_energy[start] =
             100 * simulation_get_energies(&simulation, 0).total / energy;
     simulation_free(&simulation);
     return status;
@@ -296,8 +297,8 @@ static Status measure_solvers(bool quick, int segments, double ms[SOLVERS])
         ms[m] = find_median(all->ms, count); /* sorts ms */
         printf("%d,%s,%d,%.6g,%.6g,%.6g,%.6g,%.6g,%ld\n", segments,
                programs[m].name, count, ms[m], all->ms[0], all->ms[count - 1],
-               find_median(all->newton_updates, count),
-               find_median(all->energy, count), all->unconverged);
+               find_median(all->updates_per_step, count),
+               find_median(all->end_energy, count), all->unconverged);
     }
     return status;
 }

@@ -181,7 +181,7 @@ static void make_arguments(const Task *task, int case_number, TaskCase *c)
         make_random_solid(searches ? 0 : case_number, &c->solid);
     c->x_tilde = make_random_points(MAX_NODES, 0.7);
     c->p = make_random_points(MAX_NODES, 1);
-    c->p[1] = (Vec2){-1.5, -1.2}; /* larger than all others, and negative */
+    c->p[1] = (Vec2){-1.5, -1.2}; /* the longest one, with negative parts */
     c->g = make_random_points(MAX_NODES, 900);
     memcpy(c->g_before, c->g, sizeof c->g_before);
     if (searches)

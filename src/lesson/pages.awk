@@ -101,7 +101,7 @@ BEGIN {
     texts["law"] = "law_name"
     prose["text"] prose["ask"] prose["look"] prose["try"] prose["notes"]
     read_names(ARGV[1])
-    numbers["picture"] = "print_step"
+    numbers["picture"] = "printed_step"
     numbers["lines"] = "print_presses"
     numbers["speed"] = "speed"
     numbers["flips"] = "switch_flips"

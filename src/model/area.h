@@ -53,13 +53,14 @@ static inline void subtract_node(const double *x, int i, int j, int node_0,
     }
 }
 
-/* ElementKind's functions for terms with Triangles; s = unit J. */
+/* ElementKind's functions for terms with Triangles. */
 int count_triangles(const EvalPoint *at);
 int get_triangle_block_nodes(const EvalPoint *at, int t, int node[3]);
 double triangle_max_step(const EvalPoint *at, const Element *element,
                          const double P[4]);
 
-/* Makes triangle t an element with a = x_b - x_a, b = x_c - x_a, without s. */
+/* Makes triangle t an element with a = x_b - x_a, b = x_c - x_a; leaves
+ * Element.s as it is. */
 void fill_triangle_element(const EvalPoint *at, int t, Element *element);
 
 /* A Hessian H by its eigenspaces.  H is on_plus in the space of f+, on_minus in

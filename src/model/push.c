@@ -12,8 +12,8 @@ static const double TIME = 0.06, MOST = 0.5, SLOW = 0.1, FAST = 5;
  * this limit is never below SHORTEST nor above LONGEST sides. */
 static const double LONGEST = 0.25, SHORTEST = 0.005;
 
-/* The hand's force is that of the barrier at this part of its width, which
- * presses the springs flat. */
+/* The hand pushes as hard as the barrier does at a distance of this part of the
+ * barrier's width.  That is enough to press springs flat. */
 static const double STRENGTH = 0.1;
 
 /* The obstacle keeps this part of the barrier's width from pinned nodes. */
@@ -106,7 +106,7 @@ void push_begin_step(Contact *contact, const System *system, const double *x,
     ObstaclePush *push = &contact->hand;
     double way[2];
     push->is_blocked = false;
-    push->free_path_part = 0;
+    push->moving_part = 0;
     push->is_held = push->is_held && push->obstacle < contact->obstacles;
     if (!push->is_held)
         return;

@@ -113,7 +113,7 @@ static void write_tick(const Plot *plot, Colour colour, double x, double y,
                 words);
 }
 
-static int measure_tick(Paper *paper, const char *words)
+static int measure_label(Paper *paper, const char *words)
 {
     return paper_measure(paper, FACE_REGULAR, TICK_SIZE, words);
 }
@@ -145,13 +145,13 @@ static void draw_axes(const Plot *plot)
                    y_label);
     if (x_label) {
         write_tick(plot, COLOUR_TEXT, right, below, ALIGN_RIGHT, x_label);
-        end -= measure_tick(paper, x_label) + paper_pixels(paper, 0.5);
+        end -= measure_label(paper, x_label) + paper_pixels(paper, 0.5);
     }
     count = find_ticks(&plot->x, false, box->width / em, ticks);
     for (int i = 0; i < count; i++) {
         NumberText number = format_tick(&plot->x, ticks[i]);
         plot_to_pixel(plot, (double[2]){ticks[i], plot->y.low}, at);
-        if (at[0] + measure_tick(paper, number.text) / 2 <= end)
+        if (at[0] + measure_label(paper, number.text) / 2 <= end)
             write_tick(plot, COLOUR_FAINT, at[0], below, ALIGN_CENTRE,
                        number.text);
     }
@@ -167,7 +167,7 @@ static Box find_box_inside_axes(const Plot *outer, const Axis *y, double above,
     double ticks[PLOT_MAX_TICKS], left = paper_pixels(paper, Y_NUMBER_WIDTH);
     int count = find_ticks(y, true, box.height / paper->em, ticks);
     for (int i = 0; i < count; i++)
-        left = fmax(left, measure_tick(paper, format_tick(y, ticks[i]).text) +
+        left = fmax(left, measure_label(paper, format_tick(y, ticks[i]).text) +
                               paper_pixels(paper, 0.4));
     box.x += (int)left;
     box.y += paper_pixels(paper, above);

@@ -15,11 +15,13 @@
 #include "picture/frame_content.h"
 
 typedef struct Axis {
-    double low, high;  /* high > low; both > 0 on a logarithmic axis */
-    bool is_log;       /* is logarithmic, with numbers at powers of ten */
-    bool is_whole;     /* ticks are at whole numbers only */
-    bool is_milli;     /* numbers are those of the ticks times 1000 */
-    const char *label; /* markup: x right below the axis, y at the top right */
+    double low, high; /* high > low; both > 0 on a logarithmic axis */
+    bool is_log;      /* is logarithmic, with numbers at powers of ten */
+    bool is_whole;    /* ticks are at whole numbers only */
+    bool is_milli;    /* numbers are those of the ticks times 1000 */
+    /* Markup.  The label of x is below the right end, that of y at the top
+     * right. */
+    const char *label;
 } Axis;
 
 typedef struct Plot {

@@ -7,7 +7,7 @@
 #include "picture/square_pen.h"
 
 static const double SLAB = 1;         /* ems, thickness of a thin wall */
-static const double FORCE_ARROW = 4;  /* ems, arrow of the legend's force */
+static const double FORCE_ARROW = 4;  /* ems, length in the legend */
 static const double MIN_FORCE = 0.02; /* smallest drawn / largest force */
 
 /* Computes the force of a contact on its node, with friction, from positions

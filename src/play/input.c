@@ -102,7 +102,7 @@ static Status open_list_line(Player *player, const char *line)
 
 /* Acts on the typed text: opens the page, adds or sets the number, or checks
  * the answer.  The field stays open if its text cannot be read. */
-static Status enter_text(Player *player)
+static Status accept_text(Player *player)
 {
     const OptionRow *row = player->hands.selected;
     Status status;
@@ -546,7 +546,7 @@ Status player_obey_input(Player *player, const Input *input)
         }
         if (command.kind)
             status = player_obey(player, &command);
-        return !status && command.kind == COMMAND_ENTER ? enter_text(player)
+        return !status && command.kind == COMMAND_ENTER ? accept_text(player)
                                                         : status;
     case INPUT_CLOSE:
         return obey(player, COMMAND_QUIT, 0);

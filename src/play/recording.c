@@ -82,7 +82,7 @@ static const struct {
     const char *columns; /* names of columns, for table_add_columns */
     void (*write_rows)(CsvTable *table, const RunAtStep *at); /* adds the rows
                                 of a step; NULL: the log, a row an iteration */
-} kinds[RECORDING_TABLES] = {
+} kinds[RECORDING_TABLE_COUNT] = {
     {offsetof(Options, states), "step:whole,time,node:whole,x,y,vx,vy",
      add_state_rows},
     {offsetof(Options, log),
@@ -187,7 +187,7 @@ Status recording_open(const Options *options, Recording *recording)
         find_old_frames(recording);
     if (!status && options->film)
         status = film_open(options->film, message, &recording->film);
-    for (int t = 0; t < RECORDING_TABLES && !status; t++)
+    for (int t = 0; t < RECORDING_TABLE_COUNT && !status; t++)
         status = open_table(options, recording, t);
     return status;
 }
@@ -221,7 +221,7 @@ Status recording_write_states(Recording *recording, bool energies_only,
             at.time = simulation_time(simulation[i]);
             at.run_index = r;
             at.pane = i + 1;
-            for (int t = 0; t < RECORDING_TABLES; t++)
+            for (int t = 0; t < RECORDING_TABLE_COUNT; t++)
                 if (kinds[t].write_rows && recording->table[t].output.file &&
                     (!energies_only || t == ENERGIES_TABLE))
                     kinds[t].write_rows(&recording->table[t], &at);
@@ -229,7 +229,7 @@ Status recording_write_states(Recording *recording, bool energies_only,
             at.first_node += at.run->system->nodes;
             at.first_spring += at.run->system->springs;
         }
-    for (int t = 0; t < RECORDING_TABLES && !status; t++)
+    for (int t = 0; t < RECORDING_TABLE_COUNT && !status; t++)
         status = table_check(&recording->table[t]);
     return status;
 }
@@ -254,7 +254,7 @@ Status recording_write_iteration(Recording *recording, const NewtonRecord *at,
 Status recording_close(Recording *recording, CloseAction keep)
 {
     bool failed = recording->message[0];
-    for (int t = 0; t < RECORDING_TABLES; t++) {
+    for (int t = 0; t < RECORDING_TABLE_COUNT; t++) {
         FILE *file = recording->table[t].output.file;
         if (file)
             fflush(file);
@@ -262,7 +262,7 @@ Status recording_close(Recording *recording, CloseAction keep)
     }
     keep = failed && !keep ? KEEP_PART : keep;
     failed = film_close(&recording->film, keep) || failed;
-    for (int t = 0; t < RECORDING_TABLES; t++) {
+    for (int t = 0; t < RECORDING_TABLE_COUNT; t++) {
         keep = failed && !keep ? KEEP_PART : keep;
         failed = output_close(&recording->table[t].output, keep) || failed;
     }

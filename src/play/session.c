@@ -7,8 +7,8 @@
 #include "lesson/pages.h"
 
 enum {
-    SLOW_NODES = 50000, /* most nodes that are factorised within SLICE */
-    UPDATE_SPEED = -5   /* log_speed if a step is a Newton update */
+    MAX_QUICK_NODES = 50000, /* most nodes that are factorised within SLICE */
+    UPDATE_SPEED = -5        /* log_speed if a step is a Newton update */
 };
 
 const PastPane *player_active_pane(const Player *player)
@@ -141,7 +141,7 @@ bool player_is_slow(const Player *player)
 {
     const Simulation *simulation = player_simulation(player);
     return simulation->options.solver == SOLVER_NEWTON &&
-           simulation->system.nodes > SLOW_NODES;
+           simulation->system.nodes > MAX_QUICK_NODES;
 }
 
 void player_sample_line_energy(Player *player)

@@ -167,7 +167,8 @@ Status player_reveal_answer(Player *player, const char *typed)
     player->tour.verdict[0] = '\0';
     TextLine asked =
         text_first_line(&active_pane(content)->values, page->question);
-    bool is_filled = content->lecture.page == page; /* by a frame of the page */
+    /* The values are known once the page has been drawn. */
+    bool is_filled = content->lecture.page == page;
     snprintf(player->tour.asked_question, ANSWER_SIZE, "%s",
              is_filled ? asked.text : page->question);
     if (judged)

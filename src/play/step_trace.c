@@ -53,7 +53,7 @@ void step_trace_begin(StepTrace *trace, const Simulation *simulation, bool all,
     step_trace_clear(trace);
     trace->samples_each_iterate = all;
     trace->samples_last_iterate = last;
-    trace->start_trace =
+    trace->common_trace =
         (NewtonTrace){.h = simulation->options.timestep,
                       .tolerance = simulation->options.tolerance,
                       .projected = -1};
@@ -301,7 +301,7 @@ const double *step_trace_show_position(const StepTrace *trace, int position,
     TracePosition source = at;
     if (end && count > 0) /* the end shows the values of the last iterate */
         source = (TracePosition){count - 1, LINE_END, last->trials};
-    *shown = trace->start_trace;
+    *shown = trace->common_trace;
     shown->at_line = over ? LINE_NONE : at.at_line;
     shown->iteration = source.iterate;
     shown->records = at.iterate;

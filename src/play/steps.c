@@ -86,7 +86,7 @@ Status player_write_remaining(Player *player)
 /* ---- beginning ----------------------------------------------------------- */
 
 /* Leaves the lines of Algorithm 3.  The panes show the end of the step. */
-static void leave_algorithm_lines(Player *player)
+static void show_end_of_steps(Player *player)
 {
     for (int p = 0; p < OPTIONS_MAX_PANES; p++)
         player->view_of_pane[p].trace_index = -1;
@@ -97,7 +97,7 @@ void player_reset_view(Player *player)
     player->screen.must_redraw = true;
     if (player->play.mode > MODE_END)
         player->play.mode = MODE_END;
-    leave_algorithm_lines(player);
+    show_end_of_steps(player);
     for (int p = 0; p < OPTIONS_MAX_PANES; p++) {
         free(player->view_of_pane[p].ghost_x);
         player->view_of_pane[p].ghost_x = NULL;
@@ -482,7 +482,7 @@ Status obey_pause(Player *player, const Command *command)
     bool runs = command->kind == COMMAND_PLAY;
     player->play.mode = runs ? MODE_RUN : MODE_PAUSE;
     if (runs)
-        leave_algorithm_lines(player);
+        show_end_of_steps(player);
     return STATUS_OK;
 }
 
@@ -497,7 +497,7 @@ Status obey_next(Player *player, const Command *command)
         return STATUS_OK;
     if (after == AFTER_SHOW_END &&
         player->view_of_pane[player->active].trace_index >= 0) {
-        leave_algorithm_lines(player); /* to the end of the step */
+        show_end_of_steps(player); /* to the end of the step */
         return STATUS_OK;
     }
     return player_seek(player, player->past.step + 1, after);
@@ -543,7 +543,7 @@ Status obey_change_unit(Player *player, const Command *command)
     player->play.walk_unit = (player->play.walk_unit + 1) % UNITS;
     player_pause(player);
     if (player->play.walk_unit == UNIT_STEP)
-        leave_algorithm_lines(player);
+        show_end_of_steps(player);
     player_note(player, "N and \u2190 go by %s", paces[player->play.walk_unit]);
     return STATUS_OK;
 }

@@ -56,8 +56,8 @@ static LocalModel evaluate_tangent_energy(const Simulation *simulation,
     return (LocalModel){.energy = E, .g = {g}, .H = {H}};
 }
 
-/* Returns parts of E with their derivatives in landscape and dial; in overshoot
- * and tangent the function of one unknown.
+/* Returns parts of E with their derivatives in the scenes `landscape` and
+ * `dial`, and the function of one unknown in `overshoot` and `tangent`.
  *   parts  enum LandscapePart */
 static LocalModel evaluate_landscape(const Simulation *simulation,
                                      unsigned parts, Projection projection,

@@ -18,8 +18,8 @@
 /* A word of --pin, and where its nodes are. */
 static const struct PinWord {
     const char *word;
-    int on_all_sides; /* each node is on all these sides; 0: any node */
-    int on_one_side;  /* each node is on one of these, too; 0: any node */
+    int needed_sides;  /* each node is on all these sides; 0: any node */
+    int allowed_sides; /* each node is on one of these, too; 0: any node */
 } pin_words[] = {{"top-corners", MESH_TOP, MESH_LEFT | MESH_RIGHT},
                  {"top", MESH_TOP, 0},
                  {"bottom", MESH_BOTTOM, 0},
@@ -54,8 +54,9 @@ const char *pins_parse(const char *text, const SquareMesh *shape,
             int sides = square_mesh_get_node_sides(shape, i);
             bool in_body =
                 !digits[0] || square_mesh_find_body(shape, i) + 1 == number;
-            bool on_side = (sides & word->on_all_sides) == word->on_all_sides &&
-                           (!word->on_one_side || (sides & word->on_one_side));
+            bool on_side =
+                (sides & word->needed_sides) == word->needed_sides &&
+                (!word->allowed_sides || (sides & word->allowed_sides));
             pinned[i] |= name[0] ? in_body && on_side : i == number;
         }
         text += end;
@@ -564,7 +565,7 @@ static bool edges_cross(const double *x, const int one[2], const int other[2])
 {
     const double *a = x + 2 * one[0], *b = x + 2 * one[1];
     const double *c = x + 2 * other[0], *d = x + 2 * other[1];
-    for (int k = 0; k < 2; k++) /* the bounding boxes do not touch */
+    for (int k = 0; k < 2; k++) /* do the bounding boxes touch? */
         if (fmax(a[k], b[k]) < fmin(c[k], d[k]) ||
             fmax(c[k], d[k]) < fmin(a[k], b[k]))
             return false;

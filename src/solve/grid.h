@@ -64,7 +64,7 @@ typedef struct Grid {
     double *l2[KINDS]; /* [plane] squared rest length */
     double *m, *inverse_m; /* [plane] mass and 1/mass; inverse_m is 0 at pins */
     double min_mass;       /* smallest mass of a node that moves */
-    double max_stiffness;  /* largest stiffness of a node's springs, 8 c l2 */
+    double max_stiffness;  /* largest 8 c l2 of a spring: bounds a node's sum */
     float *float_c[KINDS]; /* [plane] c in single precision */
     float *float_l2[KINDS]; /* [plane] l2 in single precision */
     float *float_m;         /* [plane] mass without node_shift; 0 at pins */

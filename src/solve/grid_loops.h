@@ -32,7 +32,7 @@ typedef struct NodeRun {
     ptrdiff_t before, after; /* distances to the columns before and after */
     ptrdiff_t own, below;    /* Grid.spring_shift of the row, and of
                                 the row before */
-    ptrdiff_t mass_shift;    /* index shift of the masses */
+    ptrdiff_t mass_shift;    /* index of a node's mass less that of the node */
 } NodeRun;
 
 INLINE NodeRun nodes_in_row(const RowLayout *rows, int i, int odd)
@@ -100,7 +100,7 @@ enum { SECOND_HALF_OFFSET = 0 };
 /* Converts to single precision: the number low; in a browser two pairs. */
 INLINE Floats narrow_to_single(Doubles low, Doubles high)
 {
-#ifdef __wasm_simd128__ /* intrinsics: clang does not emit demote by itself */
+#ifdef __wasm_simd128__ /* clang does not find this instruction by itself */
     v128_t few = wasm_f32x4_demote_f64x2_zero((v128_t)low);
     v128_t more = wasm_f32x4_demote_f64x2_zero((v128_t)high);
     return (Floats)wasm_i32x4_shuffle(few, more, 0, 1, 4, 5);

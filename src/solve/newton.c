@@ -138,7 +138,7 @@ Status newton_minimise(Newton *newton)
             status = phases->update(newton);
 
         /* Decide whether the loop ends; find_direction has tested p */
-        record->status = newton->status = phases->test(newton, status);
+        record->status = newton->status = phases->test_end(newton, status);
 
         newton->change_sum += record->change;
         newton->change_abs_sum += fabs(record->change);

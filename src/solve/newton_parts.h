@@ -23,7 +23,7 @@ typedef struct NewtonPhases {
     /* Turns a free body (turn_free_body), and decides whether the loop ends.
      *   status  in, result of the phases before
      * Returns RUNNING, OK, or how the minimisation failed. */
-    Status (*test)(Newton *newton, Status status);
+    Status (*test_end)(Newton *newton, Status status);
 } NewtonPhases;
 
 /* Exchanges the iterate and the trial. */
@@ -51,8 +51,8 @@ double bound_largest_movement(const Newton *newton, double norm);
  * the test and is at most a millionth of the shortest spring. */
 double negligible_direction_size(const Newton *newton);
 
-/* Whether the next direction is negligible, by a bound from g, which is then
- * computed; false without projection. */
+/* Computes g, and tells whether a bound from g shows that the next direction is
+ * negligible.  Without projection: false, and g is not computed. */
 bool next_direction_is_negligible(Newton *newton);
 
 /* ---- line_search.c: how far to go along p (slide: Algorithm 2) */

@@ -43,7 +43,7 @@ typedef struct DenseProduct {
     int ldl;
 } DenseProduct;
 
-/* Defines a function for rows i ... of C, as `wide` vectors of type Lanes. */
+/* Defines a function that computes rows i ... of C: `wide` vectors of Lanes. */
 #define ROWS(rows, Lanes, wide)                                                \
     INLINE void rows(const DenseProduct *at, int i, int n,                     \
                      const double *inverse)                                    \

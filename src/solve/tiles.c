@@ -23,8 +23,8 @@ static const double SHARE = 0.5, SPREAD = 0.1;
 
 /* A direction of the whole square takes the time of DIRECTION_SWEEPS sweeps of
  * all tiles.  Rounds end when a sweep lowers E by less than WORTH times the
- * mean decrease in a sweep's time, from the relaxation's start to the end of
- * the next direction. */
+ * mean decrease for each sweep, if the sweeps so far and a direction of the
+ * whole square, which brings nothing, are counted. */
 static const double DIRECTION_SWEEPS = 7, WORTH = 0.25;
 
 /* Limit of the rounds, which rounding could keep from ending. */

@@ -162,7 +162,7 @@ void prescribed_begin_part(TimeIntegrator *run)
             run, fmin(run->remaining_part, push_max_step(contact, run->h)),
             MAX_HAND_HALVINGS, MAX_HAND_PARTS);
         contact->hand.is_blocked = part == 0;
-        contact->hand.free_path_part = run->moved_part;
+        contact->hand.moving_part = run->moved_part;
     }
     bool others = run->system->pin_v != NULL;
     for (int k = 0; contact && k < contact->obstacles; k++)
@@ -243,7 +243,7 @@ double prescribed_compute_work(const TimeIntegrator *run)
             const double *v = contact->obstacle[k].v, *n = walk.element.n;
             bool stopped =
                 contact->hand.is_blocked && k == contact->hand.obstacle;
-            sum += (stopped ? contact->hand.free_path_part : run->moved_part) *
+            sum += (stopped ? contact->hand.moving_part : run->moved_part) *
                    contact_normal_force(&contact->barrier, walk.element.s) *
                    (n[0] * v[0] + n[1] * v[1]);
         }

@@ -195,7 +195,7 @@ EMSCRIPTEN_KEEPALIVE void web_print_page(int page, int width, int height)
         return;
     Status status = lecture_make_options(row, &options, MESSAGE(message));
     options.headless = options.quiet = true;
-    options.steps = row->print_step;
+    options.steps = row->printed_step;
     status = status
                  ? status
                  : player_create(&options, NULL, &window_web, &never, player);

@@ -79,7 +79,7 @@ bool watch_create(TimeIntegrator *run, VerdictTally *tally, RunWatch *watch);
 void watch_free(RunWatch *watch);
 
 /* Creates a run anew, with its x, v and h, after a change of its system. */
-Status watch_restart(TimeIntegrator *run);
+Status restart_watched_run(TimeIntegrator *run);
 
 /* Makes one step, tests it and returns the verdict. */
 Verdict watch_step(RunWatch *watch);

@@ -63,7 +63,7 @@ typedef struct HessianBlocks {
     int count, entries, capacity;
 } HessianBlocks;
 
-static void store_block(void *blocks, const PartBlock *block)
+static void store_block(void *blocks, const EnergyPart *block)
 {
     HessianBlocks *to = blocks;
     int n = 2 * block->count;
@@ -116,7 +116,7 @@ static Real find_longest_step(int size, const Real *p)
 }
 
 /* Returns |r|_(M^-1)^2. */
-static Real inverse_mass_square(const System *system, const Real *r)
+static Real inverse_mass_norm_square(const System *system, const Real *r)
 {
     Real sum = 0;
     for (int i = 0; i < 2 * system->nodes; i++)
@@ -135,7 +135,7 @@ static TestVerdict decide_test(const System *system, Real h, Real tolerance,
     for (int i = 0; i < system->nodes; i++)
         if (!system->pinned[i])
             lightest = fminl(lightest, system->m[i]);
-    Real now = inverse_mass_square(system, r), last = INFINITY;
+    Real now = inverse_mass_norm_square(system, r), last = INFINITY;
     for (int k = 0; k < MAX_JUDGE_ITERATIONS; k++) {
         Real away = find_longest_step(size, p) / h - tolerance, bend = 0;
         Real error = sqrtl(2 / lightest) / h * sqrtl(now);
@@ -153,7 +153,7 @@ static TestVerdict decide_test(const System *system, Real h, Real tolerance,
             r[i] -= now / bend * y[i];
         }
         last = now;
-        now = inverse_mass_square(system, r);
+        now = inverse_mass_norm_square(system, r);
     }
     return TEST_UNDECIDED;
 }

@@ -155,7 +155,7 @@ static Verdict run_steps(Simulation *simulation, uint64_t shaken, int steps,
         RunWatch watch;
         if (shaken > 0)
             perturb_start(shaken, run);
-        if ((shaken > 0 && watch_restart(run)) ||
+        if ((shaken > 0 && restart_watched_run(run)) ||
             !watch_create(run, tally, &watch))
             return snprintf(reason, 512, "no restart"), VERDICT_WRONG;
         for (int step = 0; step < steps && worst != VERDICT_WRONG; step++) {

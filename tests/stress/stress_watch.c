@@ -342,7 +342,7 @@ void watch_free(RunWatch *watch)
     *watch = (RunWatch){0};
 }
 
-Status watch_restart(TimeIntegrator *run)
+Status restart_watched_run(TimeIntegrator *run)
 {
     TimeIntegrator old = *run;
     NewtonSettings settings = {.h = old.h, .tolerance = 1};
@@ -416,10 +416,10 @@ static bool momentum_is_conserved(const TimeIntegrator *run, int *pin)
 }
 
 /* Tests the sum of m (v' - v - h g), which forces between nodes cannot change,
- * and its moments about the new centre of mass or the pin. The errors are below
- * the tolerance, as the last direction. Moments need a step without projection
- * (multigrid clamps compressed springs and does not count them) and without
- * friction across a gap. An arm has an error of one unit of its last digit. */
+ * and its moments about the new centre of mass or the pin. Both are zero up to
+ * the tolerance, which bounds the last direction. Moments need a step without
+ * projection (multigrid clamps compressed springs and does not count them) and
+ * without friction across a gap. The lever arms of moments are rounded. */
 static void check_step_momentum(RunWatch *watch, int pin)
 {
     const TimeIntegrator *run = watch->run;

@@ -486,7 +486,7 @@ typedef struct PartFrame {
 } PartFrame;
 
 /* Fills the frame of the difference of two nodes, or of one node if j < 0. */
-static void fill_frame_of_two(PartFrame *frame, int i, int j)
+static void fill_pair_frame(PartFrame *frame, int i, int j)
 {
     *frame = (PartFrame){.n = 2, .node = {i, j < 0 ? i : j, i}};
     for (int c = 0; c < 2; c++) {
@@ -545,9 +545,9 @@ static PartFrame make_part_frame(Probe *probe, PartKind parts, const void *data,
     const Triangles *triangles = data;
     PartFrame frame = {0};
     if (parts == PART_SPRING)
-        fill_frame_of_two(&frame, system->e[2 * i], system->e[2 * i + 1]);
+        fill_pair_frame(&frame, system->e[2 * i], system->e[2 * i + 1]);
     else if (parts == PART_WALL_PAIR)
-        fill_frame_of_two(
+        fill_pair_frame(
             &frame, i % system->nodes,
             ((const Contact *)data)->obstacle[i / system->nodes].node);
     else if (parts == PART_CELL || parts == PART_TRIANGLE)
@@ -708,7 +708,7 @@ static int find_part_nodes(const Probe *probe, PartKind parts, const void *data,
 
 /* Adds `lifts` times what cutting adds to a block with the frame's nodes. */
 static void clamp_block(const Probe *probe, int row, const void *data, int part,
-                        int lifts, double *p, double *q, PartBlock *block)
+                        int lifts, double *p, double *q, EnergyPart *block)
 {
     PartFrame frame;
     Real lift[4], rows[4][6];
@@ -722,12 +722,12 @@ static void clamp_block(const Probe *probe, int row, const void *data, int part,
 
 /* Computes the block of a part, if it has energy. p, q [2n] all 0 */
 static bool evaluate_part(Probe *probe, int row, const void *data, int part,
-                          int lifts, double *p, double *q, PartBlock *block)
+                          int lifts, double *p, double *q, EnergyPart *block)
 {
     long booked = probe->part_count;
     Real w = probe->at->weight;
     Jet W = {0};
-    *block = (PartBlock){0};
+    *block = (EnergyPart){0};
     formulas[row].add_energy(probe, &W, data, part);
     if (probe->part_count == booked)
         return false;
@@ -752,7 +752,7 @@ static bool evaluate_part(Probe *probe, int row, const void *data, int part,
 /* Passes the inertia of each node and then all parts of all terms to `take`. */
 static void visit_parts(const Probe *there, const double *u,
                         const double *u_tilde, int lifts,
-                        void (*take)(void *to, const PartBlock *block),
+                        void (*take)(void *to, const EnergyPart *block),
                         void *to)
 {
     const System *system = there->at->system;
@@ -760,14 +760,14 @@ static void visit_parts(const Probe *there, const double *u,
     double *p = calloc(4 * (size_t)system->nodes, sizeof *p);
     double *q = p + 2 * system->nodes;
     Probe probe = *there;
-    PartBlock block;
+    EnergyPart block;
     CHECK(p != NULL);
     probe.p = p;
     probe.q = q;
     probe.outline = &outline;
     for (int i = 0; i < system->nodes; i++) {
         Real m = system->m[i];
-        block = (PartBlock){.count = 1, .node = {i}, .H = {m, 0, 0, m}};
+        block = (EnergyPart){.count = 1, .node = {i}, .H = {m, 0, 0, m}};
         for (int c = 0; c < 2; c++)
             block.g[c] = m * ((Real)u[2 * i + c] - u_tilde[2 * i + c]);
         take(to, &block);
@@ -785,7 +785,7 @@ static void visit_parts(const Probe *there, const double *u,
 }
 
 void visit_blocks(const IncrementalPotential *E, const double *u, int lifts,
-                  void (*take)(void *to, const PartBlock *block), void *to)
+                  void (*take)(void *to, const EnergyPart *block), void *to)
 {
     EvalPoint at = make_eval_point(E->system, E->x_n, u, NULL);
     at.weight = E->weight;
@@ -801,7 +801,7 @@ typedef struct DenseSystem {
     int n, lift_factor;
 } DenseSystem;
 
-static void add_block(void *assembly, const PartBlock *block)
+static void add_block(void *assembly, const EnergyPart *block)
 {
     const DenseSystem *to = assembly;
     int n = 2 * block->count;

@@ -272,7 +272,7 @@ static double find_dissipation(const TimeIntegrator *it, double *k,
     return (double)sum;
 }
 
-/* The ledger's dissipation, a remainder, equals a sum of oracle formulas. */
+/* The energies lose what the oracle's formulas of all terms dissipate. */
 TEST(the_ledger_adds_up)
 {
     static const char *const lines[] = {"slope",

@@ -169,7 +169,7 @@ TEST(undecided_directions_have_not_converged)
     }
 }
 
-/* A new object makes the same bits, also after springs have become stiffer. */
+/* New and used objects give the same bits, also with springs made stiffer. */
 TEST(bits_depend_on_the_step_alone)
 {
     static double first[MAX_UNKNOWNS];

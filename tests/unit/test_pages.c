@@ -195,8 +195,8 @@ TEST(pages_show_their_code)
         if (name || functions == 0 || ends != functions)
             fail_msg("page %s: no %s in %s", page->name, name, page->file);
         if (lit < 1 || lit > 5)
-            fail_msg("page %s: '%s' is in %d lines", page->name,
-                     page->lit_code, lit);
+            fail_msg("page %s: '%s' is in %d lines", page->name, page->lit_code,
+                     lit);
     }
 }
 
@@ -286,7 +286,7 @@ void __wrap_plot_curve(const Plot *plot, int count, const double *x,
 }
 
 /* Cards, large cards after and before the answer, code, the list of pages */
-enum { CARDS_VIEW, BIG_VIEW, ASK_VIEW, CODE_VIEW, LIST_VIEW, VIEWS };
+enum { CARDS_VIEW, LARGE_VIEW, ASK_VIEW, CODE_VIEW, LIST_VIEW, VIEWS };
 
 /* Returns the first line of a text that is not drawn whole, or NULL. */
 static const char *find_missing_line(const FrameContent *content,
@@ -330,7 +330,7 @@ static void check_frame(const LecturePage *page, Simulation *simulation,
     static const ColumnContent column[VIEWS] = {
         COLUMN_CARDS, COLUMN_CARDS, COLUMN_CARDS, COLUMN_CODE, COLUMN_PAGES};
     int width = paper->canvas.width, height = paper->canvas.height;
-    bool large = kind == BIG_VIEW || kind == ASK_VIEW;
+    bool large = kind == LARGE_VIEW || kind == ASK_VIEW;
     /* E along p may leave the axis, which spans accepted values */
     bool cuts = strstr("descent algorithm2 closing", page->name);
     const char *missing = NULL;
@@ -381,11 +381,12 @@ TEST(pages_are_legible_from_the_back_row)
             const LecturePage *page = &lecture_pages[i];
             Simulation *simulation = open_page(page->name, "");
             for (int kind = 0; kind < VIEWS; kind++)
-                if (kind == BIG_VIEW || kind == ASK_VIEW || (i + kind) % 3 == s)
+                if (kind == LARGE_VIEW || kind == ASK_VIEW ||
+                    (i + kind) % 3 == s)
                     check_frame(page, simulation, kind, &paper);
             for (int i = 0; i < 5 && !simulation_step(simulation); i++)
                 continue;
-            check_frame(page, simulation, s ? CARDS_VIEW : BIG_VIEW, &paper);
+            check_frame(page, simulation, s ? CARDS_VIEW : LARGE_VIEW, &paper);
             free_simulations();
         }
         paper_free(&paper);

@@ -17,17 +17,17 @@ static void make_saved_step(Simulation *simulation, void *bytes)
 }
 
 /* Makes a step with other settings, and restores the old settings. */
-static void make_other_step(const Options *options, Simulation *old)
+static void make_changed_step(const Options *options, Simulation *old)
 {
     int last = old->system.nodes - 1;
     bool pinned = old->system.pinned[last];
     bool damps =
         old->run[0].method->supports_all_terms && old->system.springs > 0;
-    simulation_set(old, OPTION_SLOT(timestep), 2 * options->timestep);
+    change_option(old, OPTION_SLOT(timestep), 2 * options->timestep);
     CHECK_OK(simulation_pin(old, last, !pinned));
     CHECK_OK(simulation_hold(old, 0, 0.1, 0.2));
     if (damps)
-        CHECK_OK(simulation_set(old, OPTION_SLOT(damping), 1e8));
+        CHECK_OK(change_option(old, OPTION_SLOT(damping), 1e8));
     simulation_step(old);
     if (damps) {
         const Newton *newton = old->run[0].newton;
@@ -35,10 +35,10 @@ static void make_other_step(const Options *options, Simulation *old)
               system_curvature_bound(newton->system));
     }
     if (damps)
-        CHECK_OK(simulation_set(old, OPTION_SLOT(damping), options->damping));
+        CHECK_OK(change_option(old, OPTION_SLOT(damping), options->damping));
     CHECK_OK(simulation_hold(old, -1, 0, 0));
     CHECK_OK(simulation_pin(old, last, pinned));
-    simulation_set(old, OPTION_SLOT(timestep), options->timestep);
+    change_option(old, OPTION_SLOT(timestep), options->timestep);
 }
 
 /* Checks that step first + 1 has the saved bits in a new simulation, after
@@ -57,7 +57,7 @@ static void check_step_is_pure(const Options *options, Simulation *old,
                                             "other settings"};
         Simulation *simulation = i == 0 ? &fresh : old;
         if (i == 2)
-            make_other_step(options, old);
+            make_changed_step(options, old);
         state_restore(from, simulation);
         make_saved_step(simulation, bytes);
         if (memcmp(bytes, from + size, size) != 0)
@@ -140,7 +140,7 @@ TEST(all_solvers_are_pure)
 }
 
 /* A method forgets earlier steps if the time step changes. */
-TEST(another_timestep_begins_anew)
+TEST(changed_h_forgets_earlier_steps)
 {
     static const char *const methods[] = {"bdf2", "verlet"};
     for (int m = 0; m < 2; m++) {
@@ -156,7 +156,7 @@ TEST(another_timestep_begins_anew)
         state_restore(bytes, fresh);
         free(bytes);
         fresh->run[0].memory_h = 0;
-        simulation_set(old, OPTION_SLOT(timestep), 2e-3);
+        change_option(old, OPTION_SLOT(timestep), 2e-3);
         for (int i = 0; i < 3; i++)
             CHECK(state_hash(make_steps(old, 1), 1) ==
                   state_hash(make_steps(fresh, 1), 1));

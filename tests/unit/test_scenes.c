@@ -84,12 +84,12 @@ TEST(landscape_is_downhill_from_everywhere)
         const double *x = simulation->run[0].x;
         CHECK(simulation->descent.slope < 0);
         bool convex = !descent_classify_hessian(simulation, at[0], at[1]);
-        simulation_set(simulation, OPTION_SLOT(projection), PROJECTION_NONE);
+        change_option(simulation, OPTION_SLOT(projection), PROJECTION_NONE);
         uphill += simulation->descent.slope > 0;
         hollow += convex;
         CHECK(!convex || simulation->descent.slope < 0);
-        simulation_set(simulation, OPTION_SLOT(projection),
-                       i % 2 ? PROJECTION_CLAMP : PROJECTION_ON_DEMAND);
+        change_option(simulation, OPTION_SLOT(projection),
+                      i % 2 ? PROJECTION_CLAMP : PROJECTION_ON_DEMAND);
         CHECK_OK(run_to_end(simulation, 100));
         check_descent_path(simulation);
         CHECK(!descent_classify_hessian(simulation, x[0], x[1]));
@@ -223,15 +223,14 @@ static Status change_by_hand(Simulation *scene, int deed)
     case 5:
         return simulation_pin(scene, 9, deed % 8 == 3);
     case 4:
-        return simulation_set(scene, OPTION_SLOT(timestep),
-                              0.4 * now->timestep);
+        return change_option(scene, OPTION_SLOT(timestep), 0.4 * now->timestep);
     default:
-        simulation_set(scene, OPTION_SLOT(stiffness),
-                       now->stiffness * (deed % 2 ? 0.5 : 3));
-        simulation_set(scene, OPTION_SLOT(friction),
-                       now->friction * (deed % 2 ? 0.5 : 2));
-        return simulation_set(scene, OPTION_SLOT(damping),
-                              deed % 2 ? 0.01 : 0.02);
+        change_option(scene, OPTION_SLOT(stiffness),
+                      now->stiffness * (deed % 2 ? 0.5 : 3));
+        change_option(scene, OPTION_SLOT(friction),
+                      now->friction * (deed % 2 ? 0.5 : 2));
+        return change_option(scene, OPTION_SLOT(damping),
+                             deed % 2 ? 0.01 : 0.02);
     }
 }
 
@@ -249,7 +248,7 @@ TEST(changes_by_hand_are_booked_as_work)
                                        "damping"};
     for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
         Simulation *scene = simulate("%s", lines[i]);
-        simulation_set(scene, OPTION_SLOT(tolerance), 1e-8);
+        change_option(scene, OPTION_SLOT(tolerance), 1e-8);
         int blocked = 0; /* the pinned node blocks the ceiling */
         for (int n = 0; n < 24 * 5; n++) {
             Energies before = simulation_get_energies(scene, 0);

@@ -109,7 +109,7 @@ int __wrap_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
 }
 
 /* Draws the window and collects its texts. */
-static void collect_texts(void)
+static void collect_drawn_texts(void)
 {
     window_text[0] = column_text[0] = '\0';
     text_count = 0;
@@ -126,7 +126,7 @@ static void check_window_words(const char *verb, char *words)
     bool wanted = strcmp(verb, "lacks") != 0;
     for (char *at = words; (at = strchr(at, '\\'));)
         *at = '\n';
-    collect_texts();
+    collect_drawn_texts();
     if ((strstr(among, words) != NULL) != wanted) {
         fputs(among, stderr); /* cmocka cuts long messages */
         fail_msg("%s '%s'", wanted ? "no" : "there is", words);
@@ -138,7 +138,7 @@ static int find_text(const char *words)
 {
     int nearest = -1;
     double distance = INFINITY;
-    collect_texts();
+    collect_drawn_texts();
     for (int i = 0; i < text_count; i++) {
         const char *text = window_text + texts[i].offset;
         const char *at = strstr(text, words);
@@ -586,7 +586,7 @@ static void add_new_lines(const char *before, const char *now)
 
 /* Adds a line of a session to the record, and the facts and values it changed;
  * on a page without texts, which change often. */
-static void add_facts_to_record(const char *line)
+static void add_changed_facts_to_record(const char *line)
 {
     static char before[sizeof facts], head[160];
     const Energies now = simulation_get_energies(player_simulation(&player), 0);
@@ -682,7 +682,7 @@ static void add_window_to_record(const char *unused)
     char *now = recorded_texts;
     int count = 0;
     (void)unused;
-    collect_texts();
+    collect_drawn_texts();
     const Layout layout = find_layout();
     memcpy(before, now, sizeof before);
     for (int i = 0; i < text_count; i++) {
@@ -1200,7 +1200,7 @@ static void run_session(void **state)
     for (const char **line = session->line; *line; line++) {
         run_session_line(current_line = *line);
         if (records && player_is_open)
-            add_facts_to_record(current_line);
+            add_changed_facts_to_record(current_line);
     }
     if (records)
         check_record(session->name + 7);
@@ -1454,7 +1454,7 @@ static void record_of_random_hands(void **unused)
         for (int i = 0; i < ACTIONS; i++) {
             run_session_line(current_line = acts[random_below(&random, count)]);
             player.is_quitting = false; /* Escape may quit */
-            add_facts_to_record(current_line);
+            add_changed_facts_to_record(current_line);
         }
         undo_and_redo_all(started);
         check_replay(scene[round % 4]);

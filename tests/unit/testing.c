@@ -212,7 +212,7 @@ static Status apply_control(Simulation *simulation, UserControl *control)
     return status;
 }
 
-Status simulation_set(Simulation *simulation, int slot, double value)
+Status change_option(Simulation *simulation, int slot, double value)
 {
     UserControl *control = control_from_simulation(simulation);
     control->options.number[slot] = value;

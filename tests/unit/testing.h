@@ -96,7 +96,7 @@ Simulation *simulate_observed(NewtonObserver observer, void *user,
 void free_simulations(void);
 
 /* Changes an option, by its slot, a pin or the held node (-1: none). */
-Status simulation_set(Simulation *simulation, int slot, double value);
+Status change_option(Simulation *simulation, int slot, double value);
 Status simulation_pin(Simulation *simulation, int node, bool pinned);
 Status simulation_hold(Simulation *simulation, int node, double x, double y);
 
