@@ -11,7 +11,7 @@
 /* Length of line_highlight: lines 1 to 8 of Algorithm 3; [0] is unused. */
 enum { PAGE_MAX_CODE_LINES = 9 };
 
-/* A page.  Texts are texts of live_values.h: live numbers stand in braces. */
+/* A page: a field for each word of pages.txt.  Texts: see live_values.h. */
 typedef struct LecturePage {
     const char *name;         /* name for --lecture, one word */
     const char *topic;        /* title of the slide */
@@ -67,6 +67,7 @@ const LecturePage *lecture_find_page(const char *text);
 
 /* Whether the page asks for a click on the picture.  page may be NULL. */
 bool page_wants_click(const LecturePage *page);
+bool page_wants_number(const LecturePage *page);
 
 /* Sets options->page, and the options that a page has beside its line. */
 void lecture_apply_page(const LecturePage *page, Options *options);

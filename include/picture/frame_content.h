@@ -232,8 +232,9 @@ typedef struct CardSets {
 /* A row of a list: a key or a number, and what it does. */
 typedef struct ListRow {
     char key[VALUE_SIZE], text[SENTENCE_SIZE];
-    bool is_grey;    /* key without effect now, or extra page */
-    bool is_heading; /* is a heading, without a key */
+    /* grey: a number without effect now, or an extra page */
+    enum { ROW_PLAIN, ROW_GREY, ROW_HEADING } style;
+    const char *name; /* page or option that a click opens or adds; or NULL */
 } ListRow;
 
 typedef struct RowList {

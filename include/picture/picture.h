@@ -26,13 +26,13 @@ typedef struct Card {
     /* Returns the minimum height in ems of a card whose content is `wide` ems
      * wide; an em has `em` pixels.  NULL: min_height. */
     double (*find_height)(const FrameContent *content, double wide, double em);
-    double height_weight;    /* weight with which the card shares free height */
-    bool fits_half_width;    /* may stand in one half of a wide column */
-    bool fits_half_page;     /* may stand in one half on a page */
-    bool starts_closed;      /* shows only its title at first */
-    bool needs_line_energy;  /* draws E along p (cards_need_line_energy) */
-    bool is_below_picture;   /* as main card, stands below the picture */
-    bool is_beside_picture;  /* as main card, stands beside the picture */
+    double height_weight;   /* weight with which the card shares free height */
+    bool fits_half_width;   /* may stand in one half of a wide column */
+    bool fits_half_page;    /* may stand in one half on a page */
+    bool starts_closed;     /* shows only its title at first */
+    bool needs_line_energy; /* draws E along p (cards_need_line_energy) */
+    /* place as main card: the picture's, below it, or beside it */
+    enum { PLACE_SWAPPED, PLACE_BELOW, PLACE_BESIDE } main_place;
     bool is_only_in_lecture; /* is hidden outside of the lecture */
     const char *words;       /* text; lines with unknown values are left out */
     const struct ListingRow *listing; /* lines of an algorithm (cards.h) */

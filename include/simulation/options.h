@@ -94,6 +94,7 @@ typedef struct Options {
     int pause_step;                 /* step at which playing pauses; 0: none */
     const char *law_name;           /* law that the card "law" draws, or NULL */
     const char *main_card;          /* name of the enlarged card, or NULL */
+    const char *open_cards;         /* names of the open cards of a page */
     const char *pin;                /* nodes that are pinned, or NULL */
     const char *state;              /* CSV file with the start, or NULL */
     const char *state_springs;      /* CSV file with springs, or NULL */
@@ -221,7 +222,7 @@ void option_write_short(const OptionRow *row, const Options *options,
 /* Whether a number of the option is not 0, so that it adds its term. */
 bool option_is_on(const OptionRow *row, const Options *options);
 
-/* Whether an option has the same numbers in two structs. */
+/* Whether an option has the same numbers, or the same name, in two structs. */
 bool option_is_equal(const OptionRow *row, const Options *a, const Options *b);
 
 /* Copies all numbers of an option. */

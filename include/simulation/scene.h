@@ -33,9 +33,10 @@ enum ScenePart {
     HAS_SPRINGS = 8,         /* springs: solver, projection of their Hessian */
     HAS_MINIMUM = 16,        /* tolerance and line search */
     HAS_ONE_COORDINATE = 32, /* a start with one coordinate, x */
-    HAS_TIMESTEP = 64,       /* a time step h without an integrator */
+    HAS_TIMESTEP = 64,       /* a time step h */
     HAS_BODY = 128,          /* a body: options --turn, --at, --pin and more */
-    HAS_SQUARE = HAS_MESH | HAS_TIME | HAS_SPRINGS | HAS_MINIMUM | HAS_BODY
+    HAS_MOTION = HAS_TIME | HAS_TIMESTEP,
+    HAS_SQUARE = HAS_MESH | HAS_MOTION | HAS_SPRINGS | HAS_MINIMUM | HAS_BODY
 };
 
 /* Most points that the mouse can drag, and most switches of a picture. */

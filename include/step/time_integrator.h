@@ -15,12 +15,11 @@ typedef struct IntegratorMethod {
     const char *name;        /* name on the command line */
     const char *label;       /* name in the window */
     int order;               /* order of accuracy */
-    bool is_implicit;        /* needs Newton */
     bool supports_all_terms; /* works with every term: only backward Euler */
     bool dissipates;   /* takes energy out of motion, which comes to rest */
     bool only_by_name; /* is chosen by name only, and skipped by key M */
     int memory_arrays; /* arrays [2n] kept between steps */
-    int stages;        /* minimisations of a step; explicit: 0 */
+    int stages;        /* minimisations of a step; 0: the method is explicit */
     /* Fills newton->u_tilde, without gravity, and the weight of the integrator
      * for the present stage.  The caller then adds gravity to u_tilde by
      * completing the square:

@@ -133,7 +133,7 @@ static Status measure_method(bool quick, const TimedMotion *motion,
         bool failed = !(now.converged && now.error < simulation->options.side);
         double ms = 1e3 * now.seconds;
         printf("%s,%d,%s,%s,%d,%ld,%.6g,%.6g,%.6g,%d\n", motion->name, segments,
-               method->name, method->is_implicit ? "multigrid" : "none",
+               method->name, method->stages > 0 ? "multigrid" : "none",
                method->order, steps, simulation->options.tolerance, now.seconds,
                fmin(now.error, 1e300), failed);
         if (failed)
@@ -160,7 +160,7 @@ static Status measure_motion(bool quick, const TimedMotion *motion,
     for (const IntegratorMethod *method = integrator_methods; method->name;
          method++) {
         Status status = measure_method(quick, motion, simulation, method,
-                                       best[method->is_implicit]);
+                                       best[method->stages > 0]);
         if (status)
             return status;
     }

@@ -5,7 +5,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <strings.h>
 
 #include "lesson/hints.h"
 #include "lesson/pages.h"
@@ -105,20 +104,21 @@ static Status apply_option_numbers(const ArgLine *line, const ArgWord *word)
 /* Stores the name of a file, or of nodes.  A table must be CSV. */
 static Status apply_option_text(const ArgLine *line, const ArgWord *word)
 {
-    static const char *const formats[] = {
-        ".npz", ".npy", ".json", ".vtk",  ".vtu", ".vtp", ".obj",
-        ".gz",  ".zip", ".xlsx", ".hdf5", ".h5",  ".mat", ".parquet"};
+    static const char formats[] =
+        " .npz .npy .json .vtk .vtu .vtp .obj .gz .zip .xlsx .hdf5 .h5 .mat "
+        ".parquet .xml .bz2 .xz .tar .pkl .feather .ply .stl .png .mp4 .tsv ";
+    char format[16];
     const OptionRow *row = word->row;
     const char *text = word->text, *end = strrchr(text, '.');
     if (!text[0])
         return refuse(line->message, "--%s: the value is empty: --%s %s",
                       row->name, row->name, row->placeholder);
-    for (size_t i = 0; end && i < sizeof formats / sizeof *formats; i++)
-        if (row->is_table && strcasecmp(end, formats[i]) == 0)
-            return refuse(line->message,
-                          "--%s: '%.60s': tables are CSV, but %s is another "
-                          "format; use .csv",
-                          row->name, text, formats[i]);
+    snprintf(format, sizeof format, " %s ", end ? end : "");
+    if (row->is_table && strcasestr(formats, format))
+        return refuse(line->message,
+                      "--%s: '%.60s': tables are CSV, but %s is another "
+                      "format; use .csv",
+                      row->name, text, end);
     memcpy((char *)line->options + row->offset, &text, sizeof text);
     return STATUS_OK;
 }
@@ -146,9 +146,10 @@ static Status check_needed_parts(const Options *options, const OptionRow *row,
                                  Message message)
 {
     const Scene *scene = options->scene;
-    const char *missing = row->needed_parts & HAS_MESH    ? "square"
-                          : row->needed_parts == HAS_TIME ? "time steps"
-                          : row->needed_parts & HAS_TIME ? "time step to choose"
+    const char *missing = row->needed_parts & HAS_MESH   ? "square"
+                          : row->needed_parts & HAS_TIME ? "time steps"
+                          : row->needed_parts & HAS_TIMESTEP
+                              ? "time step to choose"
                           : row->needed_parts & HAS_SPRINGS ? "springs"
                           : row->needed_parts & HAS_START   ? "start to choose"
                           : row->needed_parts & HAS_BODY    ? "body"

@@ -141,6 +141,8 @@ static const struct RemovedOption {
     {"integrator", "avf", KEEPS_ENERGY},
     {"integrator", "avf4", KEEPS_ENERGY},
     {"minimum", "", "a step may end on a saddle of E; nothing replaces it"},
+    {"handout", "", "print the page, or make handout"},
+    {"notes", "", "elasto.html?notes is the page with the notes"},
 };
 
 const char *find_replacement(const char *option, const char *value)

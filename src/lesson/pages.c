@@ -19,6 +19,11 @@ bool page_wants_click(const LecturePage *page)
     return page && page->answer && strcmp(page->answer, "click") == 0;
 }
 
+bool page_wants_number(const LecturePage *page)
+{
+    return page && page->answer && !page_wants_click(page);
+}
+
 void lecture_apply_page(const LecturePage *page, Options *options)
 {
     options->page = page;
@@ -27,4 +32,5 @@ void lecture_apply_page(const LecturePage *page, Options *options)
     options->pause_step = page->pause_step;
     options->law_name = page->law_name;
     options->main_card = page->main_card;
+    options->open_cards = page->open_cards;
 }

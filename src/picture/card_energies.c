@@ -181,7 +181,7 @@ static Axis make_energies_axis(const Simulation *simulation,
         (panes || high > LOG_GROWTH * first))
         return (Axis){pow(10, floor(log10(fmax(least, LOG_LOW * first))) - 1),
                       pow(10, ceil(log10(fmin(high, LOG_HIGH * first)))),
-                      .is_log = true, .label = "J"};
+                      .scale = SCALE_LOG, .label = "J"};
     return (Axis){low < -0.01 * high ? -plot_round_axis_end(-low) : 0,
                   plot_round_axis_end(high), .label = "J"};
 }
@@ -350,7 +350,7 @@ void draw_radius_card(const Plot *card)
             fmax(most, 1.1 * fabs(log10(vector_length(simulation->run[r].x))));
     Plot plot =
         plot_create(card, (Axis){0, plot_round_up(last), .label = "t in s"},
-                    (Axis){pow(10, -most), pow(10, most), .is_log = true});
+                    (Axis){pow(10, -most), pow(10, most), .scale = SCALE_LOG});
     double steps = values_find_number(&card->pane->values, "doubling");
     const double twice[2] = {steps * simulation->options.timestep, 2};
     plot_dashes(&plot, (double[2]){0, 2}, (double[2]){plot.x.high, 2}, 1, NULL,

@@ -92,9 +92,9 @@ void draw_residual_card(const Plot *card)
     }
     bool is_main = card->simulation->options.main_card;
     Axis x = {0.5, fmax(updates + pending, 4) + (is_main ? 0.9 : 0.5),
-              .is_whole = true, .label = "update"};
+              .scale = SCALE_WHOLE, .label = "update"};
     Axis y = {pow(10, floor(log10(low))), pow(10, ceil(log10(high))),
-              .is_log = true, .label = is_main ? "residual, m/s" : NULL};
+              .scale = SCALE_LOG, .label = is_main ? "residual, m/s" : NULL};
     Plot plot = plot_create(card, x, y);
     const double left[2] = {x.low, trace->tolerance};
     const double right[2] = {x.high, trace->tolerance};

@@ -67,13 +67,11 @@ function end_row()
 BEGIN {
     texts["title"] texts["legend"] texts["words"] texts["column_heads"]
     texts["text"] texts["value"] texts["crossed_out_if"]
-    values["min_height"] values["find_height"] values["height_weight"] values["default_bounds"]
+    values["min_height"] values["find_height"] values["height_weight"] values["main_place"] values["default_bounds"]
     values["draw"] values["make_row"] values["find_bounds"] values["add_values"] values["pick"]
     values["draw_hover"] values["get_energies"] values["make_legend_row"]
     switches["has_no_curves"] switches["fits_half_width"] switches["fits_half_page"]
-    switches["starts_closed"] switches["is_below_picture"]
-    switches["is_beside_picture"]
-    switches["needs_line_energy"] switches["is_only_in_lecture"]
+    switches["starts_closed"] switches["needs_line_energy"] switches["is_only_in_lecture"]
     switches["is_stretched"] switches["draws_handles"] switches["takes_clicks"]
     switches["shows_scale"] switches["is_indented"]
     print "#include \"picture/cards.h\""

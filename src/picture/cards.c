@@ -93,10 +93,11 @@ static void draw_list(Paper *paper, Box inside, const RowList *list)
         paper_shorten_words(paper, size, wide, text, sizeof text);
         paper_write_in_box(paper, FACE_BOLD, size, COLOUR_TEXT, room,
                            ALIGN_LEFT, row->key);
-        room.x += row->is_heading ? 0 : (int)key;
-        paper_write_in_box(paper, row->is_heading ? FACE_BOLD : FACE_REGULAR,
-                           size, row->is_grey ? COLOUR_GREY : COLOUR_TEXT, room,
-                           ALIGN_LEFT, text);
+        bool heading = row->style == ROW_HEADING;
+        room.x += heading ? 0 : (int)key;
+        paper_write_in_box(paper, heading ? FACE_BOLD : FACE_REGULAR, size,
+                           row->style == ROW_GREY ? COLOUR_GREY : COLOUR_TEXT,
+                           room, ALIGN_LEFT, text);
     }
 }
 

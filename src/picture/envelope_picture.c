@@ -59,9 +59,9 @@ static void draw_ratio_line(const Plot *plot, double ratio)
 void draw_envelope_picture(Plot *stage)
 {
     const EnvelopeMap *map = &stage->simulation->exhibit.envelope;
-    Plot plot =
-        plot_create_on_stage(stage, (Axis){.is_log = true, .label = "h in s"},
-                             (Axis){.is_log = true, .label = "k in J/m\u00b2"});
+    Plot plot = plot_create_on_stage(
+        stage, (Axis){.scale = SCALE_LOG, .label = "h in s"},
+        (Axis){.scale = SCALE_LOG, .label = "k in J/m\u00b2"});
     for (int row = 0; row < ENVELOPE_ROWS; row++)
         for (int column = 0; column < ENVELOPE_COLUMNS; column++)
             canvas_fill(&stage->paper->canvas,

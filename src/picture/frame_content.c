@@ -27,15 +27,15 @@ bool frame_has_card(const FrameContent *content, const char *name)
 static CardSets find_start_card_sets(const Simulation *simulation)
 {
     const Picture *picture = picture_of_scene(simulation->scene);
-    const LecturePage *page = simulation->options.page;
+    const char *open = simulation->options.open_cards; /* NULL: no page */
     CardSets sets = {.enlarged = -1};
     for (int c = 0; c < picture->count; c++) {
         /* No card's name is part of another card's name. */
         const Card *card = picture->cards[c];
-        bool has = page ? strstr(page->open_cards, card->name) != NULL
-                        : !card->is_only_in_lecture;
+        bool has =
+            open ? strstr(open, card->name) != NULL : !card->is_only_in_lecture;
         sets.hidden_cards |= (unsigned)!has << c;
-        sets.closed_cards |= (unsigned)(card->starts_closed && !page) << c;
+        sets.closed_cards |= (unsigned)(card->starts_closed && !open) << c;
     }
     return sets;
 }

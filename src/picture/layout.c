@@ -244,8 +244,9 @@ static int find_card_rows(const FrameContent *content, const Layout *layout,
             sets->closed_cards >> i & 1 || (large && i != sets->enlarged);
         bool half = card->fits_half_width ||
                     (card->fits_half_page && content->lecture.page);
-        bool on_stage = i == main_card && (card->is_below_picture ||
-                                           (card->is_beside_picture && !bar));
+        bool on_stage =
+            i == main_card && (card->main_place == PLACE_BELOW ||
+                               (card->main_place == PLACE_BESIDE && !bar));
         if (sets->hidden_cards >> i & 1 || on_stage)
             continue;
         double least = bar ? 0 : find_height(content, layout, i, wide);
@@ -418,13 +419,13 @@ static void place_main_card(const FrameContent *content, Layout *layout)
         return;
     const Card *card = active_picture(content)->cards[main_card];
     Box *stage = &layout->pane[0], place = layout->card[main_card];
-    if (card->is_below_picture) {
+    if (card->main_place == PLACE_BELOW) {
         place_card_below(content, layout, main_card,
                          (MAIN_CARD_GROWTH * card->min_height + 2 * GAP) *
                              layout->em);
         return;
     }
-    bool beside = card->is_beside_picture;
+    bool beside = card->main_place == PLACE_BESIDE;
     if (place.width < 1 && !layout->has_list && !beside)
         return;
     if (beside && PICTURE_PART * stage->width > MIN_BESIDE * layout->em)
@@ -460,9 +461,9 @@ static void place_card_without_room(const FrameContent *content, Layout *layout)
     const Box stage = layout->stage, title = layout->card[folded];
     place_card_below(content, layout, folded,
                      layout->has_list ? stage.height - 0.8 * stage.width : 0);
-    Box *page = &layout->card[0]; /* may take the title bar of the moved card */
-    if (!layout->has_list && title.y <= page->y + page->height + layout->em)
-        page->height = title.y + title.height - page->y;
+    Box *first = &layout->card[0]; /* may take the moved card's title bar */
+    if (!layout->has_list && title.y <= first->y + first->height + layout->em)
+        first->height = title.y + title.height - first->y;
 }
 
 /* On a page an em is at least the smaller one of height/55 and width/64; in

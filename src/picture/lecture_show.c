@@ -22,10 +22,11 @@ static void list_pages(const LecturePage *marked, FrameContent *content)
     ListRow *row = content->list.row;
     for (const LecturePage *page = lecture_pages; page->name; page++) {
         if (page->section) {
-            *row = (ListRow){.is_heading = true};
+            *row = (ListRow){.style = ROW_HEADING};
             snprintf((row++)->text, SENTENCE_SIZE, "%s", page->section);
         }
-        *row = (ListRow){.is_grey = page->is_extra};
+        *row = (ListRow){.name = page->name,
+                         .style = page->is_extra ? ROW_GREY : ROW_PLAIN};
         snprintf(row->key, VALUE_SIZE, "%s%d", page == marked ? ">" : "",
                  (int)(page - lecture_pages) + 1);
         snprintf((row++)->text, SENTENCE_SIZE, "%s%s", page->topic,

@@ -73,7 +73,7 @@ static void add_setting_values(const Simulation *simulation, LiveValues *values)
     const IntegratorMethod *method = run[0].method;
     const Descent *descent = &simulation->descent;
     bool time = scene->parts & HAS_TIME;
-    bool explicit = time && method && !method->is_implicit;
+    bool explicit = time && method && method->stages == 0;
     bool backward = method && strcmp(method->name, "backward-euler") == 0;
     bool forward = method && strcmp(method->name, "forward-euler") == 0;
     values_add_words(values, "scene", options->page ? NULL : scene->sentence);

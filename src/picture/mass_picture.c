@@ -307,7 +307,7 @@ static void draw_step_explanation(Plot *stage, const MassStep *step)
         draw_step_error(stage, step, h, first ? "\u00bdh\u00b2 a^{n}" : "");
     plot_label(stage, 1, end.xy, COLOUR_FAINT, "exact");
     bool symplectic =
-        !step->moves_by_old_v && !stage->simulation->run[0].method->is_implicit;
+        !step->moves_by_old_v && stage->simulation->run[0].method->stages == 0;
     double turn = 1 - 0.5 * h * h, reach = sqrt(1 - turn * turn);
     const Point side = point_along(step->new_x, -turn, step->x);
     const Point across = point_along(origin, 1 / reach, side.xy);
@@ -326,7 +326,7 @@ static void draw_mass_step(Plot *stage)
     MassStep step;
     if (!mass_find_next_step(simulation, 0, &step))
         return;
-    bool backward = simulation->run[0].method->is_implicit;
+    bool backward = simulation->run[0].method->stages > 0;
     const double *a = backward ? step.new_a : step.a;
     const Point tip = point_along(step.x, 1, step.v),
                 to = vector_between(step.x, step.new_x);
@@ -416,7 +416,7 @@ void list_mass_values(const Simulation *simulation, LiveValues *values)
         values_add(values, "factor", after / before);
     }
     values->next_run = 0;
-    bool backward = simulation->run[0].method->is_implicit;
+    bool backward = simulation->run[0].method->stages > 0;
     bool known = mass_find_next_step(simulation, 0, &step);
     values_add_flag(values, "stages", one && !known);
     if (!one || !known)

@@ -38,7 +38,7 @@ double plot_round_axis_end(double value)
 /* Returns the coordinate of a value, a logarithm on a logarithmic axis. */
 static double axis_find_coordinate(const Axis *axis, double value)
 {
-    return axis->is_log ? log10(value) : value;
+    return axis->scale == SCALE_LOG ? log10(value) : value;
 }
 
 void plot_to_pixel(const Plot *plot, const double *at, double pixel[2])
@@ -64,7 +64,7 @@ static void set_plot_camera(Plot *plot, int k, const Axis *axis)
 static NumberText format_tick(const Axis *axis, double value)
 {
     double span = axis->high - axis->low;
-    bool is_zero = !axis->is_log && fabs(value) < 1e-9 * span;
+    bool is_zero = axis->scale != SCALE_LOG && fabs(value) < 1e-9 * span;
     return format_number(is_zero ? 0 : axis->is_milli ? 1000 * value : value);
 }
 
@@ -74,12 +74,12 @@ static int list_ticks(const Axis *axis, double step, double *ticks)
 {
     double low = axis_find_coordinate(axis, axis->low),
            high = axis_find_coordinate(axis, axis->high);
+    bool powers = axis->scale == SCALE_LOG;
     int count = 0;
-    double first =
-        axis->is_log ? ceil(low - 1e-9) / step : ceil(low / step - 1e-9);
+    double first = powers ? ceil(low - 1e-9) / step : ceil(low / step - 1e-9);
     for (double k = first;
          k * step <= high + 1e-9 * step && count < PLOT_MAX_TICKS; k++)
-        ticks[count++] = axis->is_log ? pow(10, round(k * step)) : k * step;
+        ticks[count++] = powers ? pow(10, round(k * step)) : k * step;
     return count;
 }
 
@@ -96,12 +96,12 @@ static int find_ticks(const Axis *axis, bool upright, double ems, double *ticks)
     double step = plot_round_up((high - low) / intervals);
     if (!(high - low > 0) || !isfinite(high - low))
         return 0;
-    if (axis->is_log) /* whole powers of ten */
+    if (axis->scale == SCALE_LOG) /* whole powers of ten */
         step = ceil((floor(high + 1e-9) - ceil(low - 1e-9)) / intervals);
-    if (axis->is_log || axis->is_whole)
+    if (axis->scale != SCALE_LINEAR)
         step = fmax(step, 1);
     int count = list_ticks(axis, step, ticks);
-    if (count < 2 && upright && room > 1.5 && !axis->is_log && !axis->is_whole)
+    if (count < 2 && upright && room > 1.5 && axis->scale == SCALE_LINEAR)
         count = list_ticks(axis, 0.5 * step, ticks);
     return count;
 }
@@ -131,7 +131,8 @@ static void draw_axes(const Plot *plot)
     int count = find_ticks(&plot->y, true, box->height / em, ticks);
     int thin = (int)fmax(1, paper->unit);
     for (int i = 0; i < count; i++) {
-        bool zero = !plot->y.is_log && fabs(ticks[i]) < 1e-12 * plot->y.high;
+        bool zero =
+            plot->y.scale != SCALE_LOG && fabs(ticks[i]) < 1e-12 * plot->y.high;
         plot_to_pixel(plot, (double[2]){plot->x.low, ticks[i]}, at);
         canvas_fill(&paper->canvas,
                     (Box){box->x, (int)floor(at[1] + 1e-9), box->width, thin},
@@ -193,8 +194,8 @@ Plot plot_create(const Plot *card, Axis x, Axis y)
 /* Sets the axis to the range low ... high of camera coordinates. */
 static void axis_set_range(Axis *axis, double low, double high)
 {
-    axis->low = axis->is_log ? pow(10, low) : low;
-    axis->high = axis->is_log ? pow(10, high) : high;
+    axis->low = axis->scale == SCALE_LOG ? pow(10, low) : low;
+    axis->high = axis->scale == SCALE_LOG ? pow(10, high) : high;
 }
 
 Plot plot_create_on_stage(const Plot *stage, Axis x, Axis y)
@@ -334,8 +335,8 @@ void plot_graph(const Plot *plot, double (*y)(const void *data, double x),
     double low = plot->x.low, high = plot->x.high;
     for (int i = 0; i <= PLOT_GRAPH_POINTS; i++) {
         double part = (double)i / PLOT_GRAPH_POINTS;
-        at[i] = plot->x.is_log ? low * pow(high / low, part)
-                               : low + (high - low) * part;
+        at[i] = plot->x.scale == SCALE_LOG ? low * pow(high / low, part)
+                                           : low + (high - low) * part;
         value[i] = y(data, at[i]);
     }
     plot_curve(plot, PLOT_GRAPH_POINTS + 1, at, value, width, colour);

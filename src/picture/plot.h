@@ -16,9 +16,9 @@
 
 typedef struct Axis {
     double low, high; /* high > low; both > 0 on a logarithmic axis */
-    bool is_log;      /* is logarithmic, with numbers at powers of ten */
-    bool is_whole;    /* ticks are at whole numbers only */
-    bool is_milli;    /* numbers are those of the ticks times 1000 */
+    /* places of the ticks: any, whole numbers, powers of ten */
+    enum { SCALE_LINEAR, SCALE_WHOLE, SCALE_LOG } scale;
+    bool is_milli; /* numbers are those of the ticks times 1000 */
     /* Markup.  The label of x is below the right end, that of y at the top
      * right. */
     const char *label;

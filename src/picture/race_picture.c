@@ -43,8 +43,9 @@ void draw_race_picture(Plot *stage)
     bool wide = stage->has_text && stage->box.width > NAMES_WIDTH * stage->em;
     Plot plot = plot_create_on_stage(
         stage,
-        (Axis){.is_log = true, .label = over_h ? "h in ms" : "run time in ms"},
-        (Axis){.is_log = true});
+        (Axis){.scale = SCALE_LOG,
+               .label = over_h ? "h in ms" : "run time in ms"},
+        (Axis){.scale = SCALE_LOG});
     const double at[2][2] = {{plot.x.low, TARGET_ERROR},
                              {plot.x.high, TARGET_ERROR}};
     if (!over_h)
@@ -87,7 +88,7 @@ void list_race_values(const Simulation *simulation, LiveValues *values)
     for (int i = 0; i < 2; i++) {
         const RacePoint *best = NULL, *at = race->point;
         for (; at < race->point + race->count; at++)
-            if (at->method->is_implicit == (i == 1) && at->is_stable &&
+            if ((at->method->stages > 0) == (i == 1) && at->is_stable &&
                 at->error <= TARGET_ERROR &&
                 (!best || at->seconds < best->seconds))
                 best = at;

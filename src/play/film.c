@@ -35,6 +35,8 @@ static const struct FilmKind {
     "--frames DIR needs nothing"
 #endif
 
+#define WHY_FFMPEG_FAILS "ffmpeg ended early; the disk may be full"
+
 Status film_open(const char *name, char *message, Film *film)
 {
     const char *end = strrchr(name, '.'), *why = NULL;
@@ -72,20 +74,6 @@ static void start_ffmpeg(Film *film, const Canvas *canvas)
         setvbuf(film->pipe, NULL, _IOFBF, 1 << 16); /* size of a pipe */
 }
 
-/* Reports that ffmpeg failed: the file's own failure if it cannot grow, such as
- * a full disk; else `why`. */
-static Status report_ffmpeg_failure(const Film *film, const char *why)
-{
-    static const char block[1 << 16];
-    FILE *file = film->output.file;
-    fseek(file, 0, SEEK_END);
-    long end = ftell(file); /* -1: a pipe, which has no end */
-    bool grows =
-        end < 0 || (fwrite(block, sizeof block, 1, file) == 1 &&
-                    fflush(file) == 0 && ftruncate(fileno(file), end) == 0);
-    return output_report_failure(&film->output, grows ? why : NULL);
-}
-
 Status film_add_frame(Film *film, const Canvas *canvas, int times)
 {
     const Colour white = 0xffffffffu;
@@ -104,7 +92,7 @@ Status film_add_frame(Film *film, const Canvas *canvas, int times)
     film->frames += times;
     if (!ferror(film->pipe))
         return STATUS_OK;
-    return report_ffmpeg_failure(film, "ffmpeg ended before the film did");
+    return output_report_failure(&film->output, WHY_FFMPEG_FAILS);
 }
 
 Status film_close(Film *film, CloseAction keep)
@@ -117,10 +105,9 @@ Status film_close(Film *film, CloseAction keep)
     bool well = film->pipe && pclose(film->pipe) == 0;
     bool full = stat(output->part_name, &info) == 0 && info.st_size > 0;
     if (!well || !full)
-        status =
-            film->frames == 0
-                ? output_report_failure(output, "no frame was drawn for it")
-                : report_ffmpeg_failure(film, "ffmpeg could not write it");
+        status = output_report_failure(
+            output,
+            film->frames > 0 ? WHY_FFMPEG_FAILS : "no frame was drawn for it");
     Status closed = output_close(output, !full    ? KEEP_NOTHING
                                          : status ? KEEP_PART
                                                   : keep);

@@ -30,16 +30,16 @@ static void shorten_key_name(char key[VALUE_SIZE])
 static void build_key_list(FrameContent *content)
 {
     static const ListRow mouse[] = {
-        {"drag", "pulls a node; paused: places it", false, false},
-        {"", "a ground, a ball: pushes; a pin: moves", false, false},
-        {"", "where nothing is: moves the picture", false, false},
-        {"drag an edge", "of the paused square: stretch", false, false},
-        {"right click", "pins a node, or frees it", false, false},
-        {"wheel", "zooms, or changes a number", false, false},
-        {"middle drag", "moves the picture, too", false, false},
-        {"double click", "a ball; on a number: default", false, false},
-        {"letters", "go into a lit number; Enter, Esc", false, false},
-        {"1 \u2026 9", "a scene; G shows more", false, false},
+        {"drag", "pulls a node; paused: places it"},
+        {"", "a ground, a ball: pushes; a pin: moves"},
+        {"", "where nothing is: moves the picture"},
+        {"drag an edge", "of the paused square: stretch"},
+        {"right click", "pins a node, or frees it"},
+        {"wheel", "zooms, or changes a number"},
+        {"middle drag", "moves the picture, too"},
+        {"double click", "a ball; on a number: default"},
+        {"letters", "go into a lit number; Enter, Esc"},
+        {"1 \u2026 9", "a scene; G shows more"},
     };
     ListRow *row = content->list.row + sizeof mouse / sizeof *mouse;
     memcpy(content->list.row, mouse, sizeof mouse);
@@ -76,16 +76,13 @@ static void build_settings_row(const Player *player, WindowFrame *frame)
     for (int i = 0; i < frame->options; i++) {
         const OptionRow *row = frame->option[i];
         Setting *setting = &content->settings.item[content->settings.count++];
-        char now[COMMAND_TEXT_SIZE], start[COMMAND_TEXT_SIZE];
         setting->name = option_get_label(row);
         setting->min_letters = row->display.max_letters;
         player_format_value(row, options, player_simulation(player),
                             setting->value, VALUE_SIZE);
-        option_write_short(row, options, now, sizeof now);
-        option_write_short(
-            row, &past_start_control(&player->past, player->active)->options,
-            start, sizeof start);
-        setting->is_changed = strcmp(now, start) != 0;
+        setting->is_changed = !option_is_equal(
+            row, options,
+            &past_start_control(&player->past, player->active)->options);
         const char *idle = player_find_idle_reason(player, row);
         setting->is_off = strcmp(setting->value, "none") == 0 || idle;
         setting->is_selected = row == player->hands.selected;
@@ -113,11 +110,12 @@ static void list_shown_options(const Player *player, FrameContent *content)
         const char *idle = player_find_idle_reason(player, all[i]);
         player_format_value(all[i], &options, player_simulation(player), value,
                             sizeof value);
+        row->name = all[i]->name;
         snprintf(row->key, VALUE_SIZE, "%d", i + 1);
         snprintf(row->text, SENTENCE_SIZE, "%s %s%s%s", all[i]->name, value,
                  idle || all[i]->help[0] ? ": " : "",
                  idle ? idle : all[i]->help);
-        row->is_grey = idle != NULL;
+        row->style = idle ? ROW_GREY : ROW_PLAIN;
     }
 }
 

@@ -84,10 +84,10 @@ static KeyScope find_key_scope(const Player *player)
 }
 
 /* Opens the page, or adds the number, of a line of the open list.
- *   line  in, number of the line, or name of the page */
+ *   line  in, number of the line, or its name */
 static Status open_list_line(Player *player, const char *line)
 {
-    const OptionRow *all[OPTIONS_MAX_ROWS];
+    const OptionRow *all[OPTIONS_MAX_ROWS], *row = option_find(line);
     Command page = {.kind = COMMAND_PAGE, .joins_gesture = true};
     char *end;
     long number = strtol(line, &end, 10);
@@ -95,9 +95,11 @@ static Status open_list_line(Player *player, const char *line)
         snprintf(page.text, sizeof page.text, "%s", line);
         return player_obey(player, &page);
     }
-    if (*end || number < 1 || number > player_list_options(player, true, all))
+    int rows = player_list_options(player, true, all);
+    if (!row && (*end || number < 1 || number > rows))
         return player_refuse(player, "there is no such number in the list");
-    return obey(player, COMMAND_ADD, all[number - 1] - option_rows);
+    row = row ? row : all[number - 1];
+    return obey(player, COMMAND_ADD, row - option_rows);
 }
 
 /* Acts on the typed text: opens the page, adds or sets the number, or checks
@@ -368,11 +370,10 @@ static Status press_setting(Player *player, int index, int clicks)
 static Status press_left_button(Player *player, const MouseTarget *target,
                                 int clicks)
 {
-    char line[16];
     int index = target->hit.index;
     bool ground =
         target->pick.kind == PICK_NONE || target->pick.kind == PICK_SPRING;
-    const char *key;
+    const char *name;
     const Scene *scene = player_simulation(player)->scene;
     bool body = (scene->parts & HAS_BODY) && !scene->step;
     Status status = STATUS_OK;
@@ -397,9 +398,8 @@ static Status press_left_button(Player *player, const MouseTarget *target,
                                player->hands.mouse.x, player->hands.mouse.y);
         if (find_key_scope(player) != SCOPE_LIST || index < 0)
             return STATUS_OK;
-        key = player->screen.frame.content.list.row[index].key;
-        snprintf(line, sizeof line, "%.7s", key + (key[0] == '>'));
-        return key[0] ? open_list_line(player, line) : STATUS_OK;
+        name = player->screen.frame.content.list.row[index].name;
+        return name ? open_list_line(player, name) : STATUS_OK;
     case ZONE_CELL:
         player->screen.view.selected_cell = index;
         return obey(player, COMMAND_OPEN, 0);

@@ -65,9 +65,8 @@ Status obey_type_letter(Player *player, const Command *command)
          shift = strncmp(command->text, "Shift+", 6) == 0;
     const char *key = command->text + (shift ? 6 : 0);
     const LecturePage *page = player_active_options(player)->page;
-    if (!list && !player->hands.selected &&
-        (page_wants_click(page) || !page->answer))
-        return player_refuse(player, page->answer
+    if (!list && !player->hands.selected && !page_wants_number(page))
+        return player_refuse(player, page_wants_click(page)
                                          ? "a click on the picture is the "
                                            "answer here; N shows it"
                                          : "say your answer; N shows it");

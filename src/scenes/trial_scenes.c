@@ -133,10 +133,10 @@ static double find_run_energy(const TimeIntegrator *run)
 /* Whether the energy of a run stays bounded.  Implicit methods are stable. */
 static bool run_is_stable(const Simulation *simulation, TimeIntegrator *run)
 {
-    for (int i = 0; i < RACE_EXTRA_STEPS && !run->method->is_implicit; i++)
+    for (int i = 0; i < RACE_EXTRA_STEPS && run->method->stages == 0; i++)
         if (time_integrator_step(run))
             return false;
-    return run->method->is_implicit ||
+    return run->method->stages > 0 ||
            find_run_energy(run) <=
                RACE_MAX_ENERGY_RATIO * find_run_energy(&simulation->run[0]);
 }

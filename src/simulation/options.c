@@ -64,7 +64,7 @@ REASON(why_no_table, options->state,
 REASON(why_nothing_yields, options->yield > 0,
        "the springs do not yield; --yield lets them")
 REASON(why_nothing_minimised,
-       options_method(options)->is_implicit || !options->headless ||
+       options_method(options)->stages > 0 || !options->headless ||
            options->script || options->panes > 1,
        "an explicit integrator minimises nothing; choose an implicit one, such "
        "as backward-euler")
@@ -235,7 +235,7 @@ const OptionRow option_rows[] = {
 
     {SECTION("time step and solver:")},
     {NUMBER(timestep, "H", "time step h", "s", 0.004, 1e-30, 1e30),
-     .needed_parts = HAS_TIME | HAS_TIMESTEP, LIST("h"), LIVE, SHOWN(1, 8, 0)},
+     .needed_parts = HAS_TIMESTEP, LIST("h"), LIVE, SHOWN(1, 8, 0)},
     {NAME("integrator", integrator, "I", "time integrator", -1,
           integrator_methods),
      NEEDS(TIME), LIST("method"), LIVE, SHOWN(8, 16, 0)},
@@ -369,8 +369,10 @@ static size_t find_numbers_size(const OptionRow *row)
 
 bool option_is_equal(const OptionRow *row, const Options *a, const Options *b)
 {
-    return memcmp(&a->number[row->slot], &b->number[row->slot],
-                  find_numbers_size(row)) == 0;
+    const double *of_a = &a->number[row->slot], *of_b = &b->number[row->slot];
+    return row->kind == OPTION_NAME
+               ? fmax(*of_a, 0) == fmax(*of_b, 0)
+               : memcmp(of_a, of_b, find_numbers_size(row)) == 0;
 }
 
 void option_copy(const OptionRow *row, const Options *from, Options *to)

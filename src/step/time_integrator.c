@@ -46,7 +46,7 @@ Status time_integrator_create(const IntegratorMethod *method, System *system,
     run->memory = run->new_v + size;
     memcpy(run->x, x, size * sizeof *x);
     memcpy(run->v, v, size * sizeof *v);
-    if (!method->is_implicit)
+    if (method->stages == 0)
         return STATUS_OK;
     run->newton = calloc(1, sizeof *run->newton);
     return run->newton ? newton_create(system, settings, run->newton)

@@ -45,7 +45,7 @@ const fill = (parent, lines, show) => {
 const plain = (text) =>
   text.replace(SLIDES, (all, name) => LETTERS[name]).replace(/#[\w-]+\*?(?=\{)|[{}_]/g, '');
 
-// Makes a link of "page 25", and buttons of keys: "Press R, P, N", "or Space".
+// Makes a link of the number of a page, and buttons of keys: "Press R, P, N", "or Space".
 const LINKS =
   /([Pp]age[ \u00a0]\d+|(?<=[Pp]ress (?:[A-Z]\w*,?(?: and| then)? )*|[Kk]ey |then |or )(?:Space|[A-Z])\b)/;
 const addLinks = (element) => {

@@ -84,13 +84,11 @@ EMSCRIPTEN_KEEPALIVE const char *web_get_address(void)
         append(words, sizeof words, "%s%s", now->page ? "--lecture\n" : "",
                now->page ? now->page->name : now->scene->name);
     for (const OptionRow *row = option_rows; row->name && words[0]; row++) {
-        char was[64], is[64];
-        if (!row->label || panes > 1)
+        char value[64];
+        if (!row->label || panes > 1 || option_is_equal(row, base, now))
             continue;
-        option_write(row, base->number[row->slot], was, sizeof was);
-        option_write(row, now->number[row->slot], is, sizeof is);
-        if (strcmp(was, is) != 0)
-            append(words, sizeof words, "\n--%s\n%s", row->name, is);
+        option_write(row, now->number[row->slot], value, sizeof value);
+        append(words, sizeof words, "\n--%s\n%s", row->name, value);
     }
     return words;
 }

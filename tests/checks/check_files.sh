@@ -76,7 +76,7 @@ films() {
             ulimit -f 8
             run 1 --steps 60 --film $name
         )
-        [ ! -e $name ] && grep -q "$name: File too large" error || echo "half of $name"
+        [ ! -e $name ] && grep -q "$name: ffmpeg.*disk may be full" error || echo "half of $name"
     done
     rm -f ./*.part
     no_parts films

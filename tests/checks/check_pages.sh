@@ -23,20 +23,22 @@ verdict every_page_opens_by_number_and_by_name "$(
     cmp last/frame_000000.png "frames_$last/frame_000000.png" 2>&1
 )"
 
-# Texts refer to pages by name: with one page more at place 3, each number in a
-# text still belongs to the same page.
+# Texts, comments and READMEs refer to pages by name: with one page more at place 3,
+# each number in a text still belongs to the same page.
+number='\b(pages?|pp?[.])[~*/[:space:]\xc2\xa0]*[0-9]+|[0-9] +pages\b'
 numbers() { # PAGES.TXT: numbers of pages in its texts
     awk -f src/lesson/text.awk -f src/lesson/code.awk \
-        -f src/lesson/pages.awk "$1" | grep -o 'page [0-9][0-9]*'
+        -f src/lesson/pages.awk "$1" | grep -oiP "$number" | grep -o '[0-9]*$'
 }
 verdict a_page_more_makes_no_number_stale "$(
     cd "$root" || exit 1
-    grep -nE 'pages? [0-9]' src/lesson/pages.txt src/picture/cards.txt
+    grep -rzoiP --include=*.md --include=*.[ch] --include=*.js --include=cards.txt \
+        --include=pages.txt "$number" README.md src include tests | tr '\0' '\n'
     awk '/^== equation:/ { print "== added: One more"; print page }
         /^== / { page = "" }
         !/^==/ && !/page:/ { page = page $0 "\n" }
         { print }' src/lesson/pages.txt >"$apart/more.txt"
-    numbers src/lesson/pages.txt | awk '{ print $1, $2 + ($2 >= 3) }' \
+    numbers src/lesson/pages.txt | awk '{ print $1 + ($1 >= 3) }' \
         >"$apart/expected"
     numbers "$apart/more.txt" | diff "$apart/expected" - | head -n 5
     [ "$(wc -l <"$apart/expected")" -gt 3 ] || echo 'no page is named'

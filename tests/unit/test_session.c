@@ -584,8 +584,8 @@ static void add_new_lines(const char *before, const char *now)
     }
 }
 
-/* Adds a line of a session to the record, and the facts and values it changed;
- * on a page without texts, which change often. */
+/* Adds a line of a session to the record, and the facts and values it changed,
+ * except run times and the number of pages; on a page also except texts. */
 static void add_changed_facts_to_record(const char *line)
 {
     static char before[sizeof facts], head[160];
@@ -604,7 +604,7 @@ static void add_changed_facts_to_record(const char *line)
         const LiveValue *entry = &values->value[i];
         if (entry->text)
             add_fact("value %s %d: %s", entry->name, entry->run, entry->text);
-        else if (!strstr(entry->name, " ms")) /* run times differ */
+        else if (!strstr(entry->name, " ms") && strcmp(entry->name, "pages"))
             add_fact("value %s %d: %.5g %.5g", entry->name, entry->run,
                      entry->value[0], entry->value[1]);
     }

@@ -132,7 +132,7 @@ TEST(interruptions_leave_no_trace)
 {
     for (int i = 0; integrator_methods[i].name; i++)
         for (int record = 1, stops = 1;
-             integrator_methods[i].is_implicit && stops; record++) {
+             integrator_methods[i].stages > 0 && stops; record++) {
             int left = 0, never = 0;
             const char *line = "--integrator %s --tolerance 1e-8";
             Simulation *one = simulate_observed(stop_at_record, &left, line,
