@@ -746,7 +746,6 @@ Status past_begin_runs(Past *past, const Options *options, int panes,
             status = status ? status : STATUS_OUT_OF_MEMORY;
             break;
         }
-        control->options = options[p];
         pane->start_control = control;
         pane->control = control_retain(control);
         pane->outcome = (StepOutcome){.status = pane->simulation.status};
