@@ -70,7 +70,7 @@ const MATH = `[...document.querySelectorAll('math *')].filter((element) => {
 }).map((element) => element.outerHTML.slice(0, 80))`;
 
 const SHEET = { width: 711, height: 1062, deviceScaleFactor: 1, mobile: false };
-const SIZES = 
+const SIZES =
   '360x740 390x844 844x390 744x1133 820x1180 1366x768 1920x1080 2560x1440 683x384'.split(' ');
 
 const nothingIsCut = async (tab, size, resize, every = 1) => {
@@ -353,7 +353,7 @@ const print = async (browser) => {
 };
 
 const serious = async (browser) => {
-  if (!axe || !fs.existsSync(axe)) 
+  if (!axe || !fs.existsSync(axe))
     return console.error('NOT CHECKED: axe_finds_nothing_serious, as npm has not fetched axe-core');
   const tab = await browser.open(at(''));
   const wrong = [];

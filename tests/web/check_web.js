@@ -26,10 +26,10 @@ const headless = async (tab, line) => {
   return tab.run(`$('summary').textContent || $('said').textContent`);
 };
 
-const names = (line) =>
-  native(line).stdout.trim().split('\n').map((row) => row.trim().split(/\s+/));
-const SCENES = names('--list').map(([name]) => name);
-const PAGES = names('--list --lecture').map(([, name]) => '--lecture ' + name);
+const rows = (line) => native(line).stdout.trim().split('\n');
+const word = (row, i) => row.trim().split(/\s+/)[i];
+const SCENES = rows('--list').map((row) => word(row, 0));
+const PAGES = rows('--list --lecture').map((row) => '--lecture ' + word(row, 1));
 
 const sameHashes = async (browser, name = 'Chromium') => {
   const tab = await browser.open(at('square --headless --steps 0'));
