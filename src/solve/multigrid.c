@@ -282,10 +282,9 @@ static Status multigrid_find_step_length(Newton *newton)
 }
 
 /* Adds alpha p to x, then relaxes tiles of nodes if the directions stall.  The
- * Hessian is clamped after a direction that raised the bound of p.  The exact
- * Hessian returns after a direction that lowered the bound, if one V-cycle was
- * enough for p: near a minimum the exact Hessian needs fewer updates, and each
- * of them takes less time. */
+ * Hessian is clamped after a poor direction.  The exact Hessian returns after a
+ * direction that is not poor, if one V-cycle was enough for p: near a minimum
+ * the exact Hessian needs fewer updates, and each of them takes less time. */
 static Status multigrid_update_iterate(Newton *newton)
 {
     Multigrid *mg = newton->multigrid;
@@ -300,8 +299,7 @@ static Status multigrid_update_iterate(Newton *newton)
         return STATUS_OK;
     const bool is_poor = mg->p_bound > STALLS * mg->last_p_bound;
     multigrid_clamp_hessian(
-        mg, mg->p_bound > mg->last_p_bound ||
-                (mg->cycle.is_clamped && mg->direction_cycles > 1));
+        mg, is_poor || (mg->cycle.is_clamped && mg->direction_cycles > 1));
     mg->has_relaxed = is_poor && record->iteration >= mg->tiles_rest_until &&
                       record->residual > SMALL_P * newton->tolerance;
     if (mg->has_relaxed) {

@@ -2,7 +2,7 @@
  *
  * Newton's method for E = |u - u_tilde|_M^2/2 + w P(x_n + u).  A multigrid
  * V-cycle on the Hessian finds the directions (v_cycle.h).  The Hessian is
- * clamped while directions raise E or the bound of p.  Each direction is made
+ * clamped from a poor direction to the next good one.  Each direction is made
  * conjugate to the one before.  E along a direction is a quartic, whose minimum
  * is the step length.  After a poor direction tiles of nodes find a second one
  * (tiles.h); the direction that follows is not conjugate.  No update raises E.
