@@ -20,6 +20,11 @@ Status options_parse(int argc, char **argv, int pane, Options *options,
 /* Reads a line like "drop --segments 8", which names no files and no nodes. */
 Status options_parse_line(const char *line, Options *options, Message message);
 
+/* Sets options to the defaults, changed by the command line of the page.
+ * Returns OK or INVALID_INPUT.  A test checks that all pages return OK. */
+Status lecture_make_options(const struct LecturePage *page, Options *options,
+                            Message message);
+
 /* Sets an option that has a value.  An option that the scene cannot use, or
  * that does not fit the others, is refused with a message as above.
  *   text   in, value as on the command line; "": take `value`

@@ -5,7 +5,6 @@
  * session for its claim in tests/data/claims.txt. */
 #pragma once
 
-#include "simulation/message.h"
 #include "simulation/options.h"
 
 /* Length of line_highlight: lines 1 to 8 of Algorithm 3; [0] is unused. */
@@ -65,16 +64,10 @@ int lecture_count_pages(void);
 /* Returns the page with this name, or this number from 1; NULL: none. */
 const LecturePage *lecture_find_page(const char *text);
 
-/* Whether the page asks for a click on the picture.  page may be NULL. */
+/* Whether the page asks for a click on the picture, or for a number.  page may
+ * be NULL. */
 bool page_wants_click(const LecturePage *page);
 bool page_wants_number(const LecturePage *page);
 
 /* Sets options->page, and the options that a page has beside its line. */
 void lecture_apply_page(const LecturePage *page, Options *options);
-
-/* ---- command_line.c ----------------------------------------------------- */
-
-/* Sets options to the defaults, changed by the command line of the page.
- * Returns OK or INVALID_INPUT.  A test checks that all pages return OK. */
-Status lecture_make_options(const LecturePage *page, Options *options,
-                            Message message);

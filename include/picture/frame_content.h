@@ -95,7 +95,7 @@ typedef struct History {
 void history_add_point(History *history, double time, int rows,
                        const Energy *row);
 
-/* NewtonTrace of a descent's last update. */
+/* Trace of a descent's last update. */
 typedef struct DescentTrace {
     NewtonTrace trace;
     const Simulation *simulation;

@@ -113,6 +113,20 @@ int find_newest_spring(const Simulation *simulation);
 /* Returns the box inside a card, below the title; em in pixels. */
 Box card_inner_box(Box card, double em);
 
+/* Writes all lines with known values into a card, as large as they fit: up to
+ * the size of plain text, on a page up to 1.2, in its main card 1.6 times. */
+void card_write_text(const Plot *card, const LiveValues *values,
+                     const char *text);
+
+/* Writes a line behind the one before, or in a new row if the card is too
+ * narrow.  Returns the height of all rows, pixels.
+ *   at    [2] in/out, pixels from the card's corner to the next line; at first
+ *         0, 0
+ *   gap   ems between two lines
+ *   draw  false: the line is only measured */
+int card_write_lines(const Plot *card, int at[2], double size, double gap,
+                     const TextLine *line, bool draw);
+
 /* Writes the first known line of a text in the middle of an empty card. */
 void card_write_hint(const Plot *card, const char *text);
 

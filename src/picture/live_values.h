@@ -53,19 +53,3 @@ bool text_next_line(TextLine *line);
 TextLine text_first_line(const LiveValues *values, const char *text);
 /* Whether a text has a line with known values. */
 bool text_has_known_line(const LiveValues *values, const char *text);
-
-/* ---- texts in a card (words.c) ------------------------------------------- */
-
-/* Writes all lines with known values into a card, as large as they fit: up to
- * the size of plain text, on a page up to 1.2, in its main card 1.6 times. */
-void card_write_text(const Plot *card, const LiveValues *values,
-                     const char *text);
-
-/* Writes a line behind the one before, or in a new row if the card is too
- * narrow.  Returns the height of all rows, pixels.
- *   at    [2] in/out, pixels from the card's corner to the next line; at first
- *         0, 0
- *   gap   ems between two lines
- *   draw  false: the line is only measured */
-int card_write_lines(const Plot *card, int at[2], double size, double gap,
-                     const TextLine *line, bool draw);

@@ -98,14 +98,15 @@ Status obey_escape(Player *player, const Command *command)
 
 Status obey_move_camera(Player *player, const Command *command)
 {
-    const Paper *paper = player_prepare_paper(player);
     const FrameContent *content = &player->screen.frame.content;
     Lens *lens = &player->screen.view.lens;
     if (command->kind == COMMAND_FIT) {
         *lens = LENS_FITS;
         lens->shows_all = true;
+        return STATUS_OK;
     }
-    if (command->kind == COMMAND_FIT || !paper)
+    const Paper *paper = player_prepare_paper(player);
+    if (!paper)
         return STATUS_OK;
     player_build_frame(player);
     Layout layout =

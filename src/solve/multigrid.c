@@ -168,7 +168,7 @@ static Status multigrid_copy_problem(Newton *newton)
 /* ---- search direction ---- */
 
 /* Chooses the clamped or the exact Hessian for the next directions. */
-static void multigrid_clamp_hessian(Multigrid *mg, bool is_clamped)
+static void multigrid_choose_hessian(Multigrid *mg, bool is_clamped)
 {
     if (mg->cycle.is_clamped != is_clamped)
         mg->moved_since_setup = INFINITY;
@@ -269,7 +269,7 @@ static Status multigrid_find_step_length(Newton *newton)
     const double last_slope = mg->line_E.q[0] * mg->grid.energy_unit;
     multigrid_search_line(newton, last_size, last_slope);
     if (!(record->alpha > 0) && !mg->cycle.is_clamped) {
-        multigrid_clamp_hessian(mg, true);
+        multigrid_choose_hessian(mg, true);
         multigrid_compute_direction(newton);
         multigrid_search_line(newton, last_size, last_slope);
     }
@@ -298,7 +298,7 @@ static Status multigrid_update_iterate(Newton *newton)
     if (newton->passes_test)
         return STATUS_OK;
     const bool is_poor = mg->p_bound > STALLS * mg->last_p_bound;
-    multigrid_clamp_hessian(
+    multigrid_choose_hessian(
         mg, is_poor || (mg->cycle.is_clamped && mg->direction_cycles > 1));
     mg->has_relaxed = is_poor && record->iteration >= mg->tiles_rest_until &&
                       record->residual > SMALL_P * newton->tolerance;
