@@ -12,7 +12,7 @@ enum {
     CELL_PAUSE_FRAMES = 24 /* frames between two steps in scenes without time */
 };
 
-/* s, computing time in a frame for the steps of all scenes together */
+/* s, computing time in a frame of the window for the steps of all scenes */
 static const double STEP_TIME = 0.008;
 
 /* The first cell shows the tour's pages in turn, each other cell a scene. */
@@ -77,10 +77,13 @@ static void begin_scene_of_cell(Sheet *sheet, int i)
 void sheet_advance_cells(Player *player)
 {
     Sheet *sheet = player->screen.sheet;
+    bool limited = player->screen.window;
     double begin = clock_now();
     if (!sheet)
         return;
-    for (int i = 0; i < sheet->cells && clock_now() - begin < STEP_TIME; i++) {
+    for (int i = 0; i < sheet->cells; i++) {
+        if (limited && clock_now() - begin > STEP_TIME)
+            break;
         int cell = sheet->next_cell, age = sheet->turns[cell]++;
         Simulation *simulation = &sheet->simulation[cell];
         if (age % CELL_LIFE_FRAMES == 0)

@@ -590,6 +590,7 @@ static void add_changed_facts_to_record(const char *line)
 {
     static char before[sizeof facts], head[160];
     const Energies now = simulation_get_energies(player_simulation(&player), 0);
+    const bool must_redraw = player.screen.must_redraw;
     memcpy(before, facts, sizeof before);
     player_build_frame(&player);
     const LiveValues *values = &active_pane(content)->values;
@@ -600,6 +601,8 @@ static void add_changed_facts_to_record(const char *line)
         for (char *at = facts; (at = strchr(at, '\t'));)
             memset(at, '.', strcspn(at, "\n"));
     add_fact("values %d", values->count); /* a value may have vanished */
+    add_fact(must_redraw ? "must be redrawn" : "stays as it is drawn");
+    player.screen.must_redraw = false;
     for (int i = 0; i < values->count; i++) {
         const LiveValue *entry = &values->value[i];
         if (entry->text)
@@ -669,8 +672,31 @@ static int write_shape_ink(const Layout *layout, char *out)
                         active_picture(content)->cards[c]->name, at);
     if (layout->has_list)
         at += write_ink(&paper->canvas, layout->column, "list", at);
+    for (int i = 0; i < layout->cells; i++)
+        at += write_ink(&paper->canvas, layout->cell[i], "cell", at);
     player.screen.must_redraw = true;
     return (int)(at - out);
+}
+
+/* Writes what the mouse hits in each of 144 parts of the window: zone and index
+ * of the part, and of the scene's part kind and index, or the list's row. */
+static void write_hits(const Layout *layout, char *out)
+{
+    enum { COLUMNS = 16, ROWS = 9 };
+    const Canvas *canvas = &player.screen.paper.canvas;
+    for (int i = 0; i < COLUMNS * ROWS; i++) {
+        const double x = canvas->width * (i % COLUMNS + 0.5) / COLUMNS;
+        const double y = canvas->height * (i / COLUMNS + 0.5) / ROWS;
+        const WindowHit hit = layout_find_hit(layout, x, y);
+        const Pick pick = frame_find_pick(content, layout, x, y);
+        const int row = frame_find_row(content, layout, x, y);
+        out += sprintf(out, i % COLUMNS ? " " : "| hits %d: ", i / COLUMNS);
+        out += sprintf(out, "%c%d", 'a' + hit.zone, hit.index);
+        if (pick.kind != PICK_NONE || row >= 0)
+            out += sprintf(out, "%c%d", 'a' + pick.kind,
+                           row < 0 ? pick.index : row);
+        out += sprintf(out, i % COLUMNS == COLUMNS - 1 ? "\n" : "");
+    }
 }
 
 /* Adds the shapes and texts of the window that are new to the record: places,
@@ -703,7 +729,8 @@ static void add_window_to_record(const char *unused)
         count++;
     }
     now += sprintf(now, "%d | texts\n", count);
-    write_shape_ink(&layout, now);
+    now += write_shape_ink(&layout, now);
+    write_hits(&layout, now);
     add_new_lines(before, recorded_texts);
 }
 
@@ -1129,7 +1156,10 @@ static void run_session_line(const char *line)
         run_until_rest();
     else if (strcmp(verb, "go") == 0)
         for (long left = atol(rest); left > 0; left--)
-            show_refusal(player_make_step(&player));
+            if (player.screen.sheet)
+                sheet_advance_cells(&player);
+            else
+                show_refusal(player_make_step(&player));
     else if (strcmp(verb, "half") == 0)
         stop_within_step();
     else if (strcmp(verb, "whole") == 0)

@@ -148,49 +148,6 @@ enum { ENERGY_CARD = 4 };
 
 #define ALL_ENERGIES " --segments 6 --yield 0.05 --tear 0.5 --damping 0.01"
 
-/* Cells below five pixels are filled faces with a blue outline; folded cells
- * are dark and above the others. */
-TEST(fine_squares_are_faces)
-{
-    begin_show("square --segments 90 --turn 17 --stretch 1.3", 0);
-    set_paper_size(400, 400);
-    content.is_bare = true;
-    draw_picture();
-    int white = 0, covered = 0, blue = 0;
-    for (int j = 0; j < 400; j++) {
-        int left = 0, right = 399;
-        while (left < 400 && get_pixel(left, j) == COLOUR_WHITE)
-            left++;
-        while (right > left && get_pixel(right, j) == COLOUR_WHITE)
-            right--;
-        for (int i = left; i < right; i++) {
-            white += get_pixel(i, j) == COLOUR_WHITE;
-            blue += (get_pixel(i, j) >> 16 & 255) < 150;
-        }
-        covered += right > left ? right - left + 1 : 0;
-    }
-    double width =
-        400 / 1.75; /* width of the square; the outline adds a pixel */
-    CHECK(white == 0 && blue > 3 * width);
-    CHECK_NEAR(covered, width * width / 1.3, 8 * width);
-    CHECK(count_stage_pixels(COLOUR_FOLDED) == 0);
-    double *x = simulation.run[0].x;
-    int row = 91, middle = 45 * row + 45;
-    for (int k = 0; k < 2; k++) { /* two nodes are exchanged */
-        double kept = x[2 * middle + k];
-        x[2 * middle + k] = x[2 * (middle + 3 * row) + k];
-        x[2 * (middle + 3 * row) + k] = kept;
-    }
-    draw_picture();
-    int dark = count_stage_pixels(COLOUR_FOLDED);
-    CHECK(dark > 10 && dark < 400);
-    content.shows_strain = true;
-    draw_picture();
-    CHECK(count_stage_pixels(COLOUR_FOLDED) == dark);
-    Colour stretched = get_pixel(200, 150);
-    CHECK((stretched >> 16 & 255) > (stretched & 255));
-}
-
 /* The view follows finite positions; else words say why a picture is empty. */
 TEST(distant_nodes_are_drawn_or_reported)
 {
