@@ -657,7 +657,7 @@ static int write_shape_ink(const Layout *layout, char *out)
     paper->text = NULL;
     player_paint_frame(&player, paper);
     paper->text = text;
-    for (int i = 0; i < STAGE_PARTS * STAGE_PARTS; i++) {
+    for (int i = 0; !layout->cells && i < STAGE_PARTS * STAGE_PARTS; i++) {
         const int column = i % STAGE_PARTS, row = i / STAGE_PARTS;
         const int left = stage.width * column / STAGE_PARTS;
         const int top = stage.height * row / STAGE_PARTS;
@@ -673,7 +673,8 @@ static int write_shape_ink(const Layout *layout, char *out)
     if (layout->has_list)
         at += write_ink(&paper->canvas, layout->column, "list", at);
     for (int i = 0; i < layout->cells; i++)
-        at += write_ink(&paper->canvas, layout->cell[i], "cell", at);
+        if (strcmp(content->sheet.cell[i].name, "race") != 0) /* run times */
+            at += write_ink(&paper->canvas, layout->cell[i], "cell", at);
     player.screen.must_redraw = true;
     return (int)(at - out);
 }
