@@ -224,19 +224,19 @@ Pick frame_find_pick(const FrameContent *content, const Layout *layout,
 
 enum { LABEL_LINE_SIZE = 4 * VALUE_SIZE };
 
-/* Copies the first parts of a label, separated by ", ", that fit into a line
- * [LABEL_LINE_SIZE].  Returns the rest of the label. */
+/* Copies the first parts of a label that fit into a line [LABEL_LINE_SIZE].
+ * A comma or semicolon ends a part.  Returns the rest of the label. */
 static const char *cut_label_line(const Plot *stage, const char *label,
                                   char *line)
 {
     int room = (int)(stage->box.width - stage->em);
-    char *comma;
+    char *end;
     snprintf(line, LABEL_LINE_SIZE, "%s", label);
     while (paper_measure(stage->paper, FACE_BOLD, 1, line) > room &&
-           (comma = strrchr(line, ',')))
-        *comma = '\0';
+           ((end = strrchr(line, ';')) || (end = strrchr(line, ','))))
+        *end = '\0';
     label += strlen(line);
-    return label + strspn(label, ", ");
+    return label + strspn(label, ",; ");
 }
 
 /* Whether the picture has a scale; low panes only have room for their label. */

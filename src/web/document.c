@@ -399,7 +399,7 @@ void document_write_contents(char *text)
     text[0] = '\0';
     for (const LecturePage *page = lecture_pages; page->name; page++)
         print(to, "pages\t--lecture+%s\t%s\n", page->name, page->topic);
-    for (const Scene *scene = scenes; scene->name; scene++)
+    for (const Scene *scene = scenes; scene->name && !scene->is_hidden; scene++)
         print(to, "scenes\t%s\t%s: %s\n", scene->name, scene->name,
               scene->sentence);
     for (int kind = 1; kind < COMMAND_KINDS; kind++)

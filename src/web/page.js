@@ -29,7 +29,7 @@ const pixels = (length) => Math.max(1, Math.round(length * devicePixelRatio));
 const Page = {
   width: () => pixels(canvas.clientWidth),
   height: () => pixels(canvas.clientHeight),
-  letter: () => (sheet ? 26 : pixels(bare ? 10 : 12)),
+  letter: () => (sheet ? 26 : pixels(parseFloat(getComputedStyle(canvas).fontSize))),
   hasDocument: () => !bare,
   // Shows pixels at an address of the heap: the picture (card -1) or a card.
   show(heap, at, width, height, card) {

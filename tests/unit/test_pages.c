@@ -419,4 +419,23 @@ TEST(scenes_keep_their_words_in_place)
     }
 }
 
+/* A long label of a pane on a phone is broken between its parts. */
+TEST(labels_of_narrow_panes_are_not_cut)
+{
+    Paper paper;
+    FrameContent content;
+    CHECK_OK(paper_create(360, 300, &paper));
+    frame_create(simulate("square"), &content);
+    content.is_stage_only = true;
+    content.min_em = 12;
+    content.panes = 2;
+    content.pane[1] = content.pane[0];
+    content.pane[0].label =
+        "symplectic Euler, ended at step 11; picture of step 6";
+    inspect_frame(&content, &paper);
+    paper_free(&paper);
+    free_simulations();
+    assert_int_equal(seen.cut_texts, 0);
+}
+
 TESTS(NULL, NULL)

@@ -144,10 +144,6 @@ TEST(every_size_is_drawn)
 
 /* ---- what is seen -------------------------------------------------------- */
 
-enum { ENERGY_CARD = 4 };
-
-#define ALL_ENERGIES " --segments 6 --yield 0.05 --tear 0.5 --damping 0.01"
-
 /* The view follows finite positions; else words say why a picture is empty. */
 TEST(distant_nodes_are_drawn_or_reported)
 {
@@ -358,59 +354,6 @@ TEST(maps_of_inertia_label_their_contours)
                 (get_pixel((int)at[0], (int)at[1] + darkest) & 255))
                 darkest = i;
         CHECK_AT_MOST(abs(darkest), 1);
-    }
-}
-
-/* The plot of energies is at least 2.5 ems high and has two numbers of y: in
- * low windows, in large type, with ten energies, with six panes. */
-TEST(the_plot_of_energies_stays_high)
-{
-    static const struct {
-        const char *line;
-        int panes, wide, high;
-    } rows[] = {{"square", 1, 900, 600},
-                {"squeeze" ALL_ENERGIES, 1, 900, 600},
-                {"squeeze" ALL_ENERGIES, 1, 1366, 768},
-                {"squeeze --big" ALL_ENERGIES, 1, 1366, 768},
-                {"square", 6, 900, 600}};
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        begin_show(rows[i].line, 8);
-        for (int s = 0; s < history.series; s++)
-            history.value[s][4] = -1000 * s; /* no curve hides another */
-        content.settings.count = 12;
-        for (int k = 0; k < 12; k++)
-            content.settings.item[k] =
-                (Setting){.name = "k", .min_letters = 16};
-        content.panes = rows[i].panes;
-        for (int k = 1; k < content.panes; k++)
-            content.pane[k] = content.pane[0];
-        for (int k = 0; k < content.panes; k++)
-            content.pane[k].label = "turned by 30 \u00b0, h 0.02 s";
-        content.cards.closed_cards &= ~(1u << ENERGY_CARD);
-        content.cards.enlarged = strstr(rows[i].line, "big") ? ENERGY_CARD : -1;
-        set_paper_size(rows[i].wide, rows[i].high);
-        text_count = 0;
-        draw_picture();
-        const Box card = layout.card[ENERGY_CARD];
-        double legend = 0, below = 0;
-        int numbers = 0;
-        for (int k = 0; k < text_count && k < 500; k++) {
-            const char *text = texts[k];
-            if (!box_contains(card, text_left[k], text_top[k]) ||
-                text_top[k] < card.y + 1.5 * paper.em)
-                continue;
-            if (strcmp(text, "t in s") == 0)
-                below = text_top[k];
-            else if (strchr("+tkecgpdfw", text[0]) || strstr(text, " J"))
-                legend = fmax(legend, text_top[k]);
-            else
-                numbers += text_left[k] < card.x + 5 * paper.em &&
-                           strcmp(text, "0") != 0;
-        }
-        /* a row of the legend, and the air above and below the plot */
-        CHECK_AT_MOST((1.275 + 0.5 + 0.25 + 2.5) * paper.em - 3,
-                      below - legend);
-        CHECK(legend > 0 && numbers > 0);
     }
 }
 

@@ -49,6 +49,7 @@ const CUT = `(() => {
   }
   for (const graph of document.querySelectorAll('#graphs [open] canvas'))
     if (graph.clientHeight < 60) wrong.push(graph.ariaLabel + ' is ' + graph.clientHeight + ' high');
+  if (Page.letter() < 0.7 * parseFloat(getComputedStyle($('words')).fontSize)) wrong.push('letters of graphs');
   const [bar, last] = [$('bar'), $('after')].map((element) => element.getBoundingClientRect());
   if (last.bottom > bar.bottom + 1) wrong.push('a button is cut');
   const ask = document.querySelector('#ask p');
@@ -188,12 +189,6 @@ const tourByKeys = async (browser) => {
     'canvas play step all after answer show segments timestep more pages scenes keys print';
   for (const id of all.split(' ')) if (!reached.has(id)) wrong.push(`Tab does not reach ${id}`);
   await tab.run(`canvas.focus()`);
-  for (const key of ['7', '2', 'Enter']) await tab.key(key);
-  await tab.until(`field('verdict')`, 20000).catch(() => wrong.push('digits are no answer'));
-  if (!/72 is right/.test(await tab.run(`$('verdict').textContent`)))
-    wrong.push('72 is not judged');
-  if ((await tab.run('document.activeElement.id')) !== 'look') wrong.push('the focus is lost');
-  await tab.run(`canvas.focus()`);
   for (const key of ['q', 'Escape', 'Escape']) await tab.key(key);
   const frames = await tab.run('stats.frames');
   await tab.key('n');
@@ -201,6 +196,39 @@ const tourByKeys = async (browser) => {
     .until(`stats.frames > ${frames}`, 20000)
     .catch(() => wrong.push('q or Escape ends the page'));
   verdict('keys_and_a_readers_tree_lead_through_the_tour', [...wrong, ...tab.trouble]);
+  await tab.close();
+};
+
+// Each page that asks for a number or place judges a wrong guess, and then the right
+// one, which the verdict or the moved point tells.  A digit in the canvas begins a guess.
+const answers = async (browser) => {
+  const tab = await browser.open(at(''));
+  const wrong = [];
+  let judged = 0;
+  for (const name of PAGES) {
+    let guess = ['12345', '12345'];
+    for (const expected of [/It is|off\.$/, /right\.$/]) {
+      await turnTo(tab, 'square');
+      await turnTo(tab, name);
+      const kind = await tab.run(`field('asks')`);
+      if (kind === 'words') break;
+      await tab.run(kind === 'number' ? 'canvas.focus()' : `$('answer').focus()`);
+      for (const sign of guess[0]) await tab.key(sign);
+      await tab.run(`$('answer2').value = '${guess[1]}'`);
+      await tab.key('Enter');
+      await tab.until(`$('verdict').textContent && (${kind === 'number'} || field('step') > 0)`);
+      const told = await tab.run(`$('verdict').textContent`);
+      if (!expected.test(told)) wrong.push(`${name}: ${told}`);
+      if ((await tab.run('document.activeElement.id')) !== 'look') wrong.push('the focus is lost');
+      guess =
+        told.match(/(?<=It is )[\d.]+(?=\.)/) ??
+        (await tab.run(`now.point?.[${name === 'newton' ? 1 : 0}].slice(1)`)) ??
+        guess;
+      judged++;
+    }
+  }
+  if (judged !== 26) wrong.push(`${judged} guesses`);
+  verdict('each_page_judges_a_wrong_and_a_right_guess', [...wrong, ...tab.trouble]);
   await tab.close();
 };
 
@@ -389,7 +417,7 @@ const inFirefox = async () => {
 
 finish(async () => {
   const only = process.env.ONLY;
-  const checks = { sizes, tourByKeys, keysOfBrowser, history, frames, print, serious };
+  const checks = { sizes, tourByKeys, answers, keysOfBrowser, history, frames, print, serious };
   if (!only || only === 'firefox') await inFirefox();
   const browser = await launch();
   try {
