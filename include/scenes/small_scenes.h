@@ -90,9 +90,6 @@ Status step_descent(Simulation *simulation);
 /* Computes the direction at the present iterate with the present options. */
 void descent_update_direction(Simulation *simulation);
 
-/* Begins the search again at the present iterate. */
-void descent_restart(Simulation *simulation);
-
 /* Returns E or f at (x, y), of the parts that are switched on. */
 LocalModel descent_evaluate(const Simulation *simulation, Projection projection,
                             double x, double y);

@@ -264,13 +264,6 @@ Status step_descent(Simulation *simulation)
     return simulation->is_over ? record.status : STATUS_OK;
 }
 
-void descent_restart(Simulation *simulation)
-{
-    simulation->descent.count = 0;
-    simulation->steps = simulation->unconverged_steps = 0;
-    descent_update_direction(simulation);
-}
-
 /* ---- the scenes ---------------------------------------------------------- */
 
 /* Creates the system and begins the search at the start of the options.  With

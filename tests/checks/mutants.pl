@@ -19,8 +19,9 @@
 # order of arguments or constant, a statement or a reset that is dropped.  One
 # seed draws the same ones as long as the sources stay.  A fault that the
 # compiler notices, or that leaves the same machine code, is drawn again.  Only
-# the tests that run the line are tried, the quickest first; a line that none of
-# them runs has a survivor.  build/coverage keeps which tests run which line.
+# the tests that run the line are tried, the quickest first, and after them the
+# same suites with sanitizers; a line that no test runs has a survivor.
+# build/coverage keeps which tests run which line.
 # Survivors need a reader: some of them change nothing that anybody could notice.
 use strict;
 use warnings;
@@ -187,13 +188,16 @@ sub lines_of {
     return @lines;
 }
 
+# The folder in which make builds the tests now, and how it is called.
+our ($folder, $make) = ('build/release', 'make -s');
+
 # ---- what each test runs -------------------------------------------------------------
 # Runs a check, a suite, or one test of a suite ("SUITE NAME"); returns true if
 # it passed.
 sub passes {
     my ($test, $settings) = @_;
     my ($suite, $name) = split(/ /, $test, 2);
-    my $run = $suite =~ /\.sh$/ ? "sh tests/checks/$suite" : "build/release/tests/unit/$suite";
+    my $run = $suite =~ /\.sh$/ ? "sh tests/checks/$suite" : "$folder/tests/unit/$suite";
     $run .= " '" . $name =~ s/'/'\\''/gr . "'" if defined $name;
     return system("ulimit -c 0; $settings " .
         "exec timeout -k 5 3600 $run >log 2>&1 </dev/null") == 0;
@@ -204,8 +208,8 @@ sub build {
     my ($settings, @tests) = @_;
     my %suites = map { s/ .*//r => 1 } grep !/^check/, @tests;
     my @programs = grep(/^check|widths/, @tests) ? qw(build/elasto build/lecture) : ();
-    return system("make -s $settings " . join(' ', @programs,
-        map { "build/release/tests/unit/$_" } sort keys %suites) . ' >log 2>&1') == 0;
+    return system("$make $settings " . join(' ', @programs,
+        map { "$folder/tests/unit/$_" } sort keys %suites) . ' >log 2>&1') == 0;
 }
 
 # The checks, the suites, and the single tests of slow suites, with their run times
@@ -275,7 +279,7 @@ sub tests_of {
 # ---- one fault after the other -----------------------------------------------------
 # Returns the first test that fails, or nothing. A check may fail by chance
 # once.
-my $quick = 'ulimit -S -t 60; CMOCKA_TEST_ABORT=1';
+our $quick = 'ulimit -S -t 60; CMOCKA_TEST_ABORT=1';
 sub killer {
     my %built;
     for my $test (@_) {
@@ -290,9 +294,9 @@ my %right; # tests that found a fault, and pass without it
 # Returns the killer of a fault, '' for none; undef: the code is unchanged.
 sub try_fault {
     my ($file, $begin, $length, $new, @tests) = @_;
-    my ($object) = $file =~ m{^src/(.*)\.c$} ? "build/release/$1.o" : 'none';
+    my ($object) = $file =~ m{^src/(.*)\.c$} ? "$folder/$1.o" : 'none';
     my @again = $object =~ s{/\w+/(?=\w+\.o)}{/narrow/}r; # suites link this object, too
-    @again = glob('build/release/tests/unit/test_reference{,.o}') if $file eq 'src/lecture.c';
+    @again = glob("$folder/tests/unit/test_reference{,.o}") if $file eq 'src/lecture.c';
     my $text = read_file($file);
     my $wrong = $text;
     substr($wrong, $begin, $length) = $new;
@@ -300,7 +304,7 @@ sub try_fault {
     write_file($file, $wrong);
     unlink @again;
     utime undef, undef, $file if $object eq 'none'; # others include it
-    my $fault = $object eq 'none' || (system("make -s $object >log 2>&1") == 0 &&
+    my $fault = $object eq 'none' || (system("$make $object >log 2>&1") == 0 &&
         read_file('log') !~ /warning:/ &&
         system("strip -g -o a object && strip -g -o b $object && cmp -s a b") != 0);
     my $found = $fault ? killer(@tests) : undef;
@@ -309,11 +313,21 @@ sub try_fault {
     unlink @again;
     rename 'object', $object;
     utime undef, undef, $object; # what was linked with the fault is older
-    unlink 'build/release/libelasto.a', 'build/release/lecture';
-    if ($found && $found ne 'make' && !$right{$found}++) {
+    unlink "$folder/libelasto.a", "$folder/lecture";
+    if ($found && $found ne 'make' && !$right{"$folder $found"}++) {
         build('', $found) && passes($found, $quick) or die "$found fails without a fault\n", `tail -n 20 log`;
     }
     return $found;
+}
+
+# Returns the killer of a fault among the suites with sanitizers, which are slow.
+sub try_with_sanitizers {
+    my ($fault, @tests) = @_;
+    local ($folder, $make, $quick) = ('build/sanitize-address-undefined',
+        'make -s SANITIZE=address,undefined', 'ulimit -S -t 600; CMOCKA_TEST_ABORT=1');
+    -e $folder or build('', grep !/^check/, @suites) or die read_file('log');
+    my $found = try_fault(@$fault, grep !/^check/, @tests);
+    return $found ? "$found with sanitizers" : '';
 }
 
 my ($how, $seed, $count, @rooms) = @ARGV ? @ARGV : '';
@@ -350,8 +364,10 @@ if ($how eq '--random') {
     while ($count > 0) {
         my ($file, $number, $at, $kinds) = @{ $lines[rand @lines] };
         my ($kind, $column, $length, $new) = @{ $kinds->[rand @$kinds] };
-        my $killer = try_fault($file, $at + $column, $length, $new,
-                               tests_of($file, $number, $text{$file})) // next;
+        my @fault = ($file, $at + $column, $length, $new);
+        my @tests = tests_of($file, $number, $text{$file});
+        my $killer = try_fault(@fault, @tests) // next;
+        $killer = try_with_sanitizers(\@fault, @tests) if $killer eq '';
         my $old = substr($text{$file}, $at + $column, $length);
         report($file, $killer, "$file:$number $kind: $old -> $new");
         $count--;

@@ -191,10 +191,8 @@ static void begin_session(const char *line)
 /* Shows the message of a refused command as a note. */
 static void show_refusal(Status status)
 {
-    CHECK(!status || status == STATUS_INVALID_INPUT ||
-          status_is_unconverged(status));
-    if (status == STATUS_INVALID_INPUT)
-        snprintf(player.note, sizeof player.note, "%.150s", player.message);
+    status = player_show_refusal(&player, status);
+    CHECK(!status || status_is_unconverged(status));
 }
 
 static void send_input(Input input)
@@ -561,6 +559,25 @@ static void collect_window_facts(void)
     add_facts_of_parts();
 }
 
+/* ---- counters of Newton's method ------------------------------------- */
+
+static const struct {
+    const char *name;
+    size_t place;
+} counters[] = {{"all updates", offsetof(NewtonCounters, updates)},
+                {"all factors", offsetof(NewtonCounters, factorisations)},
+                {"all solves", offsetof(NewtonCounters, solves)},
+                {"all cycles", offsetof(NewtonCounters, cycles)},
+                {"all tile sweeps", offsetof(NewtonCounters, tile_sweeps)},
+                {"handed over", offsetof(NewtonCounters, handed_to_newton)}};
+enum { COUNTERS = sizeof counters / sizeof *counters };
+
+static long get_counter(const Simulation *simulation, size_t i)
+{
+    const NewtonCounters sum = simulation_sum_newton_counters(simulation);
+    return *(const long *)((const char *)&sum + counters[i].place);
+}
+
 /* ---- records ------------------------------------------------------------- */
 
 static char record[1 << 20];         /* lines, and facts they changed */
@@ -589,7 +606,8 @@ static void add_new_lines(const char *before, const char *now)
 static void add_changed_facts_to_record(const char *line)
 {
     static char before[sizeof facts], head[160];
-    const Energies now = simulation_get_energies(player_simulation(&player), 0);
+    const Simulation *simulation = player_simulation(&player);
+    const Energies now = simulation_get_energies(simulation, 0);
     const bool must_redraw = player.screen.must_redraw;
     memcpy(before, facts, sizeof before);
     player_build_frame(&player);
@@ -600,6 +618,12 @@ static void add_changed_facts_to_record(const char *line)
     if (content->lecture.page)
         for (char *at = facts; (at = strchr(at, '\t'));)
             memset(at, '.', strcspn(at, "\n"));
+    for (size_t i = 0; i < COUNTERS; i++)
+        add_fact("%s %ld", counters[i].name, get_counter(simulation, i));
+    for (int i = 0; i < STATUS_COUNT; i++)
+        if (simulation->status_counts[i] > 0)
+            add_fact("steps with status %d: %d", i,
+                     simulation->status_counts[i]);
     add_fact("values %d", values->count); /* a value may have vanished */
     add_fact(must_redraw ? "must be redrawn" : "stays as it is drawn");
     player.screen.must_redraw = false;
@@ -1011,16 +1035,6 @@ static double count_unconverged_steps(const Simulation *simulation)
 /* Counters of all steps of the run */
 static const struct {
     const char *name;
-    size_t place;
-} counters[] = {{"all updates", offsetof(NewtonCounters, updates)},
-                {"all factors", offsetof(NewtonCounters, factorisations)},
-                {"all solves", offsetof(NewtonCounters, solves)},
-                {"all cycles", offsetof(NewtonCounters, cycles)},
-                {"all tile sweeps", offsetof(NewtonCounters, tile_sweeps)},
-                {"handed over", offsetof(NewtonCounters, handed_to_newton)}};
-
-static const struct {
-    const char *name;
     double (*find)(const Simulation *simulation);
 } numbers[] = {{"records", count_newton_records},
                {"rises", count_energy_rises},
@@ -1058,11 +1072,9 @@ static double find_value_by_name(const char *name)
     for (size_t n = 0; n < sizeof numbers / sizeof *numbers; n++)
         if (strcmp(numbers[n].name, name) == 0)
             return numbers[n].find(simulation);
-    const NewtonCounters did = simulation_sum_newton_counters(simulation);
-    for (size_t n = 0; n < sizeof counters / sizeof *counters; n++)
+    for (size_t n = 0; n < COUNTERS; n++)
         if (strcmp(counters[n].name, name) == 0)
-            return (double)*(const long *)((const char *)&did +
-                                           counters[n].place);
+            return (double)get_counter(simulation, n);
     if (strncmp(name, "gap", 3) == 0) {
         const TimeIntegrator *run = &simulation->run[atoi(name + 3)];
         return find_smallest_gap(run->system, run->x);
