@@ -50,14 +50,14 @@ static void *allocate(int count, size_t size)
 
 /* ==== Mass-spring representation of solids (square_mesh.py) =============== */
 typedef struct Spring {
-    int i, j;     /* the nodes at its ends */
-    double l2, k; /* m^2, squared rest length; J/m^2, stiffness */
+    int i, j;     /* nodes at the spring's ends */
+    double l2, k; /* squared rest length (m^2), stiffness (J/m^2) */
 } Spring;
 
 typedef struct Solid {
     int nodes, springs;
-    Vec2 *x, *v; /* [nodes] m, positions; m/s, velocities */
-    double *m;   /* [nodes] kg, masses */
+    Vec2 *x, *v; /* [nodes] positions (m), velocities (m/s) */
+    double *m;   /* [nodes] masses (kg) */
     Spring *e;   /* [springs] the slides' edges */
 } Solid;
 
@@ -373,8 +373,8 @@ enum { PIXELS = 600, PICTURES = 100, HEAVY = 1 << 20 };
 typedef struct Screen {
     SDL_Surface *picture; /* drawn on if there is no window, or NULL */
     SDL_Renderer *renderer;
-    double scale, radius; /* pixels in a metre; pixels, radius of a node */
-    Vec2 *x_start, mouse; /* [nodes] m, positions at the beginning; m */
+    double scale, radius; /* pixels in a metre; radius of a node in pixels */
+    Vec2 *x_start, mouse; /* [nodes] positions at the start (m); mouse (m) */
     int pulled;           /* the node that the mouse pulls, or -1 */
     bool paused;
 } Screen;
@@ -534,7 +534,7 @@ static void read_argument(const char *text, Parameter *const *p)
         p++;
     if (!*p)
         FAIL(2, "'%s' is none of " DEFAULTS "\n", text);
-    bool whole = (*p)->max < 1e30; /* other limits are 1e30 */
+    bool whole = (*p)->max < 1e30; /* real numbers have the limit 1e30 */
     if (!(value >= (*p)->min && value <= (*p)->max) || text[end] ||
         (whole && value != floor(value)))
         FAIL(2, "'%s': %s is a %snumber from %g to %g\n", text, name,

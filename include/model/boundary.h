@@ -33,7 +33,7 @@ typedef struct Boundary {
     int *point_node;         /* [nodes] node of each point */
     SweptBox *edge_box;      /* [springs] boxes of the edges, sorted */
     SweptBox *point_box;     /* [nodes] box of each point, by node */
-    unsigned char *triangles_at_spring; /* [springs] number of solid ones */
+    unsigned char *triangles_at_spring; /* [springs] solid triangles */
     unsigned char *node_role; /* [nodes] bits: in a triangle, on an edge */
 
     /* Motion for which the boxes were made: from x by alpha (p - mean). */
@@ -43,7 +43,7 @@ typedef struct Boundary {
     double alpha;      /* the boxes cover the motion alpha p */
     double mean_p[2];  /* m, mean of p over the points; a motion that all points
                           share brings none closer to an edge */
-    double box_margin; /* m, each box is wider by it at all sides */
+    double box_margin; /* each box is wider by this on all sides (m) */
     double widest_edge; /* m, largest extent of an edge's box, coordinate 0 */
     bool sorts_by_y;    /* coordinate 0 of the boxes is y, not x */
     bool has_all_near_edges; /* near_edge had room for all near edges */

@@ -37,7 +37,7 @@ typedef struct Obstacle {
     double v[2];           /* m/s, velocity in the present step */
     double friction;       /* coefficient of friction mu >= 0 */
     int node;              /* node at the centre of the free ball; -1: fixed */
-    double options_o[2];   /* m, `o` in the options; a hand moves only `o` */
+    double options_o[2];   /* o in the options (m), which no hand moves */
 } Obstacle;
 
 /* Width and strength of the barrier. */
@@ -64,7 +64,7 @@ const double *obstacle_get_position(const Obstacle *obstacle, const double *x);
 NodeGap contact_measure_gap(const Obstacle *obstacle, const double *o,
                             const double *x_i, double radius);
 
-/* Returns the force -dW/dd >= 0, N, on the node along n at the gap d > 0, m. */
+/* Returns the force -dW/dd >= 0 (N) on the node along n at the gap d > 0. */
 double contact_normal_force(const Barrier *barrier, double d);
 
 /* Largest number of obstacles that a command line and a scene have together. */
@@ -77,7 +77,7 @@ typedef struct ObstaclePush {
     double target[2];   /* m, target of the obstacle's point o */
     SquareMesh mesh;    /* mesh of the bodies, whose cells no ball may enter */
     bool is_blocked;    /* the obstacle found no room to move in this step */
-    double moving_part; /* part of the step before the obstacle stopped */
+    double moving_part; /* fraction of the step with motion */
 } ObstaclePush;
 
 typedef struct Contact {
@@ -106,7 +106,7 @@ Contact *get_contact(const System *system);
 bool contact_includes_pair(const Contact *contact, const System *system,
                            int node, int obstacle);
 
-/* Returns the radius of a node, m: R for the free ball's node, 0 for others. */
+/* Returns the radius of a node (m): R of the free ball; 0 for others. */
 double contact_node_radius(const Contact *contact, int node);
 
 /* ---- obstacle moved by a hand (push.c) --------------------------------- */
@@ -118,6 +118,6 @@ double contact_node_radius(const Contact *contact, int node);
 void push_begin_step(Contact *contact, const System *system, const double *x,
                      double h);
 
-/* Returns the largest part of a step's way that the held obstacle may move at
- * once: a ball moves at most half its radius, so that it skips no node. */
+/* Returns the largest fraction of a step's way that the held obstacle may move
+ * at once: a ball moves at most half its radius, so that it skips no node. */
 double push_max_step(const Contact *contact, double h);

@@ -14,7 +14,7 @@
 
 #include "model/system.h"
 
-/* Part of a gap or an area that one Newton update may use up. */
+/* Fraction of a gap or an area that one Newton update may use up. */
 #define ELEMENT_LIMIT 0.9
 
 /* An element is a group of one to three nodes with an energy W, such as a
@@ -27,8 +27,8 @@ typedef struct Element {
     int block_index; /* index of its block of the Hessian; -1: none yet */
     int partner; /* obstacle (contact) or spring of the edge (self-contact) */
     int search_cursor; /* > 0: where get_element(i) continues its search */
-    double derivative_factor; /* factor on gradient and Hessian: 1; or
-                      EvalPoint.weight, if the kind's functions lack it */
+    double derivative_factor; /* factor on derivatives: EvalPoint.weight, or 1
+                                 if the kind's functions multiply by weight */
     double v[4];    /* m, the vectors a and b, if the kind uses them */
     double s;       /* argument of W: a gap, a ratio of areas or a slip */
     double n[2], r; /* further numbers, explained at each TermKind */
@@ -98,17 +98,17 @@ struct ElementKind {
                           Projection projection, const double v[4],
                           double Hv[4]);
 
-    /* Returns W((a, b) + alpha P) - W - alpha grad W.P, J, which is computed
+    /* Returns W((a, b) + alpha P) - W - alpha grad W.P in joules, computed
      * without cancellation.  P [4] is the change of (a, b) along p. */
     double (*line_remainder)(const EvalPoint *at, const Element *element,
                              const double P[4], double alpha);
 
-    /* Returns the alpha along P at which s has lost the part ELEMENT_LIMIT of
-     * its value.  NULL: W exists for every s; else s must stay above 0. */
+    /* Returns the alpha along P at which s has shrunk by the fraction
+     * ELEMENT_LIMIT.  NULL: W exists for every s; else s must stay above 0. */
     double (*max_step)(const EvalPoint *at, const Element *element,
                        const double P[4]);
 
-    /* Returns mu times the normal force, N: the largest force of friction.
+    /* Returns mu times the normal force (N), the largest force of friction.
      *   t      [4] out, tangent: the contact slides by t.(da, db)
      *   speed  m/s, out, speed of the obstacle along t
      * NULL: no friction acts on these elements. */

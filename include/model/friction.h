@@ -20,14 +20,14 @@
 
 #include "model/contact.h"
 
-/* Returns f0'(y), without unit.  e > 0, m. */
+/* Returns f0'(y), a number without unit.  e > 0 in metres. */
 double friction_slope(double y, double e);
 
 /* A contact with a normal force in this step. */
 typedef struct SlidingContact {
     Element element; /* element of the contact term, with v = t for its vectors
                         a and b, and r = mu lambda, N */
-    double obstacle_travel; /* m, h t.v_wall: travel of the obstacle along t */
+    double obstacle_travel; /* h t.v_wall (m), travel of the obstacle along t */
 } SlidingContact;
 
 typedef struct Friction {
@@ -43,7 +43,7 @@ typedef struct Friction {
  * Friction. The system must have the term of these contacts. */
 extern const TermKind friction_energy, self_friction_energy;
 
-/* Returns the work that moving obstacles did by friction in this step, J.
+/* Returns the work (J) that moving obstacles did by friction in this step.
  *   u  [2n] m, in, displacement of the step */
 double friction_obstacle_work(const System *system, const double *u);
 

@@ -21,7 +21,7 @@
 typedef struct FlowLaw {
     double ep;            /* plastic strain at the step's start */
     double yield_strain;  /* yield strain Y_n > 0 */
-    double flow_fraction; /* 1/(1 + H), part of strain beyond Y_n that flows */
+    double flow_fraction; /* 1/(1 + H), fraction of (strain - Y_n) that flows */
     double plastic_slope; /* 1 - flow_fraction, slope of V' beyond Y_n */
     double theta;         /* damping eta/h; 0: none */
     double e_n;           /* elastic strain e = E - ep at the step's start */

@@ -41,5 +41,5 @@ Status pull_configure(System *system, const TermKind *kind,
 void hand_begin_step(NodePull *hand, const double *x, const double *v, double m,
                      double h, const double *free);
 
-/* Returns the work of the hand, J, as its node moves from x [2] to y [2], m. */
+/* Returns the hand's work (J) as its node moves from x [2] to y [2] m. */
 double hand_work(const NodePull *hand, const double *x, const double *y);

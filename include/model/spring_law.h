@@ -18,7 +18,7 @@
 
 #include "model/psd.h"
 
-/* Writes d of the nodes e[0] and e[1] at x [2n] m and returns |d|^2, m^2. */
+/* Writes d = x_i - x_j, i = e[0], j = e[1], and returns |d|^2; x [2n] m. */
 static inline double spring_vector(const int e[2], const double *x, double d[2])
 {
     const double *xi = x + 2 * e[0], *xj = x + 2 * e[1];
@@ -33,32 +33,32 @@ static inline double spring_strain(double d2, double l2)
     return d2 / l2 - 1;
 }
 
-/* Returns the energy P, J. */
+/* Returns the energy P (J). */
 static inline double spring_energy(double l2, double k, double s)
 {
     return 0.5 * l2 * k * s * s;
 }
 
-/* Returns 2 k s, J/m^2: the gradient at node i is this times d. */
+/* Returns 2 k s (J/m^2): the gradient at node i is this number times d. */
 static inline double spring_gradient_factor(double k, double s)
 {
     return 2 * k * s;
 }
 
-/* Returns c = 2k/l2, J/m^4. */
+/* Returns c = 2k/l2 (J/m^4). */
 static inline double spring_hessian_factor(double l2, double k)
 {
     return 2 * k / l2;
 }
 
-/* Returns the eigenvalue of H/c for the eigenvector d, m^2: H is the spring's
+/* Returns the eigenvalue of H/c for the eigenvector d (m^2): H is the spring's
  * Hessian, c = spring_hessian_factor and d = x_i - x_j. */
 static inline double spring_eigenvalue_along(double d2, double l2)
 {
     return 3 * d2 - l2;
 }
 
-/* Returns the eigenvalue of H/c across d, m^2. */
+/* Returns the eigenvalue of H/c across d (m^2). */
 static inline double spring_eigenvalue_across(double d2, double l2)
 {
     return d2 - l2;

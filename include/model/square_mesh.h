@@ -17,18 +17,18 @@ enum {
 };
 
 typedef struct SquareMesh {
-    int segments;      /* segments per side of the square; columns of a beam */
-    int rows;          /* rows of cells */
+    int segments;      /* number of segments a side; of columns in a beam */
+    int rows;          /* number of rows of cells */
     int bodies;        /* number of bodies */
     double side;       /* m, width of a body */
     double spacing;    /* m, distance of neighbouring nodes, side/segments */
-    int nodes;         /* n, nodes of all bodies */
-    int springs;       /* springs of all bodies */
-    int cells;         /* cells of all bodies; each has four triangles */
-    int outline_edges; /* outer edges of all bodies */
+    int nodes;         /* n, number of nodes of all bodies */
+    int springs;       /* number of springs of all bodies */
+    int cells;         /* number of cells of all bodies; four triangles each */
+    int outline_edges; /* number of outer edges of all bodies */
 } SquareMesh;
 
-/* Returns twice the signed area of the triangle a b p, m^2: positive if p is
+/* Returns twice the signed area of the triangle a b p (m^2): positive if p is
  * left of the line from a to b. */
 static inline double twice_signed_area(const double *a, const double *b,
                                        const double *p)
@@ -81,9 +81,9 @@ void square_mesh_get_triangle(const SquareMesh *shape, int t, int node[3],
 int square_mesh_find_cell(const SquareMesh *shape, const double *x,
                           const double *at, int cell, int end);
 
-/* Writes the corners of the patch of cells x cells cells whose lower left cell
- * is c; patches at the right and upper side may be smaller.  The patches cover
- * the square once.  Returns whether a patch begins at c.
+/* Writes the corners of the square patch, `cells` cells wide, whose lower left
+ * cell is c; patches at the right and upper side may be smaller.  The patches
+ * cover the square once.  Returns whether a patch begins at c.
  *   node  [4] out, anticlockwise from the lower left */
 bool square_mesh_get_patch(const SquareMesh *shape, int c, int cells,
                            int node[4]);

@@ -31,15 +31,15 @@ struct System {
     double *l2;  /* [springs] m^2, rest length squared, > 0 */
     double *k;   /* [springs] J/m^2, stiffness; 0: broken or without energy */
     double gravity[2];      /* m/s^2, acceleration of every node */
-    int *elimination_order; /* [n] place of each node in the elimination */
+    int *elimination_order; /* [n] position of each node in this order */
     unsigned char *pinned;  /* [n] 1: pinned, 0: free */
     double *pin_v;          /* [2n] m/s, velocity of pinned nodes; NULL: 0 */
-    int segments;     /* segments a side if the system is one square; else 0 */
+    int segments;     /* number of segments a side of one square; else 0 */
     unsigned version; /* rises with every change of numbers or terms */
     unsigned pattern_version; /* rises when the Hessian's pattern changes */
     int terms;                /* number of terms */
     EnergyTerm term[SYSTEM_MAX_TERMS]; /* terms in the order of TermKind.rank */
-    /* Energy lost by column, to a NULL name.  A loss outlives its term. */
+    /* Lost energy by column, up to a NULL name; stays when its term goes. */
     EnergyLoss losses[SYSTEM_MAX_TERMS];
 };
 
@@ -76,7 +76,7 @@ void *system_term_data(const System *system, const TermKind *kind);
 /* Removes the first term of this kind, if there is one, and frees its data. */
 void system_remove_term(System *system, const TermKind *kind);
 
-/* Adds `energy`, J, to the loss of this kind's column of the ledger. */
+/* Adds `energy` (J) to the loss of this kind's column of the ledger. */
 void system_book_loss(System *system, const TermKind *kind, double energy);
 
 /* ---- sums over all terms and nodes (system.c) ---------------------------- */
@@ -94,13 +94,13 @@ double system_max_step(EvalPoint at, const double *p, bool internal);
 bool system_path_is_free(const System *system, const double *x,
                          const double *p);
 
-/* Returns P(x), J, the sum of the terms.  x [2n] m, in. */
+/* Returns P(x) in joules, the sum of the terms.  x [2n] m, in. */
 double system_potential(const System *system, const double *x);
 
 /* Whether gravity is not 0. */
 bool system_has_gravity(const System *system);
 
-/* Returns -sum m g.x, J; 0 if it is only rounding.  x [2n] m, in. */
+/* Returns -sum m g.x in joules, or 0 if only rounding.  x [2n] m, in. */
 double system_gravity_potential(const System *system, const double *x);
 
 /* Sets g to 0 at pinned nodes.  g [2n] in/out. */
@@ -119,7 +119,7 @@ bool system_falls_freely(const System *system);
  *   pivot  out, the pinned node; -1: the centre of mass */
 bool system_turns_freely(const System *system, int *pivot);
 
-/* Returns the kinetic energy sum m |v|^2/2, J.  v [2n] m/s, in. */
+/* Returns the kinetic energy sum m |v|^2/2 in joules.  v [2n] m/s, in. */
 double system_kinetic_energy(const System *system, const double *v);
 
 /* Returns the larger of two numbers; NaN if one of them is NaN. */
@@ -128,7 +128,7 @@ static inline double max_or_nan(double a, double b)
     return b <= a || isnan(a) ? a : b;
 }
 
-/* Returns the largest curvature_bound of all terms, J/m^2. */
+/* Returns the largest curvature_bound of all terms (J/m^2). */
 double system_curvature_bound(const System *system);
 
 /* Returns |g|_(M^-1) = sqrt(sum |g_i|^2/m_i).  g [2n] in. */

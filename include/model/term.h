@@ -80,8 +80,8 @@ struct TermKind {
      * exist at some x (elements_are_feasible). */
     const ElementKind *element;
 
-    /* Returns P(x) >= 0, J, not multiplied by weight.  NULL: the term has no
-     * energy and none of the functions up to line_remainder. */
+    /* Returns P(x) >= 0 in joules, not multiplied by weight.  NULL: the term
+     * has no energy and none of the functions up to line_remainder. */
     double (*value)(const EvalPoint *at);
 
     /* Adds weight grad P(x) to g [2n].  Explicit integrators call it with
@@ -128,8 +128,8 @@ struct TermKind {
      * calls system_mark_changed like begin_step. */
     void (*end_step)(const TermStep *step);
 
-    /* Returns the size of the Hessian at rest, J/m^2, right up to a small
-     * factor: for springs the largest k.  A bound if is_diagonal. */
+    /* Returns about the largest eigenvalue of the Hessian at rest (J/m^2), for
+     * springs the largest k.  If is_diagonal, no eigenvalue is larger. */
     double (*curvature_bound)(const EvalPoint *at);
 
     /* Frees the allocations that data points to, not data itself. */

@@ -36,7 +36,7 @@ typedef enum StepLine {
  * algorithm.  The present update is known from LINE_PROJECT on. */
 typedef struct NewtonTrace {
     StepLine at_line;           /* present line of Algorithm 3 */
-    double h, tolerance;        /* s, m/s, settings of the step */
+    double h, tolerance;        /* time step (s), tolerance (m/s) */
     int records;                /* number of records */
     const NewtonRecord *record; /* [records] records of the iterations */
     int iteration;              /* number of the present update, from 0 */
@@ -44,10 +44,10 @@ typedef struct NewtonTrace {
     const double *p;            /* [2n] m, NULL before LINE_SOLVE */
     double residual;            /* |p|/h, m/s */
     bool has_failed;            /* the step has ended without convergence */
-    double slope;               /* grad E . p, J s^2 */
+    double slope;               /* grad E . p (J s^2) */
     int projected;              /* number of projected blocks; < 0: unknown */
-    const double *x_n;          /* [2n] m, x^n; or NULL */
-    const double *x_tilde;      /* [2n] m, drawn as a ghost; or NULL */
+    const double *x_n;          /* [2n] x^n (m); or NULL */
+    const double *x_tilde; /* [2n] x_tilde (m), drawn as a ghost; or NULL */
     EnergyDifference energy_difference; /* change of E along p; or NULL */
     const void *difference_data; /* first argument of energy_difference */
     double first_alpha;          /* first trial of the line search; 0 means 1 */
@@ -100,7 +100,7 @@ typedef struct DescentTrace {
     NewtonTrace trace;
     const Simulation *simulation;
     double start[2], p[2]; /* m, start and direction of the update */
-    double start_energy;   /* E at `start`, J s^2 */
+    double start_energy;   /* E at `start` (J s^2) */
 } DescentTrace;
 
 /* A simulation that the stage shows. */
@@ -145,7 +145,7 @@ typedef struct DragBounds {
     bool is_dragging; /* during a drag */
     bool has_left;    /* the mouse is outside of the stage: the view may move */
     int pane_index;
-    double bounds[4]; /* left, bottom, right, top, m */
+    double bounds[4]; /* left, bottom, right, top (m) */
 } DragBounds;
 
 /* How the user looks at a frame. */
@@ -232,7 +232,7 @@ typedef struct CardSets {
 /* A row of a list: a key or a number, and what it does. */
 typedef struct ListRow {
     char key[VALUE_SIZE], text[SENTENCE_SIZE];
-    /* grey: a number without effect now, or an extra page */
+    /* ROW_GREY: a number without effect now, or a page that is extra */
     enum { ROW_PLAIN, ROW_GREY, ROW_HEADING } style;
     const char *name; /* page or option that a click opens or adds; or NULL */
 } ListRow;
@@ -259,12 +259,12 @@ typedef struct SheetContent {
 typedef struct LectureContent {
     const LecturePage *page; /* NULL outside of the lecture */
     bool hides_answer;       /* the page waits for the user's guess */
-    const char *question;    /* text: the question, after the answer as it was
-                                asked; NULL: this run asks none */
-    const char *verdict;     /* verdict on the guess at this page, or NULL */
-    int guesses, right_guesses;    /* numbers of guesses and of right guesses */
-    char heading[SENTENCE_SIZE];   /* heading of answers that hold for the
-                                        page's options; "": none is changed */
+    const char *question; /* text of the question, unchanged after the answer;
+                             NULL: this run asks none */
+    const char *verdict;  /* verdict on the guess at this page, or NULL */
+    int guesses, right_guesses;  /* numbers of guesses and of right guesses */
+    char heading[SENTENCE_SIZE]; /* heading above lines that hold for the page's
+                                    own options; "": no option is changed */
     char answer_text[ANSWER_SIZE]; /* text: the answer of the page */
 } LectureContent;
 

@@ -21,7 +21,7 @@ typedef struct CardTableRow {
 /* A box of the column with numbers or a graph about the active pane. */
 typedef struct Card {
     const char *name;  /* name in tables and scripts: "listing" */
-    const char *title; /* text: the first of its lines whose values are known */
+    const char *title; /* text (live_values.h); its first known line is shown */
     double min_height; /* ems */
     /* Returns the minimum height in ems of a card whose content is `wide` ems
      * wide; an em has `em` pixels.  NULL: min_height. */
@@ -31,12 +31,12 @@ typedef struct Card {
     bool fits_half_page;    /* may stand in one half on a page */
     bool starts_closed;     /* shows only its title at first */
     bool needs_line_energy; /* draws E along p (cards_need_line_energy) */
-    /* place as main card: the picture's, below it, or beside it */
+    /* place of a main card: that of the picture, below it, or beside it */
     enum { PLACE_SWAPPED, PLACE_BELOW, PLACE_BESIDE } main_place;
     bool is_only_in_lecture; /* is hidden outside of the lecture */
-    const char *words;       /* text; lines with unknown values are left out */
+    const char *words; /* text (live_values.h); unknown lines are left out */
     const struct ListingRow *listing; /* lines of an algorithm (cards.h) */
-    const char *column_heads; /* text: the heads of the table, with | between */
+    const char *column_heads; /* text: heads of the columns, with | between */
     /* Fills row 1, 2, ... below the heads; returns false after the last row,
      * and for row 0 if the table is empty.  NULL: the card has no table. */
     bool (*make_row)(const FrameContent *content, int row, CardTableRow *cells);
@@ -60,7 +60,7 @@ typedef struct Picture {
     /* Finds the part of the world to show: left, bottom, right, top, m.  The
      * stage has no camera yet.  NULL: default_bounds. */
     void (*find_bounds)(const Plot *stage, double bounds[4]);
-    double default_bounds[4]; /* m, left, bottom, right, top */
+    double default_bounds[4]; /* left, bottom, right, top (m) */
     void (*draw)(Plot *stage);
     /* Adds the live values that the picture's texts use; may be NULL. */
     void (*add_values)(const Simulation *simulation, LiveValues *values);

@@ -18,7 +18,7 @@ const char *pins_parse(const char *text, const SquareMesh *shape,
 /* Returns the table of PINS_WORDS. */
 NameTable pins_get_words(void);
 
-/* Returns what the scene adds to the heights of a run's body and grounds, m. */
+/* Returns the height (m) that a scene adds to a run's body and grounds. */
 double body_find_added_height(const Options *options, int run);
 
 /* Gives gravity, terms and springs of a run the numbers of the present options.

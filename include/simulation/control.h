@@ -8,17 +8,17 @@
 
 /* Decisions of a user about a run.  A control that steps share is constant. */
 typedef struct UserControl {
-    int ref_count; /* reference count; the last user frees the control */
+    int ref_count; /* number of references; without any the control is freed */
     Options options;
     int held_node;          /* node that the mouse holds; -1: none */
     int held_obstacle;      /* obstacle that the mouse holds; -1: none */
-    double target[2];       /* m, place to which the hand pulls or pushes */
+    double target[2];       /* place to which the hand pulls or pushes (m) */
     int nodes;              /* number of nodes */
     unsigned char pinned[]; /* [nodes] 1: pinned, 0: free */
 } UserControl;
 
 /* Return a control for a simulation with nothing held, or a copy.  The caller
- * may change it until control_retain adds a second user.  NULL: no memory. */
+ * may change it until control_retain is called.  NULL: no memory. */
 UserControl *control_from_simulation(const Simulation *simulation);
 UserControl *control_copy(const UserControl *from);
 
@@ -35,10 +35,10 @@ void simulation_locate_obstacle(const Simulation *simulation, int run,
 void control_store_obstacle(UserControl *control, int number,
                             const Simulation *simulation);
 
-/* Adds a user, and returns the control; NULL is accepted. */
+/* Adds a reference, and returns the control; NULL is accepted. */
 const UserControl *control_retain(const UserControl *control);
 
-/* Removes a user, and frees the control with the last one; NULL is accepted. */
+/* Removes a reference, with the last one the control; NULL is accepted. */
 void control_release(const UserControl *control);
 
 /* Gives a simulation a control from the next step on.  Scene, mesh and start of

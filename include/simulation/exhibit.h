@@ -34,13 +34,13 @@ enum { DESCENT_MAX_RECORDS = 256 };
 typedef struct Descent {
     int count;                                /* number of records */
     NewtonRecord record[DESCENT_MAX_RECORDS]; /* first iterations */
-    double iterate[2];                        /* present iterate, m */
+    double iterate[2];                        /* present iterate (m) */
     double value;                             /* f or E at the iterate */
     double start_value;                       /* E at the start of the search */
-    double direction[2];                      /* p at the iterate, m; 0: none */
-    double slope;    /* gradient times p; negative is downhill */
-    bool tests_g;    /* Algorithm 1, whose loop tests |g|, not |p| */
-    double residual; /* compared with the tolerance: |g|, or |p|/h in m/s */
+    double direction[2]; /* p at the iterate (m); 0: none */
+    double slope;        /* gradient times p; negative is downhill */
+    bool tests_g;        /* Algorithm 1, whose loop tests |g|, not |p| */
+    double residual;     /* compared with the tolerance: |g|, or |p|/h in m/s */
     ScalarEnergy *scalar; /* function of one unknown; NULL: two unknowns */
 } Descent;
 
@@ -75,7 +75,7 @@ enum { RACE_EXTRA_STEPS = 2048, RACE_MAX_ENERGY_RATIO = 2 };
 typedef struct RacePoint {
     const IntegratorMethod *method;
     double h;       /* s, time step */
-    double error;   /* m, most that a node is off the reference; NaN: failed */
+    double error;   /* m, largest distance from the reference; NaN: failed */
     double seconds; /* s, processor time */
     bool converged; /* every step converged */
     bool is_stable; /* the energy stays bounded when the run goes on */
@@ -106,8 +106,8 @@ typedef struct EnvelopeMap {
 
 /* Data of all small scenes; a scene uses what it needs. */
 typedef struct SmallSceneData {
-    double exact_start[4]; /* m, m/s, x and v where the exact path starts */
-    double x_tilde[2];     /* m, x_tilde; in one unknown [0] alone counts */
+    double exact_start[4]; /* x (m) and v (m/s) where the exact path starts */
+    double x_tilde[2];     /* x_tilde (m); in one unknown only [0] */
     unsigned switches;     /* bit s: part s of E is on (LandscapePart); for
                               switches of kinds of springs, kind s is off */
     DialCurve dial;        /* minimisers of scene `dial` */

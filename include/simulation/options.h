@@ -63,23 +63,23 @@ typedef struct Options {
             double ball[OPTIONS_MAX_BALLS][3];
             double bodies; /* number of rows of body that are used */
             double body[SQUARE_MESH_MAX_BODIES][BODY_OPTION_NUMBERS];
-            /* height m, velocity m/s, lowest height m; no ceiling if the
+            /* height (m), velocity (m/s), lowest height (m); no ceiling if the
              * velocity is 0 */
             double ceiling[3]; /* values of --ceiling */
-            double barrier[2]; /* d_hat, m; kappa, J/m^2; 0: side/100, 4 k */
+            double barrier[2]; /* d_hat (m), kappa (J/m^2); 0: side/100, 4 k */
             double friction, slip_speed, cells, self_contact;
             double self_friction;  /* between bodies; -1: equal to `friction` */
             double material;       /* 0: springs, 1: triangles */
             double young, poisson; /* values of --young, --poisson */
             double yield, hardening, tear; /* 0: no spring yields or breaks */
             double damping;                /* value of --damping */
-            double timestep, tolerance;    /* values of the options */
+            double timestep, tolerance; /* --timestep (s), --tolerance (m/s) */
             double integrator;  /* row of integrator_methods; -1: not chosen */
             double solver;      /* enum Solver */
             double projection;  /* enum Projection */
             double line_search; /* enum LineSearch */
             double flips;   /* bit s: switch s starts in the other position */
-            double steps;   /* -1: without a window 100, in one no limit */
+            double steps;   /* -1: no limit in a window, 100 without one */
             double speed;   /* steps a frame; 0: the speed of the scene */
             double size[2]; /* pixels; 0: the usual size */
             double paused, fullscreen, headless, quiet, big;
@@ -163,14 +163,14 @@ typedef struct OptionRow {
     const char *placeholder; /* value in --help; NULL: the option is a switch */
     const char *help;        /* description in --help */
     OptionKind kind;
-    int slot;              /* slot of the first number */
+    int slot;              /* OPTION_SLOT of the option's first number */
     size_t offset;         /* OPTION_TEXT: offset of the field in Options */
     bool is_table;         /* OPTION_TEXT: the file is a CSV table */
     int count;             /* number of numbers in a value; 0: one */
     unsigned short_counts; /* bit n: the first n numbers are enough */
     const double *omitted_defaults; /* [count] defaults of omitted numbers */
     char separator;                 /* separator of the numbers; 0: a comma */
-    int max_times;  /* most values of a repeated option; 0: the last counts */
+    int max_times;  /* most values of a repeated option; 0: the last is used */
     int count_slot; /* max_times > 0: slot of the number of values */
     double default_value;  /* default, as on the slides */
     double low, high;      /* range, both ends included */

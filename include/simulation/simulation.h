@@ -19,7 +19,7 @@ typedef struct EnergyLedger {
     double work; /* J, work of placed nodes and of changed options and pins */
     double last_balance;  /* J, total energy minus work, after the last step */
     long gain_steps;      /* steps in which energy grew by more than the work */
-    double gained_energy; /* J, sum of what it grew beyond the work in them */
+    double gained_energy; /* J, total growth beyond the work in these steps */
 } EnergyLedger;
 
 struct Simulation {
@@ -129,8 +129,8 @@ ChangeEffect simulation_find_option_effect(const Simulation *simulation,
 Status simulation_check_clearance(const Simulation *simulation,
                                   const Options *options, Message message);
 
-/* Returns the part of the straight way to a point that an obstacle can move: 1
- * if there is room at the end, else the part up to the first body.
+/* Returns the fraction of the straight way to a point that an obstacle can
+ * move: 1 if there is room at the end, else the fraction up to the first body.
  *   number  of the obstacle: grounds first, then balls
  *   to      [2] m, in, the point */
 double simulation_find_free_fraction(const Simulation *simulation,

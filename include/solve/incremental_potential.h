@@ -44,9 +44,9 @@ void incremental_potential_gradient(const IncrementalPotential *E,
  * Returns OK, TOO_LARGE, OUT_OF_MEMORY. */
 Status incremental_potential_create_hessian(const System *system, Sparse *A);
 
-/* Adds pairs near each other at u, x to the terms' lists.  *grown out: whether
- * the Hessian has entries that its pattern lacks, so that the pattern must be
- * made again.  Returns OK, OUT_OF_MEMORY. */
+/* Adds pairs that are near each other at u, x to the terms' lists.  *grown out:
+ * whether the Hessian has entries that its pattern lacks, so that the pattern
+ * must be made again.  Returns OK, OUT_OF_MEMORY. */
 Status incremental_potential_extend_pattern(const Iterate *at, bool *grown);
 
 /* Writes the projected Hessian of E at u, x to A, which has the pattern.
@@ -70,7 +70,7 @@ int incremental_potential_apply_hessian(const Iterate *at,
 void incremental_potential_absorb_pulls(const Iterate *iterate, double *m,
                                         double *u_tilde);
 
-/* Whether the Hessian is diagonal: coordinates stand alone in all terms. */
+/* Whether the Hessian is diagonal, as no term couples two coordinates. */
 bool incremental_potential_is_diagonal(const IncrementalPotential *E);
 
 /* A polynomial along a line, without constant term:

@@ -18,7 +18,7 @@ typedef struct IntegratorMethod {
     bool supports_all_terms; /* works with every term: only backward Euler */
     bool dissipates;   /* takes energy out of motion, which comes to rest */
     bool only_by_name; /* is chosen by name only, and skipped by key M */
-    int memory_arrays; /* arrays [2n] kept between steps */
+    int memory_arrays; /* number of arrays [2n] kept between steps */
     int stages;        /* minimisations of a step; 0: the method is explicit */
     /* Fills newton->u_tilde, without gravity, and the weight of the integrator
      * for the present stage.  The caller then adds gravity to u_tilde by
@@ -49,7 +49,7 @@ struct TimeIntegrator {
     Status status;     /* status of the last step */
     StepClock clock;   /* time of x and v */
     bool is_driven;    /* walls, pins or a pushed obstacle move in this step */
-    double moved_part; /* part of the way that is done in this step */
+    double moved_part; /* fraction of the prescribed motion that is done */
     double external_work; /* J, work of walls, pins and the hand so far */
     double *x;       /* [2n] m, positions; start of the block of all arrays */
     double *v;       /* [2n] m/s, velocities */
@@ -62,9 +62,9 @@ struct TimeIntegrator {
     int stage;                 /* 0 ... stages - 1 */
     Status unconverged_status; /* OK, or that of the last stage without OK */
     double weight;             /* s^2, factor of P in E */
-    double remaining_part; /* part of the prescribed way that is not done yet */
-    int parts_done;        /* parts of the prescribed way that are done */
-    long updates_before;   /* Newton's updates before this step */
+    double remaining_part;     /* fraction of the motion that is left */
+    int parts_done;            /* number of parts of the motion that are done */
+    long updates_before;       /* Newton's updates before this step */
     bool is_blocked; /* walls and pins cannot move on: a body is in their way */
 };
 

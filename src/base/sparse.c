@@ -66,7 +66,7 @@ Status sparse_create(const Triplets *triplets, Sparse *A)
         counting_sort(count, size, row, NULL, A->column_start, by_row);
         counting_sort(count, size, column, by_row, A->column_start, sorted);
         memset(A->column_start, 0, starts);
-        for (int i = 0; i < count; i++) { /* equal places share a slot */
+        for (int i = 0; i < count; i++) { /* equal (row, column) share a slot */
             int t = sorted[i], last = i > 0 ? sorted[i - 1] : -1;
             if (last < 0 || row[t] != row[last] || column[t] != column[last]) {
                 A->row[A->entries++] = row[t];

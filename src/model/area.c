@@ -36,7 +36,7 @@ void fill_triangle_element(const EvalPoint *at, int t, Element *element)
     subtract_node(at->x, node[1], node[2], node[0], element->v);
 }
 
-/* The alpha is the smallest positive root of most + alpha J1 + alpha^2 J2. */
+/* Solves s + alpha J1 + alpha^2 J2 = (1 - ELEMENT_LIMIT) s for alpha > 0. */
 double triangle_max_step(const EvalPoint *at, const Element *element,
                          const double P[4])
 {
@@ -59,9 +59,10 @@ static double normalise(double v[4], const double instead[4])
     return length;
 }
 
-/* unit K f lies in the plane of a = f+/|f+| and b = f-/|f-|, so H maps this
- * plane to itself, and its 2x2 matrix Q is projected.  S applied to both halves
- * of a and of b gives the other two eigenvectors, with on_plus and on_minus. */
+/* a and b are the unit vectors of the parts f+ and f- of f (area_split_edges).
+ * K f lies in their plane, so H maps this plane to itself, and its 2x2 matrix Q
+ * is projected.  The other two eigenvectors are a and b with each pair (v_x,
+ * v_y) replaced by (v_y, -v_x); their eigenvalues are on_plus and on_minus. */
 bool area_project_hessian(const double f[4], double unit, double on_plus,
                           double on_minus, double second, Projection projection,
                           AreaHessian *area)

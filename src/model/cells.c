@@ -8,7 +8,7 @@
 
 /* Whether triangle t can have an energy: no spring of it is broken, and J may
  * fall below CELL_J_HAT.  The element has a = e1, b = e2 and s = J.
- *   way  m, most change of e1 and of e2.  J changes by at most
+ *   way  largest change of e1 and of e2 (m).  J changes by at most
  *        q way (|e1| + |e2| + way), q = 1/(2 A0). */
 static bool cell_get_element(const EvalPoint *at, int t, double way,
                              Element *element)

@@ -7,7 +7,7 @@
 
 #include "model/spring_law.h"
 
-/* The strengths differ from their mean by at most this part of it. */
+/* Largest relative difference of a spring's strength from the mean. */
 static const double SCATTER = 0.1;
 
 /* SplitMix64 (Steele et al. 2014) gives each spring a number from -1 to 1. */
@@ -47,8 +47,8 @@ static int find_overloaded_springs(Fracture *fracture, const System *system,
     return count;
 }
 
-/* Breaks springs.  The energy lost is the decrease of the potential, which
- * includes the cells that end with these springs. */
+/* Breaks springs, and books the decrease of the potential as lost energy.  The
+ * cells of broken springs lose their energy, too. */
 static void fracture_end_step(const TermStep *step)
 {
     System *system = step->system;

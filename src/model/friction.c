@@ -6,7 +6,7 @@
 
 #include "model/self_contact.h"
 
-/* Returns f0(y), m. */
+/* Returns f0(y) in metres. */
 static double friction_value(double y, double e)
 {
     double a = fabs(y);
@@ -19,15 +19,15 @@ double friction_slope(double y, double e)
     return copysign(a * (2 - a), y);
 }
 
-/* Returns f0''(y), 1/m. */
+/* Returns f0''(y) in 1/m. */
 static double friction_curvature(double y, double e)
 {
     return 2 / e * fmax(0, 1 - fabs(y) / e);
 }
 
-/* Returns f0(y + t) - f0(y) - f0'(y) t >= 0, m, with full relative accuracy:
- * the integral over s from 0 to t of (t - s) f0''(y + s), mirrored so that t >=
- * 0. f0'' is linear from -e to 0 and from 0 to e. */
+/* Returns f0(y + t) - f0(y) - f0'(y) t >= 0 in metres with full relative
+ * accuracy: the integral over s from 0 to t of (t - s) f0''(y + s), mirrored so
+ * that t >= 0. f0'' is linear from -e to 0 and from 0 to e. */
 static double friction_taylor_remainder(double y, double t, double e)
 {
     double way = fabs(t), start = copysign(1, t) * y, sum = 0;
@@ -43,8 +43,8 @@ static double friction_taylor_remainder(double y, double t, double e)
     return sum;
 }
 
-/* Returns the component along t of vectors a and b, which are those of
- * displacements or of a direction. */
+/* Returns how far the contact slides along its tangent if the element's vectors
+ * a and b change by `vectors`. */
 static double tangential_component(const Element *row, const double vectors[4])
 {
     double sum = 0;
@@ -53,7 +53,7 @@ static double tangential_component(const Element *row, const double vectors[4])
     return sum;
 }
 
-/* Returns the slip y, m, in the displacement h v.  v [2n] in. */
+/* Returns the slip y (m) of the displacement h v.  v [2n] in. */
 static double compute_slip(const SlidingContact *contact, double h,
                            const double *v)
 {

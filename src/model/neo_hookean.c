@@ -65,7 +65,7 @@ static void neo_hookean_gradient(const EvalPoint *at, const Element *element,
     g[3] = 0.5 * (p * plus[0] - q * minus[0]);
 }
 
-/* Writes the projected Hessian of W in two sides, by its eigenspaces. */
+/* Writes the projected Hessian of W in (e1, e2), by its eigenvectors. */
 static bool project_hessian(const EvalPoint *at, const Element *element,
                             Projection projection, AreaHessian *area)
 {

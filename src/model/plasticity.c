@@ -70,8 +70,8 @@ FlowLaw plasticity_get_flow_law(const System *system, int s)
 /* A spring at the point of evaluation. */
 typedef struct FlowSpring {
     const int *e;           /* nodes of the spring */
-    double k, l2;           /* J/m^2, m^2 in this step */
-    double d[2], d_squared; /* m, x_i - x_j, and m^2, |d|^2 */
+    double k, l2;           /* stiffness (J/m^2), squared rest length (m^2) */
+    double d[2], d_squared; /* x_i - x_j (m), |d|^2 (m^2) */
     double strain;          /* elastic strain, E - ep */
     FlowLaw law;
 } FlowSpring;
@@ -142,8 +142,8 @@ static int plastic_hessian(const EvalPoint *at, Projection projection,
 }
 
 /* Writes B and C: along p the strain e changes by D = alpha B + alpha^2 C.
- * Apart from V'(e) alpha B, V then changes by V'(e) alpha^2 C + R_V(e, D):
- * times k l2 the line polynomial and the line remainder. */
+ * Beyond its slope V'(e) alpha B, V changes by V'(e) alpha^2 C, the part of the
+ * line polynomial, and by R_V(e, D), the line remainder, both times k l2. */
 static inline void compute_strain_polynomial(const FlowSpring *spring,
                                              const double *p, double *B,
                                              double *C)

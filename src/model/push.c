@@ -4,19 +4,19 @@
 #include "base/mathematics.h"
 #include "model/contact.h"
 
-/* The distance to the hand falls by the factor e in TIME s, but by at most the
- * part MOST in a step.  SLOW and FAST bound the speed, in sides a second. */
+/* In TIME s the distance to the hand falls by the factor e, but in one step by
+ * at most the fraction MOST.  SLOW and FAST: limits of the speed, sides/s. */
 static const double TIME = 0.06, MOST = 0.5, SLOW = 0.1, FAST = 5;
 
 /* In one time step the obstacle moves by at most FAST h sides of the body, but
  * this limit is never below SHORTEST nor above LONGEST sides. */
 static const double LONGEST = 0.25, SHORTEST = 0.005;
 
-/* The hand pushes as hard as the barrier does at a distance of this part of the
- * barrier's width.  That is enough to press springs flat. */
+/* The hand pushes with the force that the barrier has at this fraction of its
+ * width, which is enough to press springs flat. */
 static const double STRENGTH = 0.1;
 
-/* The obstacle keeps this part of the barrier's width from pinned nodes. */
+/* Least gap to pinned nodes, as a fraction of the barrier's width. */
 static const double KEPT = 0.3;
 
 enum { MAX_HALVINGS = 8, MAX_PATH_PARTS = 16 }; /* limits of a step's path */
@@ -76,8 +76,8 @@ static bool obstacle_has_room(const Contact *contact, const System *system,
            square_mesh_find_cell(shape, x, obstacle->o, 0, shape->cells) >= 0;
 }
 
-/* Returns the part of the way up to the first place without room, found by
- * steps that are halved there. */
+/* Returns the fraction of the way up to the first place without room, found by
+ * steps that are halved at this place. */
 static double find_free_path_part(const Contact *contact, const System *system,
                                   const double *x, const double way[2])
 {

@@ -79,7 +79,7 @@ static Status self_contact_begin_step(const TermStep *step)
     size_t bytes = (size_t)count * sizeof *fresh;
     if (grown || count != old || memcmp(self->pair, fresh, bytes) != 0) {
         system_mark_changed(system, true);
-        boundary->system_version = system->version; /* same springs */
+        boundary->system_version = system->version; /* no spring has changed */
     }
     memmove(self->pair, fresh, bytes);
     self->pairs = self->start_pairs = count;
@@ -237,7 +237,7 @@ static bool pair_hessian(const EvalPoint *at, const Element *element,
     double F = pair_force(self, S), length = sqrt(dot2(e, e));
     double bend = self->c / (self->d_hat * self->d_hat) *
                   (4 * S * barrier_curvature(S) + 2 * barrier_slope(S));
-    double sign = copysign(1, cross(e, n)); /* t is along e */
+    double sign = copysign(1, cross(e, n)); /* t has the direction of e */
     const double t[2] = {sign * n[1], -sign * n[0]};
     bool beside = r > 0 && r < 1;
     double Q[3] = {beside ? 0 : -F / d, beside ? F / length : 0,
@@ -259,8 +259,8 @@ typedef struct Quadratic {
     double degree0, degree1, degree2; /* coefficients */
 } Quadratic;
 
-/* Returns the change of top^2/l along the line, less its part of degree 1,
- * which is added to *first.  A negative top counts as 0 unless `always`. */
+/* Returns the change of top^2/l along the line without its linear part, which
+ * is added to *first.  A negative top is replaced by 0 unless `always`. */
 static double square_ratio_remainder(Quadratic top, Quadratic l, bool always,
                                      double *first)
 {
@@ -298,7 +298,7 @@ static double pair_line_remainder(const EvalPoint *at, const Element *element,
                   square_ratio_remainder(low, l, false, &first) +
                   square_ratio_remainder(high, l, false, &first);
     double S = element->s, slope = barrier_slope(S);
-    if (S < 1 && S + (first + rest) / d_hat2 >= 1) /* p leaves the barrier */
+    if (S < 1 && S + (first + rest) / d_hat2 >= 1) /* no contact at the end */
         return self->c * (-barrier_value(S) - slope * first / d_hat2);
     return self->c * (slope * rest / d_hat2 +
                       barrier_taylor_remainder(S, (first + rest) / d_hat2));

@@ -114,7 +114,7 @@ void system_zero_pinned_entries(const System *system, double *g)
             g[2 * i] = g[2 * i + 1] = 0;
 }
 
-/* Whether P stays the same when all nodes move together, or turn together. */
+/* Whether P stays the same if the body shifts or, with `turn`, turns. */
 static bool terms_are_internal(const System *system, bool turn)
 {
     for (int t = 0; t < system->terms; t++) {
@@ -159,7 +159,7 @@ void system_acceleration(const System *system, const double *x, double *a)
 
 double system_curvature_bound(const System *system)
 {
-    /* In a step, where u is not NULL, damping makes springs stiffer. */
+    /* u not NULL stands for a step, in which damping makes springs stiffer. */
     const double u = 0;
     EvalPoint at = make_eval_point(system, NULL, &u, NULL);
     double most = 0;

@@ -5,8 +5,8 @@
 
 #include "picture/cards.h"
 
-/* The axis covers the whole run, unless its largest energy is this many times
- * the largest one until now. */
+/* The axis covers the whole run, unless the largest energy of the run is more
+ * than this many times the largest one until now. */
 static const double MAX_AXIS_RATIO = 1000;
 /* The axis becomes logarithmic when the energy has grown by LOG_GROWTH. The
  * ends lie within LOG_LOW and LOG_HIGH times the energy at the start. */
@@ -139,9 +139,9 @@ static double find_energy_rounding(const Simulation *simulation)
 }
 
 /* Makes the axis of the energies.  The axis covers the whole run, unless the
- * energies so far would then be too small to see.  The axis is logarithmic if
- * the energy has grown a millionfold and none is far below 0, and for the panes
- * of a page.
+ * energies so far would then be too small to see.  The axis is logarithmic on a
+ * page with panes, or if the energy has grown a millionfold and none is far
+ * below 0.
  *   last  out, s, upper limit of the times of the curves */
 static Axis make_energies_axis(const Simulation *simulation,
                                const EnergyCurves *all, double *last)

@@ -30,7 +30,7 @@ typedef struct DrawnLaw {
     const TermKind *law_term;     /* term with the law */
     const TermKind *element_term; /* term of the elements; NULL: springs */
     double (*evaluate)(const void *now, double x);
-    double axis_low, axis_high; /* ends of the axis, times axis_unit */
+    double axis_low, axis_high; /* ends of the axis, in units of axis_unit */
     bool is_milli;              /* the label's unit is mm or mm/s */
 } DrawnLaw;
 

@@ -6,8 +6,8 @@
 enum { LINE_POINTS = 161 };
 
 /* The axis of alpha ends at AXIS_END times the first trial, or at PAGE_END
- * times beside the curve of the projected p.  The axis of E reaches above 0 at
- * most MAX_ABOVE times as far as the curves below; MAX_UPHILL: p is uphill. */
+ * times if the curve of the projected p is drawn.  E is shown up to
+ * MAX_ABOVE times the depth of the curves; MAX_UPHILL times if p is uphill. */
 static const double AXIS_END = 1.42, PAGE_END = 1.1, MAX_ABOVE = 2.2,
                     MAX_UPHILL = 4;
 static const double WORD_SIZE = 0.88;  /* ems, size of the words above */
@@ -46,7 +46,7 @@ static void compute_line_curves(const NewtonTrace *trace,
         if (!isnan(curves->exact[i]))
             high = fmax(high, curves->exact[i]);
     }
-    /* If no curve falls, the height of the quadratic model counts. */
+    /* If no curve falls, the height of the quadratic model is the depth. */
     double depth = fmax(low < 0 ? -low : 0.5 * trace->slope, 1e-300);
     curves->low = -1.12 * depth;
     curves->high =

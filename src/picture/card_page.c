@@ -106,9 +106,9 @@ static int measure_page(Paper *paper, Box inside, double size,
     return before > after ? before : after;
 }
 
-/* The letters are as large as all texts fit.  The question stays beside the
- * answer; the page's text is left out then if it would make the letters small.
- */
+/* The letters are as large as possible if all texts must fit.  The question
+ * stays beside the answer; the page's text is left out then if it would make
+ * the letters small. */
 void draw_page_card(const Plot *card)
 {
     const double most =

@@ -1,4 +1,4 @@
-/* card_table.c - tables of cards, in letters that fit. */
+/* card_table.c - draws the table of a card, in letters as large as fit. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

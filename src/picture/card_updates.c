@@ -15,7 +15,7 @@ void draw_step_energy_card(const Plot *card)
         const char *name; /* name of the curve */
         Colour colour;
         int label_index;     /* index of the point with the label */
-        double label_factor; /* height of the label, times the curve's value */
+        double label_factor; /* height of the label over that of the curve */
     } parts[] = {{"inertia", COLOUR_X_TILDE, 10, 1},
                  {"h\u00b2 P", COLOUR_SHADED, 20, 0.72},
                  {"E", COLOUR_X, 3, 1}};
@@ -122,7 +122,7 @@ bool updates_make_row(const FrameContent *content, int row, CardTableRow *cells)
     if (!trace || row == 0)
         return trace;
     bool before = trace->at_line != LINE_NONE && trace->at_line < LINE_UPDATE;
-    /* Updates whose alpha p is already part of the shown positions. */
+    /* Number of updates whose step alpha p is in the shown positions. */
     int made = before ? trace->iteration : trace->records;
     bool now =
         before && trace->at_line >= LINE_PROJECT && trace->projected >= 0;

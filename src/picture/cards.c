@@ -119,8 +119,8 @@ double code_find_width(const LecturePage *page)
     return CODE_LETTER * measure_code_width(page, &lines) + margins;
 }
 
-/* Draws code in letters as large as fit, and lights the lines at work.  If the
- * code is too long, lines after the first one are left out, but no lit line. */
+/* Draws code in letters as large as fit; the lines being executed are lit.  If
+ * the code is too long, lines after the first are left out, but no lit line. */
 static void draw_code(Paper *paper, Box inside, const FrameContent *content)
 {
     const char *const *code = content->lecture.page->code;
@@ -143,7 +143,7 @@ static void draw_code(Paper *paper, Box inside, const FrameContent *content)
         lit = strstr(code[i], mark) ? i : lit;
     int gone = (int)fmax(fmin(lit + 2, lines) - fit, 0);
     fit = fit < lines ? fit : lines;
-    /* The grounds of lit lines come first, then all letters. */
+    /* The backgrounds of lit lines are drawn first, then all letters. */
     for (int k = 0; k < 2 * fit; k++) {
         int row = k % fit, y = inside.y + row * line;
         const char *words = gone > 0 && row == 1 ? "..."

@@ -14,7 +14,7 @@ typedef struct ListingRow {
     /* The row is shown if the text shown_if has a line with known values,
      * struck out if crossed_out_if has one.  shown_if NULL: end of rows. */
     const char *shown_if, *crossed_out_if;
-    StepLine at_line; /* line of Algorithm 3 that the row is */
+    StepLine at_line; /* line of Algorithm 3 in this row */
     bool is_indented; /* begins further right */
     const char *text;
     const char *value; /* text at the right, once this line has been executed */
@@ -113,8 +113,8 @@ int find_newest_spring(const Simulation *simulation);
 /* Returns the box inside a card, below the title; em in pixels. */
 Box card_inner_box(Box card, double em);
 
-/* Writes all lines with known values into a card, as large as they fit: up to
- * the size of plain text, on a page up to 1.2, in its main card 1.6 times. */
+/* Writes all lines with known values into a card, in letters as large as fit:
+ * at most the size of plain text, on a page 1.2, in its main card 1.6 times. */
 void card_write_text(const Plot *card, const LiveValues *values,
                      const char *text);
 
@@ -130,10 +130,10 @@ int card_write_lines(const Plot *card, int at[2], double size, double gap,
 /* Writes the first known line of a text in the middle of an empty card. */
 void card_write_hint(const Plot *card, const char *text);
 
-/* Draws a table with columns as wide as their widest cells, rows without a
- * first cell apart.  Columns without room are left out, the last ones in
- * `order` first; of rows without room, those that follow row 1. order
- * [CARD_COLUMNS] in, numbers of the columns; -1 ends them */
+/* Draws a table with columns as wide as their widest cells; a row without a
+ * first cell does not widen them.  If the card has not enough room, leaves out
+ * the last columns in `order`, and rows after row 1.
+ *   order  [CARD_COLUMNS] in, numbers of the columns; -1 ends them */
 void card_draw_table(const Plot *card, const Card *table, const int *order);
 
 /* Returns what a row of a listing shows. */

@@ -7,8 +7,8 @@
 
 /* Heights of the zones, ems. */
 static const double STRIP = 3.1, SETTINGS = 2.6, TIME_LINE = 4.9, CHIPS = 3.0;
-/* A graph on a page has at least this part of the window's height, and room for
- * title and axes and for a legend, ems. */
+/* Least height of a graph on a page: GRAPH_PART of the window's height, and ems
+ * for title and axes and for a legend. */
 static const double GRAPH_PART = 0.17, GRAPH_AXES = 4.4, GRAPH_LEGEND = 1.5;
 /* Further sizes, ems. */
 static const double GAP = 0.9;     /* margins of the zones, gap between cards */
@@ -23,16 +23,16 @@ static const double MIN_PAIR = 28;      /* least width for two cards in a row */
 
 static const double BOLD = 1.12; /* width of bold over normal letters */
 /* If the main card is on the stage and the column has no room, the picture has
- * this part of the stage: the width beside the card, the height below. */
+ * this fraction of the stage's width beside the card or of its height below. */
 static const double PICTURE_PART = 0.45;
-/* A picture that would be narrower than this beside the main card, ems, stands
- * below the card and has the part PICTURE_BELOW of the stage's height. */
+/* A picture that would be narrower than MIN_BESIDE ems beside the main card is
+ * placed below, in the fraction PICTURE_BELOW of the stage's height. */
 static const double MIN_BESIDE = 17, PICTURE_BELOW = 0.53;
-/* A card below the picture has at most this part of the stage's height; a main
- * card is at least this many times as high as its min_height. */
+/* Largest height of a card below the picture over that of the stage; least
+ * height of a main card over its min_height. */
 static const double CARD_BELOW = 0.65, MAIN_CARD_GROWTH = 1.3;
 static const double MIN_SHRINK = 0.7; /* open card over the height it needs */
-/* In a low window the settings have this part of the width. */
+/* Width of the settings in a low window over that of the window. */
 static const double SETTINGS_PART = 0.75;
 
 /* Width of the column over that of the window: usually; at most for the texts
@@ -461,7 +461,7 @@ static void place_card_without_room(const FrameContent *content, Layout *layout)
     const Box stage = layout->stage, title = layout->card[folded];
     place_card_below(content, layout, folded,
                      layout->has_list ? stage.height - 0.8 * stage.width : 0);
-    Box *first = &layout->card[0]; /* may take the moved card's title bar */
+    Box *first = &layout->card[0]; /* may grow into the moved card's place */
     if (!layout->has_list && title.y <= first->y + first->height + layout->em)
         first->height = title.y + title.height - first->y;
 }
@@ -508,7 +508,7 @@ Layout layout_create(const FrameContent *content, int width, int height)
         }
         if (!page || content->column == COLUMN_CODE)
             layout.cards = picture->count;
-    } else if (!bare && page) { /* no room: column hides stage */
+    } else if (!bare && page) { /* without room the column hides the stage */
         layout.column = layout.stage;
     }
     layout.has_list = page && layout.column.width > 0;

@@ -106,7 +106,7 @@ static void add_setting_values(const Simulation *simulation, LiveValues *values)
     values_add_flag(values, "of a solid", get_neo_hookean(&simulation->system));
     values_add_flag(values, "done", simulation->is_over);
     if (simulation->is_over && scene->step == step_descent &&
-        descent->residual <= options->tolerance) { /* x is stationary */
+        descent->residual <= options->tolerance) { /* no slope at x */
         const double *x = descent->iterate;
         int down = descent_classify_hessian(simulation, x[0], x[1]);
         values_add_flag(values, "saddle", down == 1);

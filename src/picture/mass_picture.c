@@ -434,7 +434,7 @@ void list_mass_values(const Simulation *simulation, LiveValues *values)
     double h = simulation->run[0].h;
     if (!step.moves_by_old_v && !backward) {
         values_add_flag(values, "ellipse", h < 2);
-        if (h < 2) /* beyond, growth makes the invariant inexact */
+        if (h < 2) /* a larger h makes the invariant inexact */
             values_add(values, "kept", symplectic_invariant(step.x, step.v, h));
     }
     values_add(values, "miss",

@@ -10,7 +10,7 @@
 
 enum { PAPER_TEXT_SIZE = 768, PAPER_EM = 14 };
 
-/* A line that is too wide shrinks to at least this part of its size. */
+/* A line that is too wide shrinks to at least this fraction of its size. */
 static const double MIN_FIT = 0.6;
 
 Status paper_create(int width, int height, Paper *paper)

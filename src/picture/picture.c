@@ -239,7 +239,7 @@ static const char *cut_label_line(const Plot *stage, const char *label,
     return label + strspn(label, ",; ");
 }
 
-/* Whether the picture has a scale; low panes only have room for their label. */
+/* Whether the picture has a scale bar; low panes only have room for a label. */
 static bool stage_shows_scale(const Plot *stage)
 {
     bool is_low = stage->box.height < LOW_PANE * stage->em &&
@@ -249,7 +249,7 @@ static bool stage_shows_scale(const Plot *stage)
 }
 
 /* Writes the label of a pane, which says how panes differ, in up to three lines
- * below the picture; a wide label stands above the scale. */
+ * below the picture; a wide label stands above the scale bar. */
 static void draw_pane_label(const Plot *stage, const char *label)
 {
     enum { MAX_LABEL_LINES = 3 };

@@ -5,12 +5,12 @@
 
 #include "picture/cards.h"
 
-enum { HALVED_COLUMNS = 2 };          /* table columns of halved time steps */
-static const double NAMES_WIDTH = 20; /* ems; a narrower plot has no names */
-static const double TARGET_ERROR = 0.01; /* m, largest error of a fast run */
+enum { HALVED_COLUMNS = 2 };             /* columns of halved h */
+static const double NAMES_WIDTH = 20;    /* ems; a narrower plot has no names */
+static const double TARGET_ERROR = 0.01; /* m, limit of the error */
 
-/* Returns bounds in powers of ten: h or run time, ms, and error.  Errors
- * below 1e-8 m and above 10 m may be outside. */
+/* Returns bounds as powers of ten, of h or run time (ms) and of the error (m).
+ * Errors below 1e-8 m and above 10 m may be outside. */
 void find_race_bounds(const Plot *stage, double bounds[4])
 {
     const Race *race = &stage->simulation->exhibit.race;
@@ -38,7 +38,7 @@ void draw_race_picture(Plot *stage)
 {
     const Simulation *simulation = stage->simulation;
     const Race *race = &simulation->exhibit.race;
-    double named[RACE_METHODS][2]; /* point beside the name; NaN: none */
+    double named[RACE_METHODS][2]; /* place of the name; NaN: none */
     bool over_h = simulation->exhibit.switches;
     bool wide = stage->has_text && stage->box.width > NAMES_WIDTH * stage->em;
     Plot plot = plot_create_on_stage(
@@ -113,8 +113,8 @@ static void format_cell(char cell[CARD_CELL], const char *sign, double value)
                  format_digits(value, 2).text);
 }
 
-/* Fills a row: row 0 with heads, else with a method's error at h = 4 ms, m, and
- * the factors by which half of h divides the error. */
+/* Fills row 0 with heads, a method's row with its error (m) at the shown h and
+ * with the factors by which the error falls when h is halved once and twice. */
 bool race_make_row(const FrameContent *content, int row, CardTableRow *cells)
 {
     const Race *race = &active_pane(content)->simulation->exhibit.race;

@@ -7,8 +7,8 @@
 #include "picture/square_pen.h"
 
 static const double SLAB = 1;         /* ems, thickness of a thin wall */
-static const double FORCE_ARROW = 4;  /* ems, length in the legend */
-static const double MIN_FORCE = 0.02; /* smallest drawn / largest force */
+static const double FORCE_ARROW = 4;  /* ems, arrow's length in the legend */
+static const double MIN_FORCE = 0.02; /* smallest drawn over largest force */
 
 /* Computes the force of a contact on its node, with friction, from positions
  * and velocities alone, which the past keeps of each step.  Returns the slip

@@ -18,8 +18,8 @@ static const double MAX_GROWTH = 1e303; /* limit of the view's growth */
 /* Sizes of the first view over that of the square: with words, and bare. */
 static const double VIEW_SIZE = 1.14, BARE_VIEW_SIZE = 1.75;
 static const double MAGNIFIER_SIDE = 11; /* ems */
-/* Balls, grounds and a pull are shown up to here, in halves of the view, unless
- * the user asks for all. */
+/* Distances up to which balls, grounds and a pull are shown, in halves of the
+ * view, unless the user asks for all. */
 static const double BALL_REACH = 4, GROUND_REACH = 2, PULL_REACH = 16;
 
 /* ---- how much of the world is seen -------------------------------------- */
@@ -402,7 +402,7 @@ static void draw_node_arrows(const SquarePen *pen, const double *d,
     for (int i = 0; i < nodes; i++)
         longest = fmax(longest, vector_length(d + 2 * i));
     factor = factor == 0 ? most / longest : factor;
-    for (int k = 0; k < 2 * nodes; k++) { /* first the white rims */
+    for (int k = 0; k < 2 * nodes; k++) { /* the white rims come first */
         const double *di = d + k % nodes * 2;
         plot_arrow(pen->stage, pen->x + k % nodes * 2, di,
                    fmin(factor, most / fmax(vector_length(di), 1e-300)) *
@@ -441,7 +441,7 @@ static void draw_page_arrows(const SquarePen *pen)
     for (int i = 0; i < 2 * system->nodes; i++)
         arrow[i] *= system->m[i / 2];
     draw_node_arrows(pen, arrow, 0, COLOUR_FORCE, "force on each node");
-    if (!(layers & LAYER_KINDS)) /* the page's text speaks of the last node */
+    if (!(layers & LAYER_KINDS)) /* the page's text names the last node */
         plot_label(pen->stage, 1, pen->x + 2 * system->nodes - 2, COLOUR_TEXT,
                    "node %d", system->nodes - 1);
 }

@@ -10,14 +10,13 @@
 
 enum {
     MAX_FORMULA_DEPTH = 6, /* most formulas inside each other */
-    MAX_MATRIX_ROWS = 8,   /* the most rows of a matrix */
+    MAX_MATRIX_ROWS = 8,   /* most rows of a matrix */
     MAX_MATRIX_COLUMNS = 8,
     MIN_TEXT_SIZE = 5,
     MAX_TEXT_SIZE = 400
 };
 
-/* Lengths in ems of the letters. */
-/* Extent of a line and of its letters, from the baseline. */
+/* Extent of a line and of its letters, from the baseline; lengths in ems. */
 static const double LINE_ASCENT = 0.93, LINE_DESCENT = 0.37;
 static const double LETTER_ASCENT = 0.76, LETTER_DESCENT = 0.24;
 static const double SCRIPT_SIZE = 0.8;
@@ -25,10 +24,10 @@ static const double MARK_SIZE = 1.3;            /* size of a hat or tilde */
 static const double RAISE = 0.36, LOWER = 0.18; /* offsets of scripts */
 static const double FRACTION_SIZE = 0.9; /* size of a fraction's letters */
 static const double AXIS_HEIGHT = 0.28;  /* height of a fraction's line */
-static const double SPACE = 0.12;        /* around fractions and in brackets */
-static const double COLUMN_GAP = 0.9;    /* space between columns of a matrix */
-static const double ROW_GAP = 0.22;      /* space between rows of a matrix */
-static const double RULE_WIDTH = 0.07;   /* width of a fraction's line */
+static const double SPACE = 0.12; /* space around fractions and in brackets */
+static const double COLUMN_GAP = 0.9;  /* space between columns of a matrix */
+static const double ROW_GAP = 0.22;    /* space between rows of a matrix */
+static const double RULE_WIDTH = 0.07; /* width of a fraction's line */
 
 typedef struct Pen {
     Text *text;

@@ -7,15 +7,15 @@
 enum { LABEL_TEXT_SIZE = 512 }; /* bytes of a label */
 
 static const double LEGEND_SIZE = 0.92; /* ems */
-/* The scale bar is at least this part of the stage's width long. */
+/* Least length of the scale bar over the stage's width. */
 static const double SCALE_PART = 0.08;
-static const double MAX_PIXEL = 1e6;   /* pixels, farthest labelled point */
+static const double MAX_PIXEL = 1e6;   /* largest x or y of a labelled point */
 static const double LINE_HEIGHT = 1.3; /* ems, height of a label */
-/* Costs of a label's place on ink or other words, outside of the plot, or far
- * from its point, and for each place before in the list. */
+/* Costs of a place for a label: on ink or other words, outside of the plot, far
+ * from its point, and for each place that is tried before this one. */
 static const double COST_INK = 60, COST_OUTSIDE = 30, COST_FAR = 2.5,
                     COST_LATER = 0.04;
-static const double LABEL_MARGIN = 0.2; /* ems, free margin of a label */
+static const double LABEL_MARGIN = 0.2; /* ems, around a label, no ink */
 /* Ems, from point to label: near and far. */
 static const double LABEL_DISTANCE[] = {0.8, 2};
 static const Colour INK = 190; /* a pixel with a channel below this is ink */

@@ -414,7 +414,7 @@ static void write_obstacle_name(const Options *options, int number, char *name,
         snprintf(name, size, "the %s", kind);
 }
 
-/* Refuses an obstacle whose gap to a body, m, is not above 0.  A gap of NaN
+/* Refuses an obstacle whose gap to a body (m) is not above 0.  A gap of NaN
  * means that a ball is inside the body. */
 static Status refuse_obstacle_position(const Options *options, int number,
                                        double gap, Message message)
@@ -500,8 +500,8 @@ static Status check_obstacles(const Options *options, Message message)
 }
 
 /* Checks that obstacles of the options overlap no body at its present place.
- *   min_gap  least gap to the obstacle `number`, over the barrier's width
- *            d_hat; the gap to other obstacles must be above 0 */
+ *   min_gap  least gap to the obstacle `number`, as a multiple of the barrier's
+ *            width d_hat; the gap to other obstacles must be above 0 */
 static Status check_clearance(const Simulation *simulation,
                               const Options *options, double min_gap,
                               int number, Message message)
@@ -536,7 +536,7 @@ double simulation_find_free_fraction(const Simulation *simulation,
 {
     enum { MAX_HALVINGS = 20 };
     static const double MIN_GAP = 0.999;     /* gap to a body over d_hat */
-    static const double MIN_PART = 1.0 / 64; /* part of the way, least step */
+    static const double MIN_PART = 1.0 / 64; /* least step over the way */
     Options moved = *options;
     double *at = options_obstacle_at(&moved, number), free = 0, from[2];
     memcpy(from, at, sizeof from);
@@ -544,7 +544,7 @@ double simulation_find_free_fraction(const Simulation *simulation,
     if (!check_clearance(simulation, &moved, 0, -1, (Message){0}))
         return 1;
     double step = 0.5, length = math_hypot(to[0] - from[0], to[1] - from[1]);
-    if (number >= options->grounds) /* half a radius, to cross no body */
+    if (number >= options->grounds) /* half a radius crosses no body */
         step = fmin(fmax(0.5 * at[2] / length, MIN_PART), step);
     for (int i = 0; i < MAX_HALVINGS;) {
         for (int c = 0; c < 2; c++)

@@ -43,7 +43,7 @@ bool control_is_holding(const UserControl *control)
     return control->held_node >= 0 || control->held_obstacle >= 0;
 }
 
-/* Returns the added height of an obstacle of a run, m; 0 for balls. */
+/* Returns the added height of an obstacle of a run (m); 0 for balls. */
 static double get_height_offset(const Simulation *simulation, int run,
                                 const Obstacle *obstacle)
 {
@@ -221,7 +221,7 @@ Status control_apply(Simulation *simulation, const UserControl *control)
     memcpy(system->pinned, control->pinned, (size_t)system->nodes);
     for (int r = 0; r < simulation->runs; r++)
         if (!simulation->run[r].newton)
-            simulation->run[r].memory_h = 0; /* Verlet's a_n is another now */
+            simulation->run[r].memory_h = 0; /* Verlet's a_n has changed */
     if (!status)
         status = apply_pull(simulation, control);
     apply_push(simulation, control);

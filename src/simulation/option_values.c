@@ -36,7 +36,7 @@ static double parse_option_number(const OptionRow *row, const char *text)
 {
     static const struct {
         const char *prefix;
-        double per_unit; /* 1000 for "m": 1000 mm are 1 m */
+        double per_unit; /* prefix "m": 1000, as 1000 mm are 1 m */
     } prefixes[] = {{"", 1},    {"k", 1e-3},     {"c", 1e2},     {"m", 1e3},
                     {"u", 1e6}, {"\u00b5", 1e6}, {"\u03bc", 1e6}};
     double number, divisor = 1;

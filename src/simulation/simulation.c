@@ -82,7 +82,7 @@ static Status finish_simulation_step(Simulation *simulation, Status status)
         return status;
     simulation->steps++;
     if (simulation->steps >
-        guess->guess_step + 1) /* a guess counts for one step */
+        guess->guess_step + 1) /* a guess is valid for one step */
         *guess = (Prediction){0};
     if (status) {
         simulation->unconverged_steps++;

@@ -155,7 +155,7 @@ static double dot(int n, const double *a, const double *b)
  * matrix has lost to rounding. */
 typedef struct ConjugateGradients {
     Projection projection;
-    double tolerance; /* the end: r.z is at most this part of first_rz */
+    double tolerance; /* limit of r.z/first_rz at which the loop ends */
     double rz;        /* r.z, squared size of the residual */
     double first_rz;  /* r.z before the first step */
 } ConjugateGradients;
@@ -218,11 +218,11 @@ static Status solve_with_factor(Newton *newton)
 }
 
 /* Bounds the error of p, with H applied term by term.
- *   error  out, kg^(1/2) m, bound of |p - exact p|_M.  Where H - M is positive
- *          semi-definite: |g + H p|_(M^-1).  Else: 2 |factor^-1 (g + H p)|_M,
- *          where the factor must be that of H itself.  (An earlier H may be far
- *          stiffer, since a contact has opened.)  If projection on demand has
- *          clamped H, the bound is one for the clamped H.
+ *   error  out, kg^(1/2) m, bound of |p - exact p|_M: |g + H p|_(M^-1) if H - M
+ *          is positive semi-definite, else 2 |factor^-1 (g + H p)|_M with the
+ *          factor of H itself.  (An earlier H may be far stiffer, since a
+ *          contact has opened.)  If projection on demand has clamped H, the
+ *          bound is one for the clamped H.
  * Returns OK, NOT_FINITE, SINGULAR. */
 static Status direction_error_bound(Newton *newton, double *error)
 {
@@ -278,7 +278,7 @@ static void solve_diagonal(Newton *newton)
         at->p[i] = at->g[i] == 0 ? 0 : -at->g[i] / H[i];
 }
 
-/* Returns max over nodes of |p_x| + |p_y|, m; NaN if p has a NaN.  (numpy's
+/* Returns max over nodes of |p_x| + |p_y| (m); NaN if p has a NaN.  (numpy's
  * norm(p, inf) of an array of shape (n, 2) is the largest row sum.) */
 static double largest_row_sum(int nodes, const double *p)
 {
@@ -292,7 +292,7 @@ static double largest_row_sum(int nodes, const double *p)
 }
 
 /* A direction is negligible if its bound passes the test and is at most this
- * part of the shortest spring. */
+ * fraction of the shortest spring. */
 static const double NEGLIGIBLE = 1e-6;
 
 /* A factor serves again while no node has moved by more than NEARBY of the
@@ -413,8 +413,8 @@ static Status solve_with_new_factor(Newton *newton)
     if (status != STATUS_OK)
         return status;
     correct_momentum(newton);
-    /* Where springs outweigh the masses too much, a factor is not exact, nor is
-     * one whose pivots were replaced. */
+    /* A factor is not exact where springs outweigh the masses too much, or if
+     * its pivots were replaced. */
     return find_residual(newton,
                          !newton->rounding.factor_is_inexact &&
                              newton->direction.shift == 0 &&

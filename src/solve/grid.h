@@ -55,19 +55,19 @@ typedef struct Grid {
     RowLayout rows;
     int segments, bands;
     double length_unit, mass_unit,
-        energy_unit; /* grid units in a m, kg, J s^2 */
+        energy_unit; /* grid units per m, kg, J s^2 */
     /* Equal rows of masses are stored once, and so are equal rows of springs.
      * Node q in row i has the mass m[q + node_shift[i]]; the springs that start
      * there have the index q + spring_shift[i + 1]; [0] is for row -1. */
-    int *node_shift, *spring_shift; /* [nodes + 1] index shifts */
+    int *node_shift, *spring_shift; /* [nodes + 1] added to q, by row */
     double *c[KINDS];  /* [plane] 2 w k/l2, w: weight of P in E; 0: no spring */
     double *l2[KINDS]; /* [plane] squared rest length */
     double *m, *inverse_m; /* [plane] mass and 1/mass; inverse_m is 0 at pins */
     double min_mass;       /* smallest mass of a node that moves */
-    double max_stiffness;  /* largest 8 c l2 of a spring: bounds a node's sum */
+    double max_stiffness;  /* largest 8 c l2 of a spring, bound for a node */
     float *float_c[KINDS]; /* [plane] c in single precision */
     float *float_l2[KINDS]; /* [plane] l2 in single precision */
-    float *float_m;         /* [plane] mass without node_shift; 0 at pins */
+    float *float_m;         /* [plane] mass of each node; 0 at pins */
     float *float_x; /* [2 planes] x - x of the middle node (grid_narrow_x) */
     double *x, *x_tilde, *u_tilde; /* [2 planes] u_tilde is x_tilde - x_n */
     double *from_target; /* [2 planes] x - x_tilde = u - u_tilde; 0 at pins */

@@ -32,7 +32,7 @@ typedef struct NodeRun {
     ptrdiff_t before, after; /* distances to the columns before and after */
     ptrdiff_t own, below;    /* Grid.spring_shift of the row, and of
                                 the row before */
-    ptrdiff_t mass_shift;    /* index of a node's mass less that of the node */
+    ptrdiff_t mass_shift;    /* mass index of a node minus node index */
 } NodeRun;
 
 INLINE NodeRun nodes_in_row(const RowLayout *rows, int i, int odd)
@@ -97,7 +97,7 @@ enum { SECOND_HALF_OFFSET = 0 };
 #define WHERE(condition, a) ((condition) ? (a) : 0)
 #endif
 
-/* Converts to single precision: the number low; in a browser two pairs. */
+/* Converts `low` to single precision; in a browser also `high`. */
 INLINE Floats narrow_to_single(Doubles low, Doubles high)
 {
 #ifdef __wasm_simd128__ /* clang does not find this instruction by itself */

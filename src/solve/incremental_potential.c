@@ -62,9 +62,9 @@ Status incremental_potential_create_hessian(const System *system, Sparse *A)
         add_term_triplets(system, &triplets);
         status = sparse_create(&triplets, A);
     }
-    /* Entries of terms in rows or columns of pinned nodes are dropped, into the
-     * last value of A.  A column begins with its diagonal entry, which is 1
-     * here in a pinned column. */
+    /* Entries of terms in rows or columns of pinned nodes are dropped: the last
+     * value of A, which is unused, collects them.  A column begins with its
+     * diagonal entry, which is 1 here in a pinned column. */
     for (int t = 0; t < triplets.count && !status; t++)
         if (t < masses)
             A->value[A->slot[t]] = system->pinned[t / 2];

@@ -10,8 +10,8 @@
 #include "solve/tiles.h"
 #include "solve/v_cycle.h"
 
-/* The V-cycle keeps its matrices while no node has moved by more than this part
- * of the shortest spring since they were computed. */
+/* The V-cycle keeps its matrices while no node has moved by more than this
+ * fraction of the shortest spring since they were computed. */
 static const double NEARBY = 0.05;
 
 /* A direction is poor if the bound of p after it is more than STALLS times the
@@ -21,15 +21,15 @@ static const double NEARBY = 0.05;
 static const double STALLS = 0.3, PACE = 0.01;
 
 /* If the first sweep of all tiles in a step lowers E by less than USELESS times
- * the last direction's decrease, the tiles rest for TILE_REST iterations. */
+ * the last direction's decrease, tiles pause for TILE_REST iterations. */
 static const double USELESS = 0.005;
 enum { TILE_REST = 5 };
 
 /* Number of iterations after which Newton takes over; most steps need ten. */
 enum { MAX_MG_ITERATIONS = 200 };
 
-/* A change of E that is at most this part of the step's largest change may be
- * rounding.  If p_bound has not fallen, the change is compared with the
+/* A change of E that is at most this fraction of the step's largest change may
+ * be rounding.  If p_bound has not fallen, the change is compared with the
  * rounding of E. */
 static const double SMALL_CHANGE = 1e-9;
 
@@ -112,7 +112,7 @@ static const char *find_refusal_reason(const Newton *newton)
         return "the projection is not clamp";
     if (settings->line_search != LINE_SEARCH_BACKTRACK)
         return "there is no line search";
-    /* The test would need more digits than a double has. */
+    /* The test of p would need more digits than a double has. */
     if (newton->rounding.factor_is_inexact)
         return "springs outweigh the masses too far";
     return NULL;
@@ -190,7 +190,7 @@ static void multigrid_compute_direction(Newton *newton)
     if (v_cycle_solve(&mg->cycle, mg->g, mg->gradient_norm2, longest, mg->p,
                       &largest)) {
         double square = grid_linear_residual(&mg->grid, mg->g, mg->p);
-        /* `largest` is a sum in single precision. */
+        /* The factor bounds `largest`, a sum rounded to single precision. */
         newton->passes_test = p_passes_test(
             &mg->grid, largest * (1 + FLT_EPSILON), square, longest);
     }
@@ -213,7 +213,7 @@ static Status multigrid_find_direction(Newton *newton)
 
 /* Returns an alpha at which the quartic is below 0, at a minimum if rounding
  * allows, searched from 1 on; 0 if there is none.
- *   trials  out, number of places evaluated */
+ *   trials  out, number of evaluations of the quartic */
 static double minimise_quartic(const Quartic *quartic, int *trials)
 {
     const double *q = quartic->q;
@@ -310,7 +310,7 @@ static Status multigrid_update_iterate(Newton *newton)
                 record->iteration + (first > USELESS * change ? TILE_REST : 1);
         multigrid_compute_line_polynomial(mg);
         double alpha = minimise_quartic(&mg->line_E, &(int){0});
-        if (alpha > 0) { /* not if numbers overflowed in single precision */
+        if (alpha > 0) { /* false after an overflow of the tiles' floats */
             grid_add_step(&mg->grid, alpha, p);
             record->change += quartic_value(&mg->line_E, alpha);
             mg->moved_since_setup = INFINITY;
@@ -344,7 +344,7 @@ static Status multigrid_test_iterate(Newton *newton, Status status)
     if (ends && system_falls_freely(newton->system))
         record->change +=
             grid_correct_momentum(&mg->grid) / mg->grid.energy_unit;
-    /* In no other case is newton->iterate read. */
+    /* newton->iterate is read only in these cases. */
     if (ends || stuck || small || last || newton->settings.observer) {
         swap_iterates(newton);
         grid_write_iterate(&mg->grid, &newton->iterate);
@@ -352,8 +352,8 @@ static Status multigrid_test_iterate(Newton *newton, Status status)
     const double turned =
         ends && newton->rounding.is_stiff ? turn_free_body(newton) : 0;
     record->change += turned;
-    /* p_bound is known at the angle before the turn.  The bound does not hold
-     * after a turn that may move a node by more than half of the tolerance. */
+    /* p_bound was computed before the body was turned, and is not valid if the
+     * turn may move a node by more than half of tolerance times h. */
     bool overturns = !newton->passes_test &&
                      2 * bound_largest_movement(newton, sqrt(-2 * turned)) >
                          newton->tolerance * newton->settings.h;

@@ -9,8 +9,8 @@
 typedef struct NewtonPhases {
     /* Computes g and p at x, and the residual of p.  Sets newton->passes_test
      * if the residual, with a bound of its error, is at most the tolerance.
-     * (In Newton's phase no turn may follow that turn_free_body does not make.)
-     * Returns OK, or why there is no p. */
+     * (Newton's phase does not if a turn may follow that turn_free_body cannot
+     * make.)  Returns OK, or why there is no p. */
     Status (*find_direction)(Newton *newton);
     /* Computes alpha, trials, slope and change; Newton's phase also the end of
      * the step in u_trial and x_trial.  Returns OK, or why no step lowers E:
@@ -44,10 +44,10 @@ void direction_free_matrix(SearchDirection *direction);
 
 Status find_direction(Newton *newton);
 
-/* Returns an upper bound, m, of |p_x| + |p_y| of any p with this |p|_M. */
+/* Returns the largest |p_x| + |p_y| (m) of a node if |p|_M is `norm`. */
 double bound_largest_movement(const Newton *newton, double norm);
 
-/* Returns the largest |p_x| + |p_y|, m, of a negligible direction, which passes
+/* Returns the largest |p_x| + |p_y| (m) of a negligible direction, which passes
  * the test and is at most a millionth of the shortest spring. */
 double negligible_direction_size(const Newton *newton);
 

@@ -43,7 +43,7 @@ typedef struct DenseProduct {
     int ldl;
 } DenseProduct;
 
-/* Defines a function that computes rows i ... of C: `wide` vectors of Lanes. */
+/* Defines a function that computes `wide` Lanes of rows of C, from row i on. */
 #define ROWS(rows, Lanes, wide)                                                \
     INLINE void rows(const DenseProduct *at, int i, int n,                     \
                      const double *inverse)                                    \

@@ -18,12 +18,12 @@ enum { CIRCLING_ITERATIONS = 500 };
 static const double STIFF_MASSES = 1e5, INEXACT_MASSES = 1e10,
                     HIDDEN_MASSES = 1e16;
 
-/* E may exceed its start by this part of it, since E is rounded. */
+/* Fraction by which E may exceed its value at the start, since E is rounded. */
 static const double MARGIN = 1e-12;
 
-/* E contradicts a change along a line if E is higher by more than a sum: AGREED
- * of E at both ends, and BLURS times the effect of rounded coordinates.
- * (Samples of this effect differ by large factors.) */
+/* E contradicts a change along a line if E is higher by more than AGREED times
+ * E at both ends plus BLURS times the effect of rounded coordinates.  (Samples
+ * of this effect differ by large factors.) */
 static const double AGREED = 1e-10, BLURS = 100;
 
 void rounding_prepare(Newton *newton)

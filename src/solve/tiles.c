@@ -195,7 +195,7 @@ INLINE double relax_tile(const Tiles *tiles, int tile, bool has_tiny_moves)
     return sum_lanes(sum);
 }
 
-/* Sweeps the tiles whose change of E (Tiles.activity) is at most `activity`.
+/* Sweeps the tiles whose Tiles.activity, a change of E, is at most `activity`.
  * Tiles of one colour are not neighbours, so their order has no effect.
  *   visits  out, number of sweeps
  * Returns the change of E. */
@@ -211,7 +211,7 @@ FAST static double sweep_tiles(Tiles *tiles, double activity, int *visits)
                 if (tiles->activity[i * wide + j] <= activity)
                     tiles->active[count++] = i * wide + j;
         for (int t = 0; t < count; t++) {
-            int tile = tiles->active[t]; /* each copy has a constant flag */
+            int tile = tiles->active[t]; /* constant flags: two fast copies */
             tiles->last_change[tile] = tiles->has_tiny_moves
                                            ? relax_tile(tiles, tile, true)
                                            : relax_tile(tiles, tile, false);
@@ -267,9 +267,9 @@ INLINE double find_largest_activity(const Tiles *tiles)
 FAST double tiles_relax(Tiles *tiles, double pace, double *p)
 {
     int count = tiles->rows * tiles->columns, visits;
-    double rounding = tiles->grid->segments * FLT_EPSILON; /* error of x */
+    double float_x_error = tiles->grid->segments * FLT_EPSILON;
     tiles->has_tiny_moves =
-        pace > -tiles->grid->max_stiffness * rounding * rounding;
+        pace > -tiles->grid->max_stiffness * float_x_error * float_x_error;
     begin_relaxation(tiles, p);
     for (int t = 0; t < count; t++)
         tiles->activity[t] = 0;

@@ -62,7 +62,7 @@ double turn_free_body(Newton *newton)
         new_x[i] = newton->iterate.E.x_n[i] + new_u[i];
     }
     if (!incremental_potential_is_feasible(&newton->iterate.E, new_u, new_x))
-        return 0; /* rounding closed a gap */
+        return 0; /* rounding has closed a gap */
     memcpy(u, new_u, (size_t)size * sizeof *u);
     memcpy(x, new_x, (size_t)size * sizeof *x);
     newton->has_gradient = false;

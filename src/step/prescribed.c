@@ -21,7 +21,7 @@
  * because each further part would take more updates than the one before. */
 enum { MAX_HALVINGS = 10, MAX_MOTION_PARTS = 100 };
 
-/* Nodes that a wall would touch are carried along and keep this part of the
+/* Nodes that a wall would touch are carried along, with this fraction of the
  * barrier's width as their gap. */
 #define CARRIED_GAP 0.3
 
@@ -49,7 +49,7 @@ bool prescribed_begin_step(TimeIntegrator *run)
     for (int k = 0; contact && k < contact->obstacles; k++) {
         Obstacle *obstacle = &contact->obstacle[k];
         const ObstacleMotion *motion = &obstacle->motion;
-        double from = 0; /* part of the step, as `to` */
+        double from = 0; /* start of a phase, from 0 to 1 in the step */
         obstacle->v[0] = obstacle->v[1] = 0;
         for (int i = 0; i < motion->phases; i++) {
             double left = motion->phase_end[i] - run->clock.time;
@@ -106,9 +106,9 @@ static void move_carried_nodes(const System *system, const Contact *contact,
     }
 }
 
-/* Moves obstacles, pins and carried nodes by a part of the step.  Sets new_x to
- * u: Newton's displacement plus this motion.  Returns whether all terms allow u
- * and no body passes through another.  If not, moves the obstacles back. */
+/* Moves obstacles, pins and carried nodes by this fraction of the step.  Sets
+ * new_x to u: Newton's displacement plus this motion.  Returns false, with the
+ * obstacles moved back, if a term forbids u or a body would cross another. */
 static bool try_prescribed_motion(TimeIntegrator *run, double part)
 {
     const System *system = run->system;
@@ -137,12 +137,12 @@ static bool try_prescribed_motion(TimeIntegrator *run, double part)
     return false;
 }
 
-/* Moves obstacles and pins by the largest part of the step for which there is
- * room.
- *   part      in, the first part that is tried
- *   halvings  in, number of parts that are tried, each half the one before
+/* Moves obstacles and pins by the largest fraction of the step for which there
+ * is room.
+ *   part      in, the first fraction that is tried
+ *   halvings  in, number of fractions that are tried, each half the one before
  *   parts     in, limit of the parts of a step so far
- * Returns the part, or 0 if there was no room. */
+ * Returns the fraction, or 0 if there was no room. */
 static double make_longest_motion(TimeIntegrator *run, double part,
                                   int halvings, int parts)
 {
