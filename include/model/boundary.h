@@ -28,11 +28,11 @@ typedef struct SweptBox {
 
 typedef struct Boundary {
     SquareMesh mesh;
-    unsigned system_version; /* System.version of this boundary */
-    int points, edges;       /* numbers of points and edges */
-    int *point_node;         /* [nodes] node of each point */
-    SweptBox *edge_box;      /* [springs] boxes of the edges, sorted */
-    SweptBox *point_box;     /* [nodes] box of each point, by node */
+    unsigned system_version;     /* System.version of this boundary */
+    int point_count, edge_count; /* numbers of points and edges */
+    int *point_node;             /* [nodes] node of each point */
+    SweptBox *edge_box;          /* [springs] boxes of the edges, sorted */
+    SweptBox *point_box;         /* [nodes] box of each point, by node */
     unsigned char *triangles_at_spring; /* [springs] solid triangles */
     unsigned char *node_role; /* [nodes] bits: in a triangle, on an edge */
 
@@ -51,8 +51,7 @@ typedef struct Boundary {
     int *near_list_end; /* [nodes] end of each point's edges in near_edge */
 } Boundary;
 
-/* Allocates the arrays, which free(boundary->x) frees.  Returns OK or
- * OUT_OF_MEMORY. */
+/* Allocates the arrays; free(boundary->x) frees all.  OK or OUT_OF_MEMORY. */
 Status boundary_create(const SquareMesh *mesh, Boundary *boundary);
 
 /* Finds the boundary again if springs have changed, and the near edges of each
@@ -63,7 +62,7 @@ Status boundary_create(const SquareMesh *mesh, Boundary *boundary);
 void boundary_update(Boundary *boundary, const System *system, const double *x,
                      const double *p, double alpha, double margin);
 
-/* Returns the next edge that point i, 0 ... points-1, may meet.
+/* Returns the next edge that point i, 0 ... point_count-1, may meet.
  *   cursor  in/out, 0 before the first edge and after the last one
  * Returns the spring of the edge; -1 after the last edge. */
 int boundary_next_edge(const Boundary *boundary, const System *system, int i,

@@ -23,7 +23,7 @@ enum { MOTION_MAX_PHASES = 4 };
 
 /* Prescribed motion of an obstacle: phases of constant velocity, then rest. */
 typedef struct ObstacleMotion {
-    int phases;                          /* number of phases */
+    int phase_count;                     /* number of phases */
     double phase_end[MOTION_MAX_PHASES]; /* s, end of the phase */
     double v[MOTION_MAX_PHASES][2];      /* m/s, velocity in the phase */
 } ObstacleMotion;
@@ -72,17 +72,17 @@ enum { CONTACT_MAX_OBSTACLES = 20 };
 
 /* An obstacle that a hand pulls to a point (push.c). */
 typedef struct ObstaclePush {
-    bool is_held;       /* whether a hand holds an obstacle */
-    int obstacle;       /* number of the obstacle */
-    double target[2];   /* m, target of the obstacle's point o */
-    SquareMesh mesh;    /* mesh of the bodies, whose cells no ball may enter */
-    bool is_blocked;    /* the obstacle found no room to move in this step */
-    double moving_part; /* fraction of the step with motion */
+    bool is_held;     /* whether a hand holds an obstacle */
+    int obstacle;     /* number of the obstacle */
+    double target[2]; /* m, target of the obstacle's point o */
+    SquareMesh mesh;  /* mesh of the bodies, whose cells no ball may enter */
+    bool is_blocked;  /* the obstacle found no room to move in this step */
+    double moving_fraction; /* fraction of the step with motion */
 } ObstaclePush;
 
 typedef struct Contact {
     Barrier barrier;
-    int obstacles; /* number of obstacles */
+    int obstacle_count; /* number of obstacles */
     Obstacle obstacle[CONTACT_MAX_OBSTACLES];
     int free_ball;     /* number of the ball whose centre is a node; -1: none */
     ObstaclePush hand; /* obstacle held by a hand */

@@ -33,7 +33,7 @@ typedef struct SlidingContact {
 typedef struct Friction {
     double slip_speed; /* m/s, eps_v > 0 */
     double e;          /* m, eps_v h */
-    int contacts;      /* number of contacts with a normal force in this step */
+    int contact_count; /* number of contacts with a normal force in this step */
     int contact_capacity; /* number of contacts for which `contact` has room */
     SlidingContact contact[]; /* [capacity] contacts of this step */
 } Friction;

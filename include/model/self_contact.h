@@ -33,10 +33,10 @@ typedef struct SelfContact {
     double c;        /* J, factor on the barrier of a point and an edge */
     double friction; /* coefficient of friction mu */
     Boundary boundary;
-    int pairs;           /* number of blocks in this step */
-    int pair_capacity;   /* number of pairs for which `pair` has room */
-    int start_pairs;     /* number of pairs at the start of this step */
-    PointEdgePair *pair; /* [pair_capacity] start_pairs by node, then by edge */
+    int pair_count;       /* number of blocks in this step */
+    int pair_capacity;    /* number of pairs for which `pair` has room */
+    int start_pair_count; /* number of pairs at the start of this step */
+    PointEdgePair *pair;  /* [pair_capacity] start pairs by node, then edge */
 } SelfContact;
 
 /* The sum of W over all points and edges; data: SelfContact.  An element is a

@@ -37,7 +37,7 @@ struct System {
     int segments;     /* number of segments a side of one square; else 0 */
     unsigned version; /* rises with every change of numbers or terms */
     unsigned pattern_version; /* rises when the Hessian's pattern changes */
-    int terms;                /* number of terms */
+    int term_count;           /* number of terms */
     EnergyTerm term[SYSTEM_MAX_TERMS]; /* terms in the order of TermKind.rank */
     /* Lost energy by column, up to a NULL name; stays when its term goes. */
     EnergyLoss losses[SYSTEM_MAX_TERMS];

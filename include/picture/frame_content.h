@@ -20,15 +20,15 @@ enum {
 /* The present line of Algorithm 3. The work of this line and of all lines
  * before it is done: at LINE_SOLVE p is known, at LINE_SEARCH alpha. */
 typedef enum StepLine {
-    LINE_NONE,    /* between two steps; no line is lit */
-    LINE_START,   /* 1  x^i <- x^n */
-    LINE_DO,      /* 2  do */
-    LINE_PROJECT, /* 3  H^ <- SPDProjection(Hessian E(x^i)) */
-    LINE_SOLVE,   /* 4  p <- -H^^-1 grad E(x^i) */
-    LINE_SEARCH,  /* 5  alpha <- BackTrackingLineSearch(x^i, p) */
-    LINE_UPDATE,  /* 6  x^i <- x^i + alpha p */
-    LINE_TEST,    /* 7  while |p|/h > epsilon */
-    LINE_END,     /* 8  x^n+1 <- x^i, v^n+1 <- (x^n+1 - x^n)/h */
+    LINE_NONE,     /* between two steps; no line is lit */
+    LINE_START,    /* 1  x^i <- x^n */
+    LINE_DO,       /* 2  do */
+    LINE_PROJECT,  /* 3  H^ <- SPDProjection(Hessian E(x^i)) */
+    LINE_SOLVE,    /* 4  p <- -H^^-1 grad E(x^i) */
+    LINE_SEARCH,   /* 5  alpha <- BackTrackingLineSearch(x^i, p) */
+    LINE_UPDATE,   /* 6  x^i <- x^i + alpha p */
+    LINE_TEST,     /* 7  while |p|/h > epsilon */
+    LINE_END_STEP, /* 8  x^n+1 <- x^i, v^n+1 <- (x^n+1 - x^n)/h */
     LINE_COUNT
 } StepLine;
 
@@ -37,7 +37,7 @@ typedef enum StepLine {
 typedef struct NewtonTrace {
     StepLine at_line;           /* present line of Algorithm 3 */
     double h, tolerance;        /* time step (s), tolerance (m/s) */
-    int records;                /* number of records */
+    int record_count;           /* number of records */
     const NewtonRecord *record; /* [records] records of the iterations */
     int iteration;              /* number of the present update, from 0 */
     const double *x;            /* [2n] m, present iterate x^i */
@@ -142,8 +142,8 @@ typedef struct Pick {
 /* Bounds of a pane's view while the mouse drags a thing: the view stands still,
  * so that the thing stays under the mouse. */
 typedef struct DragBounds {
-    bool is_dragging; /* during a drag */
-    bool has_left;    /* the mouse is outside of the stage: the view may move */
+    bool is_dragging;    /* during a drag */
+    bool mouse_has_left; /* the mouse is off the stage: the view may move */
     int pane_index;
     double bounds[4]; /* left, bottom, right, top (m) */
 } DragBounds;
@@ -238,7 +238,7 @@ typedef struct ListRow {
 } ListRow;
 
 typedef struct RowList {
-    int rows; /* number of rows */
+    int row_count;
     ListRow row[LAYOUT_MAX_ROWS];
 } RowList;
 

@@ -45,8 +45,7 @@ typedef struct Layout {
     int chips_left_out;         /* number of chips that do not fit */
     Box bars;                   /* bars of the steps, inside the time line */
     int cells;                  /* number of cells of the overview */
-    Box cell[LAYOUT_MAX_CELLS]; /* scene's square and name, without its heading
-                                 */
+    Box cell[LAYOUT_MAX_CELLS]; /* scene's square and name, no heading */
 } Layout;
 
 typedef enum WindowZone {

@@ -64,11 +64,10 @@ typedef struct Picture {
     void (*draw)(Plot *stage);
     /* Adds the live values that the picture's texts use; may be NULL. */
     void (*add_values)(const Simulation *simulation, LiveValues *values);
-    const char *legend; /* text in the upper left corner, or NULL */
-    bool shows_scale;   /* draws a scale of metres in the lower left corner */
+    const char *legend;   /* text in the upper left corner, or NULL */
+    bool shows_scale_bar; /* draws a scale of metres in the lower left corner */
     /* Finds the part of the picture at pixel (x, y), which is pick->point in
-     * the world.  NULL: only switches, handles and positions
-     * are found. */
+     * the world.  NULL: finds switches, handles and positions. */
     void (*pick)(const Plot *stage, double x, double y, Pick *pick);
     /* Draws the note about the part under the mouse; may be NULL. */
     void (*draw_hover)(Plot *stage);

@@ -22,7 +22,7 @@ typedef struct Prediction {
  * m.  A function of one unknown uses g[0] and H[0]; the other numbers are 0. */
 typedef struct LocalModel {
     double energy, g[2], H[3]; /* E; gradient; Hessian xx, xy, yy */
-    int projected; /* number of springs whose Hessian was projected */
+    int projected_springs; /* number of springs whose Hessian was projected */
 } LocalModel;
 
 /* Evaluates a function of one unknown at x. */

@@ -63,8 +63,7 @@ typedef struct Options {
             double ball[OPTIONS_MAX_BALLS][3];
             double bodies; /* number of rows of body that are used */
             double body[SQUARE_MESH_MAX_BODIES][BODY_OPTION_NUMBERS];
-            /* height (m), velocity (m/s), lowest height (m); no ceiling if the
-             * velocity is 0 */
+            /* height (m), velocity (m/s; 0: no ceiling), lowest height (m) */
             double ceiling[3]; /* values of --ceiling */
             double barrier[2]; /* d_hat (m), kappa (J/m^2); 0: side/100, 4 k */
             double friction, slip_speed, cells, self_contact;

@@ -42,15 +42,15 @@ typedef struct StepClock {
 
 struct TimeIntegrator {
     const IntegratorMethod *method;
-    System *system;    /* not owned; its terms may change it */
-    size_t x_length;   /* 2n, length of x, v, new_x, new_v */
-    double h;          /* s, time step */
-    long steps;        /* steps so far */
-    Status status;     /* status of the last step */
-    StepClock clock;   /* time of x and v */
-    bool is_driven;    /* walls, pins or a pushed obstacle move in this step */
-    double moved_part; /* fraction of the prescribed motion that is done */
-    double external_work; /* J, work of walls, pins and the hand so far */
+    System *system;  /* not owned; its terms may change it */
+    size_t x_length; /* 2n, length of x, v, new_x, new_v */
+    double h;        /* s, time step */
+    long steps;      /* steps so far */
+    Status status;   /* status of the last step */
+    StepClock clock; /* time of x and v */
+    bool is_driven;  /* walls, pins or a pushed obstacle move in this step */
+    double moved_fraction; /* fraction of the prescribed motion that is done */
+    double external_work;  /* J, work of walls, pins and the hand so far */
     double *x;       /* [2n] m, positions; start of the block of all arrays */
     double *v;       /* [2n] m/s, velocities */
     double *new_x;   /* [2n] m, x at the end of a step; before that workspace */
@@ -62,8 +62,8 @@ struct TimeIntegrator {
     int stage;                 /* 0 ... stages - 1 */
     Status unconverged_status; /* OK, or that of the last stage without OK */
     double weight;             /* s^2, factor of P in E */
-    double remaining_part;     /* fraction of the motion that is left */
-    int parts_done;            /* number of parts of the motion that are done */
+    double remaining_fraction; /* fraction of the motion that is left */
+    int parts_made;            /* number of parts of the motion that are done */
     long updates_before;       /* Newton's updates before this step */
     bool is_blocked; /* walls and pins cannot move on: a body is in their way */
 };

@@ -34,8 +34,8 @@ static inline void area_split_edges(const double f[4], double plus[2],
 void area_line_polynomial(const double f[4], double unit, const double P[4],
                           double *J1, double *J2);
 
-/* Returns Triangles with a right angle at rest, with legs of this length
- * (m). */
+/* Returns Triangles with a right angle between legs of this length (m).
+ *   node  [3 count] int, memory for the nodes */
 static inline Triangles make_right_triangles(int count, double leg, void *node)
 {
     double area = 0.5 * leg * leg;

@@ -42,7 +42,7 @@ static void find_boundary(Boundary *boundary, const System *system)
     const SquareMesh *shape = &boundary->mesh;
     memset(boundary->triangles_at_spring, 0, (size_t)shape->springs);
     memset(boundary->node_role, 0, (size_t)shape->nodes);
-    boundary->points = boundary->edges = 0;
+    boundary->point_count = boundary->edge_count = 0;
     for (int c = 0; c < shape->cells; c++) {
         int node[4][3], side[4][3], solid = 0;
         for (int k = 0; k < 4; k++) {
@@ -62,13 +62,13 @@ static void find_boundary(Boundary *boundary, const System *system)
     for (int s = 0; s < shape->springs; s++) {
         if (boundary->triangles_at_spring[s] != 1)
             continue;
-        boundary->edge_box[boundary->edges++].edge_spring = s;
+        boundary->edge_box[boundary->edge_count++].edge_spring = s;
         for (int end = 0; end < 2; end++)
             boundary->node_role[system->e[2 * s + end]] |= ON_AN_EDGE;
     }
     for (int i = 0; i < shape->nodes; i++)
         if (boundary->node_role[i] != IN_A_TRIANGLE)
-            boundary->point_node[boundary->points++] = i;
+            boundary->point_node[boundary->point_count++] = i;
     boundary->system_version = system->version;
     boundary->has_valid_boxes = false;
 }
@@ -100,16 +100,16 @@ static void compute_boxes(Boundary *boundary, const System *system)
     double *mean = boundary->mean_p;
     boundary->widest_edge = mean[0] = mean[1] = 0;
     SweptBox all = empty_box;
-    for (int i = 0; i < boundary->points; i++) {
+    for (int i = 0; i < boundary->point_count; i++) {
         int node = boundary->point_node[i];
         for (int c = 0; c < 2; c++) {
             extend_box(&all, c, x[2 * node + c], x[2 * node + c]);
             if (p)
-                mean[c] += p[2 * node + c] / boundary->points;
+                mean[c] += p[2 * node + c] / boundary->point_count;
         }
     }
     boundary->sorts_by_y = all.high[1] - all.low[1] > all.high[0] - all.low[0];
-    for (int i = 0; i < boundary->points; i++) {
+    for (int i = 0; i < boundary->point_count; i++) {
         int node = boundary->point_node[i];
         SweptBox *box = &boundary->point_box[node];
         *box = empty_box;
@@ -121,7 +121,7 @@ static void compute_boxes(Boundary *boundary, const System *system)
                 x[2 * node + c] + boundary->box_margin + (way > 0 ? way : 0));
         }
     }
-    for (int k = 0; k < boundary->edges; k++) {
+    for (int k = 0; k < boundary->edge_count; k++) {
         SweptBox *box = &boundary->edge_box[k];
         int s = box->edge_spring;
         const SweptBox *other = &boundary->point_box[system->e[2 * s + 1]];
@@ -133,14 +133,14 @@ static void compute_boxes(Boundary *boundary, const System *system)
         boundary->widest_edge =
             wide > boundary->widest_edge ? wide : boundary->widest_edge;
     }
-    qsort(boundary->edge_box, (size_t)boundary->edges, sizeof(SweptBox),
+    qsort(boundary->edge_box, (size_t)boundary->edge_count, sizeof(SweptBox),
           compare_box_left_sides);
 }
 
 /* Returns the first sorted edge whose box may reach the coordinate `left`. */
 static int find_first_edge(const Boundary *boundary, double left)
 {
-    int low = 0, high = boundary->edges;
+    int low = 0, high = boundary->edge_count;
     while (low < high) {
         int middle = (low + high) / 2;
         if (boundary->edge_box[middle].low[0] < left - boundary->widest_edge)
@@ -158,7 +158,8 @@ static int search_next_edge(const Boundary *boundary, const System *system,
     int node = boundary->point_node[i];
     const SweptBox *own = &boundary->point_box[node];
     int k = *cursor > 0 ? *cursor : find_first_edge(boundary, own->low[0]);
-    for (; k < boundary->edges && boundary->edge_box[k].low[0] <= own->high[0];
+    for (; k < boundary->edge_count &&
+           boundary->edge_box[k].low[0] <= own->high[0];
          k++) {
         const SweptBox *box = &boundary->edge_box[k];
         const int *end = system->e + 2 * box->edge_spring;
@@ -194,7 +195,8 @@ void boundary_update(Boundary *boundary, const System *system, const double *x,
         memcpy(boundary->p, p, bytes);
     compute_boxes(boundary, system);
     boundary->has_all_near_edges = true;
-    for (int i = 0; i < boundary->points && boundary->has_all_near_edges; i++) {
+    for (int i = 0; i < boundary->point_count && boundary->has_all_near_edges;
+         i++) {
         while ((edge = search_next_edge(boundary, system, i, &cursor)) >= 0 &&
                count < room)
             boundary->near_edge[count++] = edge;

@@ -42,7 +42,7 @@ bool contact_includes_pair(const Contact *contact, const System *system,
 {
     int ball = contact->obstacle[obstacle].node;
     bool held = system->pinned[node] && !system->pin_v &&
-                contact->obstacle[obstacle].motion.phases == 0;
+                contact->obstacle[obstacle].motion.phase_count == 0;
     return node != ball && !(held && (ball < 0 || system->pinned[ball]));
 }
 
@@ -63,7 +63,7 @@ static const Barrier *contact_barrier(const EvalPoint *at)
 static int count_contact_pairs(const EvalPoint *at)
 {
     const Contact *contact = at->term->data;
-    return contact->obstacles * at->system->nodes;
+    return contact->obstacle_count * at->system->nodes;
 }
 
 static bool contact_get_element(const EvalPoint *at, int i, double way,
@@ -244,7 +244,7 @@ Status contact_configure(System *system, const Barrier *barrier, int obstacles,
     if (!contact)
         return STATUS_OUT_OF_MEMORY;
     contact->barrier = *barrier;
-    contact->obstacles = obstacles;
+    contact->obstacle_count = obstacles;
     contact->free_ball = -1;
     memcpy(contact->obstacle, obstacle, (size_t)obstacles * sizeof *obstacle);
     for (int k = 0; k < obstacles; k++)

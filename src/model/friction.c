@@ -81,7 +81,7 @@ static Status friction_begin_step(const TermStep *step)
     at.term = step->term;
     at = select_contact_term(&at);
     friction->e = friction->slip_speed * step->h;
-    friction->contacts = 0;
+    friction->contact_count = 0;
     for (ElementIterator walk = elements_begin(&at, NULL, 0);
          elements_next(&walk);) {
         SlidingContact contact = {walk.element, 0};
@@ -92,7 +92,7 @@ static Status friction_begin_step(const TermStep *step)
         contact.obstacle_travel *= step->h;
         if (!(contact.element.r > 0))
             continue;
-        if (friction->contacts == friction->contact_capacity) {
+        if (friction->contact_count == friction->contact_capacity) {
             int room = 2 * friction->contact_capacity + 64;
             friction =
                 realloc(step->term->data,
@@ -102,7 +102,7 @@ static Status friction_begin_step(const TermStep *step)
             step->term->data = friction;
             friction->contact_capacity = room;
         }
-        friction->contact[friction->contacts++] = contact;
+        friction->contact[friction->contact_count++] = contact;
     }
     return STATUS_OK;
 }
@@ -111,7 +111,7 @@ static Status friction_begin_step(const TermStep *step)
 static void friction_end_step(const TermStep *step)
 {
     const Friction *friction = step->term->data;
-    for (int i = 0; i < friction->contacts; i++) {
+    for (int i = 0; i < friction->contact_count; i++) {
         const SlidingContact *contact = &friction->contact[i];
         double y = compute_slip(contact, step->h, step->v);
         system_book_loss(step->system, step->term->kind,
@@ -127,7 +127,7 @@ static const Friction *friction_data(const EvalPoint *at)
 
 static int count_slips(const EvalPoint *at)
 {
-    return friction_data(at)->contacts;
+    return friction_data(at)->contact_count;
 }
 
 /* Element i is contact i; Element.s is the slip y, m.  Returns false
@@ -218,7 +218,7 @@ double friction_obstacle_work(const System *system, const double *u)
 {
     const Friction *friction = system_term_data(system, &friction_energy);
     double sum = 0;
-    for (int i = 0; friction && i < friction->contacts; i++) {
+    for (int i = 0; friction && i < friction->contact_count; i++) {
         const SlidingContact *contact = &friction->contact[i];
         double y = compute_slip(contact, 1, u);
         sum -= contact->element.r * friction_slope(y, friction->e) *

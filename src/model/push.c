@@ -78,8 +78,8 @@ static bool obstacle_has_room(const Contact *contact, const System *system,
 
 /* Returns the fraction of the way up to the first place without room, found by
  * steps that are halved at this place. */
-static double find_free_path_part(const Contact *contact, const System *system,
-                                  const double *x, const double way[2])
+static double find_free_fraction(const Contact *contact, const System *system,
+                                 const double *x, const double way[2])
 {
     const Obstacle *obstacle = &contact->obstacle[contact->hand.obstacle];
     double length = math_hypot(way[0], way[1]), free = 0, step = 1;
@@ -106,15 +106,15 @@ void push_begin_step(Contact *contact, const System *system, const double *x,
     ObstaclePush *push = &contact->hand;
     double way[2];
     push->is_blocked = false;
-    push->moving_part = 0;
-    push->is_held = push->is_held && push->obstacle < contact->obstacles;
+    push->moving_fraction = 0;
+    push->is_held = push->is_held && push->obstacle < contact->obstacle_count;
     if (!push->is_held)
         return;
     Obstacle *obstacle = &contact->obstacle[push->obstacle];
     plan_obstacle_path(push, obstacle->o, h, way);
     double part = obstacle_is_pressed(contact, system, x, way)
                       ? 0
-                      : find_free_path_part(contact, system, x, way);
+                      : find_free_fraction(contact, system, x, way);
     for (int c = 0; c < 2; c++)
         obstacle->v[c] = part * way[c] / h;
 }

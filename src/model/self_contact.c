@@ -31,10 +31,11 @@ static int compare_pairs(const void *one, const void *other)
 static int find_pair_block(const SelfContact *self, PointEdgePair pair)
 {
     const PointEdgePair *found =
-        self->pairs == 0 ? NULL
-                         : bsearch(&pair, self->pair, (size_t)self->start_pairs,
-                                   sizeof pair, compare_pairs);
-    for (int i = self->start_pairs; i < self->pairs && !found; i++)
+        self->pair_count == 0
+            ? NULL
+            : bsearch(&pair, self->pair, (size_t)self->start_pair_count,
+                      sizeof pair, compare_pairs);
+    for (int i = self->start_pair_count; i < self->pair_count && !found; i++)
         if (compare_pairs(&self->pair[i], &pair) == 0)
             found = &self->pair[i];
     return found ? (int)(found - self->pair) : -1;
@@ -42,7 +43,7 @@ static int find_pair_block(const SelfContact *self, PointEdgePair pair)
 
 static Status add_pair(SelfContact *self, PointEdgePair pair)
 {
-    if (self->pairs == self->pair_capacity) {
+    if (self->pair_count == self->pair_capacity) {
         int room = 2 * self->pair_capacity + 64;
         PointEdgePair *more = realloc(self->pair, (size_t)room * sizeof *more);
         if (!more)
@@ -50,7 +51,7 @@ static Status add_pair(SelfContact *self, PointEdgePair pair)
         self->pair = more;
         self->pair_capacity = room;
     }
-    self->pair[self->pairs++] = pair;
+    self->pair[self->pair_count++] = pair;
     return STATUS_OK;
 }
 
@@ -61,18 +62,18 @@ static Status self_contact_begin_step(const TermStep *step)
     System *system = step->system;
     SelfContact *self = step->term->data;
     Boundary *boundary = &self->boundary;
-    int old = self->pairs, edge, cursor = 0;
-    bool grown = old > self->start_pairs;
+    int old = self->pair_count, edge, cursor = 0;
+    bool grown = old > self->start_pair_count;
     Status status = STATUS_OK;
     boundary_update(boundary, system, step->x, step->v, step->h, self->d_hat);
-    for (int i = 0; i < boundary->points && !status; i++)
+    for (int i = 0; i < boundary->point_count && !status; i++)
         while (!status &&
                (edge = boundary_next_edge(boundary, system, i, &cursor)) >= 0)
             status =
                 add_pair(self, (PointEdgePair){boundary->point_node[i], edge});
-    int count = self->pairs - old;
+    int count = self->pair_count - old;
     PointEdgePair *fresh = self->pair + old;
-    self->pairs = old;
+    self->pair_count = old;
     if (status || count + old == 0)
         return status;
     qsort(fresh, (size_t)count, sizeof *fresh, compare_pairs);
@@ -82,7 +83,7 @@ static Status self_contact_begin_step(const TermStep *step)
         boundary->system_version = system->version; /* no spring has changed */
     }
     memmove(self->pair, fresh, bytes);
-    self->pairs = self->start_pairs = count;
+    self->pair_count = self->start_pair_count = count;
     return STATUS_OK;
 }
 
@@ -102,7 +103,7 @@ static Status self_contact_extend_pattern(const EvalPoint *at, bool *grown)
 
 static int count_pair_blocks(const EvalPoint *at)
 {
-    return self_contact_data(at)->pairs;
+    return self_contact_data(at)->pair_count;
 }
 
 static int get_pair_nodes(const System *system, PointEdgePair pair, int node[3])
@@ -116,7 +117,7 @@ static int get_pair_nodes(const System *system, PointEdgePair pair, int node[3])
 static int get_pair_block_nodes(const EvalPoint *at, int block, int node[3])
 {
     const SelfContact *self = self_contact_data(at);
-    return self->pairs == 0
+    return self->pair_count == 0
                ? 0
                : get_pair_nodes(at->system, self->pair[block], node);
 }
@@ -133,7 +134,7 @@ static void gather_near_edges(const EvalPoint *at, const double *p,
 
 static int count_point_edge_pairs(const EvalPoint *at)
 {
-    return self_contact_data(at)->boundary.points;
+    return self_contact_data(at)->boundary.point_count;
 }
 
 /* Writes s = d^2/d_hat^2, n and r of an element from its q and e. */
@@ -161,8 +162,8 @@ static void set_point_edge_distance(const SelfContact *self, Element *element)
 
 /* Whether d is smaller than the rounding of the positions.  The point may then
  * be on the other side of the edge, so x is infeasible. */
-static bool is_below_rounding(const SelfContact *self, const Element *element,
-                              const double *x)
+static bool distance_is_below_rounding(const SelfContact *self,
+                                       const Element *element, const double *x)
 {
     double size = 0;
     for (int i = 0; i < 6; i++)
@@ -193,7 +194,7 @@ static bool pair_get_element(const EvalPoint *at, int i, double way,
         set_point_edge_distance(self, element);
         if (!boundary->is_swept && element->s >= 1)
             continue;
-        if (is_below_rounding(self, element, at->x))
+        if (distance_is_below_rounding(self, element, at->x))
             element->s = 0;
         element->block_index =
             boundary->is_swept ? -1 : find_pair_block(self, pair);
@@ -203,7 +204,7 @@ static bool pair_get_element(const EvalPoint *at, int i, double way,
     return false;
 }
 
-static double pair_value(const EvalPoint *at, const Element *element)
+static double pair_energy(const EvalPoint *at, const Element *element)
 {
     return self_contact_data(at)->c * barrier_value(element->s);
 }
@@ -349,7 +350,7 @@ static const ElementKind near_pairs = {
     .count_elements = count_point_edge_pairs,
     .get_element = pair_get_element,
     .get_block_nodes = get_pair_block_nodes,
-    .value = pair_value,
+    .value = pair_energy,
     .gradient = pair_gradient,
     .hessian = pair_hessian,
     .line_remainder = pair_line_remainder,

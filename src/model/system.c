@@ -34,7 +34,7 @@ void system_free(System *system)
     free(system->m);
     free(system->e);
     free(system->pin_v);
-    while (system->terms > 0)
+    while (system->term_count > 0)
         system_remove_term(system, system->term[0].kind);
     *system = (System){0};
 }
@@ -117,7 +117,7 @@ void system_zero_pinned_entries(const System *system, double *g)
 /* Whether P stays the same if the body shifts or, with `turn`, turns. */
 static bool terms_are_internal(const System *system, bool turn)
 {
-    for (int t = 0; t < system->terms; t++) {
+    for (int t = 0; t < system->term_count; t++) {
         const TermKind *kind = system->term[t].kind;
         if (kind->is_external || (turn && kind->depends_on_start))
             return false;

@@ -12,7 +12,7 @@ void system_mark_changed(System *system, bool pattern)
 
 EnergyTerm *system_find_term(const System *system, const TermKind *kind)
 {
-    for (int t = 0; t < system->terms; t++)
+    for (int t = 0; t < system->term_count; t++)
         if (system->term[t].kind == kind)
             return (EnergyTerm *)&system->term[t];
     return NULL;
@@ -26,7 +26,7 @@ void *system_term_data(const System *system, const TermKind *kind)
 
 void *system_add_term(System *system, const TermKind *kind, size_t bytes)
 {
-    int place = system->terms;
+    int place = system->term_count;
     void *data = system_term_data(system, kind);
     if (data || place == SYSTEM_MAX_TERMS || !(data = calloc(1, bytes)))
         return data;
@@ -34,7 +34,7 @@ void *system_add_term(System *system, const TermKind *kind, size_t bytes)
          place--)
         system->term[place] = system->term[place - 1];
     system->term[place] = (EnergyTerm){.kind = kind, .data = data};
-    system->terms++;
+    system->term_count++;
     system_mark_changed(system, true);
     return data;
 }
@@ -47,7 +47,7 @@ void system_remove_term(System *system, const TermKind *kind)
     if (kind->free)
         kind->free(term->data);
     free(term->data);
-    EnergyTerm *end = system->term + --system->terms;
+    EnergyTerm *end = system->term + --system->term_count;
     for (; term < end; term++)
         term[0] = term[1];
     system_mark_changed(system, true);
@@ -68,7 +68,7 @@ const TermKind *eval_point_next_term(EvalPoint *at)
 {
     const System *system = at->system;
     const EnergyTerm *next = at->term ? at->term + 1 : system->term;
-    at->term = next < system->term + system->terms ? next : NULL;
+    at->term = next < system->term + system->term_count ? next : NULL;
     return at->term ? at->term->kind : NULL;
 }
 

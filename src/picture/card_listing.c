@@ -103,7 +103,7 @@ bool residuals_make_row(const FrameContent *content, int row,
                         CardTableRow *cells)
 {
     const NewtonTrace *trace = active_pane(content)->shown_trace;
-    int count = trace ? trace->records : 0;
+    int count = trace ? trace->record_count : 0;
     if (count == 0 || row == 0)
         return count > 0;
     const NewtonRecord *now =
@@ -139,7 +139,7 @@ void draw_residual_log_card(const Plot *card)
         above.box.height -= paper_pixels(card->paper, 0.7);
         draw_residual_card(&below);
     }
-    if (trace && trace->records > 0)
+    if (trace && trace->record_count > 0)
         card_draw_table(&above, &card_prints, order);
     else
         card_write_hint(&above, text_undrawn);

@@ -73,12 +73,12 @@ void draw_step_energy_card(const Plot *card)
 void draw_residual_card(const Plot *card)
 {
     const NewtonTrace *trace = card->pane->shown_trace;
-    if (!trace || (trace->records == 0 && !(trace->residual > 0))) {
+    if (!trace || (trace->record_count == 0 && !(trace->residual > 0))) {
         card_write_hint(card, text_undrawn);
         return;
     }
     const double now = trace->residual;
-    int updates = trace->records;
+    int updates = trace->record_count;
     bool known = trace->at_line >= LINE_SOLVE || trace->at_line == LINE_NONE;
     bool pending = known && now > 0 && isfinite(now) &&
                    (updates == 0 || trace->record[updates - 1].residual != now);
@@ -123,11 +123,11 @@ bool updates_make_row(const FrameContent *content, int row, CardTableRow *cells)
         return trace;
     bool before = trace->at_line != LINE_NONE && trace->at_line < LINE_UPDATE;
     /* Number of updates whose step alpha p is in the shown positions. */
-    int made = before ? trace->iteration : trace->records;
+    int made = before ? trace->iteration : trace->record_count;
     bool now =
         before && trace->at_line >= LINE_PROJECT && trace->projected >= 0;
     const NewtonRecord *update = &trace->record[row - 1];
-    StepLine line = row <= made ? LINE_END : trace->at_line;
+    StepLine line = row <= made ? LINE_END_STEP : trace->at_line;
     if (row > made + now)
         return false;
     snprintf(cells->cell[0], CARD_CELL, "%d", row);
@@ -153,7 +153,7 @@ bool updates_make_row(const FrameContent *content, int row, CardTableRow *cells)
 double updates_find_height(const FrameContent *content, double wide, double em)
 {
     const NewtonTrace *trace = active_pane(content)->trace;
-    return CARD_ROW * (1 + fmax(6, trace ? trace->records : 0)) + 2.8;
+    return CARD_ROW * (1 + fmax(6, trace ? trace->record_count : 0)) + 2.8;
 }
 
 void draw_updates_card(const Plot *card)

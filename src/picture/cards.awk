@@ -73,7 +73,7 @@ BEGIN {
     switches["has_no_curves"] switches["fits_half_width"] switches["fits_half_page"]
     switches["starts_closed"] switches["needs_line_energy"] switches["is_only_in_lecture"]
     switches["is_stretched"] switches["draws_handles"] switches["takes_clicks"]
-    switches["shows_scale"] switches["is_indented"]
+    switches["shows_scale_bar"] switches["is_indented"]
     print "#include \"picture/cards.h\""
 }
 

@@ -42,11 +42,11 @@ typedef struct ListGrid {
 static ListGrid arrange_list_grid(const RowList *list, Box inside, double em)
 {
     const double line = 1.5, least = 1.3, wide = 24; /* ems */
-    ListGrid grid = {list->rows > 0 ? list->rows : 1, 1, line * em};
+    ListGrid grid = {list->row_count > 0 ? list->row_count : 1, 1, line * em};
     int most = (int)fmax(inside.width / (wide * em), 1);
     while (grid.rows * least * em > inside.height && grid.columns < most) {
         grid.columns++;
-        grid.rows = (list->rows + grid.columns - 1) / grid.columns;
+        grid.rows = (list->row_count + grid.columns - 1) / grid.columns;
     }
     grid.row_height = fmin(grid.row_height, inside.height / (double)grid.rows);
     return grid;
@@ -63,7 +63,7 @@ int frame_find_row(const FrameContent *content, const Layout *layout, double x,
     int column = (int)((x - inside.x) * grid.columns / inside.width);
     int row = (int)((y - inside.y) / grid.row_height);
     int at = column * grid.rows + row;
-    return row < grid.rows && at < content->list.rows ? at : -1;
+    return row < grid.rows && at < content->list.row_count ? at : -1;
 }
 
 /* Draws the key and the text of each row, all in letters of one size.  A text
@@ -74,7 +74,7 @@ static void draw_list(Paper *paper, Box inside, const RowList *list)
     const ListGrid grid = arrange_list_grid(list, inside, paper->em);
     double em = paper->em, size = fmin(0.95, grid.row_height / (1.3 * em));
     double key = 0, longest = 1, column = inside.width / (double)grid.columns;
-    for (int i = 0; i < list->rows; i++) {
+    for (int i = 0; i < list->row_count; i++) {
         const ListRow *row = &list->row[i];
         key = fmax(key, paper_measure(paper, FACE_BOLD, size, row->key));
         longest =
@@ -83,7 +83,7 @@ static void draw_list(Paper *paper, Box inside, const RowList *list)
     key += 0.6 * size * em;
     const int wide = (int)(column - key - 0.6 * em);
     size *= fmin(fmax(wide / longest, smallest), 1);
-    for (int i = 0; i < list->rows; i++) {
+    for (int i = 0; i < list->row_count; i++) {
         const ListRow *row = &list->row[i];
         char text[SENTENCE_SIZE];
         Box room = {(int)(inside.x + i / grid.rows * column),

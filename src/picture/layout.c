@@ -389,8 +389,7 @@ static void place_overview(const FrameContent *content, Layout *layout)
     layout->cells = content->sheet.cells;
 }
 
-/* Places a card below the panes, in at least `least` pixels of the stage if it
- * is so high. */
+/* Places a card below the panes, at least `least` pixels high if they fit. */
 static void place_card_below(const FrameContent *content, Layout *layout,
                              int card, double least)
 {
@@ -497,7 +496,7 @@ Layout layout_create(const FrameContent *content, int width, int height)
             if (content->column == COLUMN_CODE)
                 ems = fmin(fmax(code_find_width(content->lecture.page), ems),
                            most);
-            else if (page && content->list.rows > MAX_LIST_ROWS)
+            else if (page && content->list.row_count > MAX_LIST_ROWS)
                 ems = most;
             layout.stage = whole;
             layout.column = box_cut_off(&layout.stage, EDGE_RIGHT,

@@ -32,7 +32,7 @@ static void list_pages(const LecturePage *marked, FrameContent *content)
         snprintf((row++)->text, SENTENCE_SIZE, "%s%s", page->topic,
                  page->is_extra ? " (extra)" : "");
     }
-    content->list.rows = (int)(row - content->list.row);
+    content->list.row_count = (int)(row - content->list.row);
 }
 
 static void list_formula_letters(FrameContent *content)
@@ -43,7 +43,7 @@ static void list_formula_letters(FrameContent *content)
         snprintf(row->key, VALUE_SIZE, "%s", letter->letter);
         snprintf((row++)->text, SENTENCE_SIZE, "%s", letter->meaning);
     }
-    content->list.rows = (int)(row - content->list.row);
+    content->list.row_count = (int)(row - content->list.row);
 }
 
 /* Adds the lines of a text with live values, or those without. */

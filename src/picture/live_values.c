@@ -129,7 +129,7 @@ static void add_trace_values(const Simulation *simulation,
     values_add(values, "h then", trace->h);
     values_add(values, "tolerance", trace->tolerance);
     values_add_flag(values, "walking", trace->at_line != LINE_NONE);
-    values_add_flag(values, "updated", trace->records > 0);
+    values_add_flag(values, "updated", trace->record_count > 0);
     values_add(values, "nth", trace->iteration + 1);
     values_add_words(values, "way", trace->slope > 0 ? "uphill" : "downhill");
     values_add_flag(values, "uphill", trace->slope > 0);
@@ -140,8 +140,8 @@ static void add_trace_values(const Simulation *simulation,
     if (trace->trials > 0)
         values_add_flag(values, trace->is_accepted ? "taken" : "refused", true);
     values_add_flag(values, "given up", trace->has_failed);
-    const NewtonRecord *last =
-        trace->records > 0 ? trace->record + trace->records - 1 : NULL;
+    const int count = trace->record_count;
+    const NewtonRecord *last = count > 0 ? trace->record + count - 1 : NULL;
     if (simulation->scene->parts & HAS_TIME && last &&
         last->status == STATUS_OK) {
         /* A bound shows that the next p is small enough, or rounding hides the
@@ -204,7 +204,7 @@ static const NewtonTrace *make_descent_trace(const Simulation *simulation,
         .at_line = aims && !made ? LINE_SOLVE : LINE_NONE,
         .h = simulation->options.timestep,
         .tolerance = simulation->options.tolerance,
-        .records = descent->count,
+        .record_count = descent->count,
         .record = descent->record,
         .iteration = descent->count,
         .residual = given_up ? record->residual : descent->residual,

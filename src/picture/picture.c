@@ -54,7 +54,7 @@ static void find_pane_bounds(const FrameContent *content, const Layout *layout,
     const DragBounds *held = &content->view->drag_bounds;
     int last = content->lecture.page ? content->panes - 1 : pane;
     double own[4];
-    if (held->is_dragging && !held->has_left &&
+    if (held->is_dragging && !held->mouse_has_left &&
         (held->pane_index == pane || held->pane_index == last)) {
         memcpy(bounds, held->bounds, sizeof held->bounds);
         return;
@@ -240,12 +240,12 @@ static const char *cut_label_line(const Plot *stage, const char *label,
 }
 
 /* Whether the picture has a scale bar; low panes only have room for a label. */
-static bool stage_shows_scale(const Plot *stage)
+static bool stage_shows_scale_bar(const Plot *stage)
 {
     bool is_low = stage->box.height < LOW_PANE * stage->em &&
                   stage->content->panes > 1 && stage->content->lecture.page;
     return stage->has_text && !is_low &&
-           picture_of_scene(stage->simulation->scene)->shows_scale;
+           picture_of_scene(stage->simulation->scene)->shows_scale_bar;
 }
 
 /* Writes the label of a pane, which says how panes differ, in up to three lines
@@ -262,7 +262,8 @@ static void draw_pane_label(const Plot *stage, const char *label)
         int own = paper_measure(paper, FACE_BOLD, 1, line[lines++]);
         wide = own > wide ? own : wide;
     }
-    bool high = wide > box->width - 10 * paper->em && stage_shows_scale(stage);
+    bool high =
+        wide > box->width - 10 * paper->em && stage_shows_scale_bar(stage);
     double low = box->y + box->height - (high ? 4.2 : 1.7) * paper->em;
     for (int i = 0; i < lines; i++)
         paper_write_on_panel(
@@ -285,8 +286,8 @@ static void draw_pane(Paper *paper, const Layout *layout,
     TextLine line = text_begin(&stage.pane->values, picture->legend);
     while (stage.has_text && text_next_line(&line))
         plot_legend(&stage, line.colour, "%s", line.text);
-    if (stage_shows_scale(&stage))
-        plot_scale(&stage);
+    if (stage_shows_scale_bar(&stage))
+        plot_scale_bar(&stage);
     if (!picture->draws_handles)
         stage_draw_handles(&stage);
     draw_switches(&stage);

@@ -19,8 +19,7 @@ typedef struct Axis {
     /* places of the ticks: any, whole numbers, powers of ten */
     enum { SCALE_LINEAR, SCALE_WHOLE, SCALE_LOG } scale;
     bool is_milli; /* numbers are those of the ticks times 1000 */
-    /* Markup.  The label of x is below the right end, that of y at the top
-     * right. */
+    /* Markup; x: below the axis at the right end, y: above the upper end. */
     const char *label;
 } Axis;
 
@@ -166,7 +165,7 @@ void plot_arrow(const Plot *plot, const double *a, const double *d,
 void plot_legend(Plot *plot, Colour colour, const char *format, ...);
 
 /* Draws a scale bar in the lower left corner: 1, 2 or 5 times 10^n metres. */
-void plot_scale(const Plot *plot);
+void plot_scale_bar(const Plot *plot);
 
 /* Returns the cost of a place for a label, which is high if the box covers
  * drawn pixels or reaches out of the plot. */

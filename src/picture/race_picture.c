@@ -5,7 +5,7 @@
 
 #include "picture/cards.h"
 
-enum { HALVED_COLUMNS = 2 };             /* columns of halved h */
+enum { HALVED_STEP_COLUMNS = 2 };        /* columns of halved h */
 static const double NAMES_WIDTH = 20;    /* ems; a narrower plot has no names */
 static const double TARGET_ERROR = 0.01; /* m, limit of the error */
 
@@ -131,7 +131,7 @@ bool race_make_row(const FrameContent *content, int row, CardTableRow *cells)
         snprintf(cell[1], CARD_CELL, "explodes");
         format_cell(cell[1], "", point->error);
     }
-    for (int k = 1; k <= HALVED_COLUMNS; k++) {
+    for (int k = 1; k <= HALVED_STEP_COLUMNS; k++) {
         const RacePoint *half = point + RACE_METHODS;
         if (race->count <= half - race->point)
             break;

@@ -156,7 +156,7 @@ void square_draw_obstacles(const SquarePen *pen)
     const Contact *contact = pen->contact;
     double scale = stage->camera.scale[0] / stage->paper->unit;
     double reach = contact ? contact->barrier.d_hat : 0;
-    for (int i = 0; contact && i < contact->obstacles; i++) {
+    for (int i = 0; contact && i < contact->obstacle_count; i++) {
         const Obstacle *obstacle = &contact->obstacle[i];
         const double *at = obstacle_get_position(obstacle, pen->x);
         double radius = obstacle->radius * scale;

@@ -79,7 +79,7 @@ void card_write_hint(const Plot *card, const char *text)
 
 /* ---- scale and legend ---------------------------------------------------- */
 
-void plot_scale(const Plot *plot)
+void plot_scale_bar(const Plot *plot)
 {
     Paper *paper = plot->paper;
     double scale = plot->camera.scale[0];

@@ -58,7 +58,7 @@ static void build_key_list(FrameContent *content)
             at += length;
         }
     }
-    content->list.rows = (int)(row - content->list.row);
+    content->list.row_count = (int)(row - content->list.row);
 }
 
 /* ---- the row of numbers -------------------------------------------------- */
@@ -103,8 +103,8 @@ static void list_shown_options(const Player *player, FrameContent *content)
 {
     const OptionRow *all[OPTIONS_MAX_ROWS];
     const Options options = player_shown_options(player);
-    content->list.rows = player_list_options(player, true, all);
-    for (int i = 0; i < content->list.rows; i++) {
+    content->list.row_count = player_list_options(player, true, all);
+    for (int i = 0; i < content->list.row_count; i++) {
         ListRow *row = &content->list.row[i];
         char value[VALUE_SIZE];
         const char *idle = player_find_idle_reason(player, all[i]);

@@ -41,11 +41,11 @@ static MouseTarget find_mouse_target(Player *player)
                                                : target.pane;
     if (pane < past_panes(&player->past)) /* the pane of a drag may be closed */
         target.pane = pane;
-    held->has_left = false;
+    held->mouse_has_left = false;
     Camera camera = make_pane_camera(content, &target.layout, target.pane);
     camera_to_world(&camera, mouse->x, mouse->y, target.point);
     target.pick = frame_find_pick(content, &target.layout, mouse->x, mouse->y);
-    held->has_left = target.hit.zone != ZONE_STAGE;
+    held->mouse_has_left = target.hit.zone != ZONE_STAGE;
     return target;
 }
 

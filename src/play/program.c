@@ -269,7 +269,7 @@ static void warn_of_reset_terms(const Options *options)
     const Scene *scene = options->scene;
     bool moves = options->ceiling[1] != 0 ||
                  (scene->body.make_obstacle &&
-                  scene->body.make_obstacle(options).motion.phases > 0);
+                  scene->body.make_obstacle(options).motion.phase_count > 0);
     bool springs =
         !options->state_springs && (options->tear > 0 || options->yield > 0);
     if (options->state && springs)

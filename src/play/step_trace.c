@@ -218,7 +218,7 @@ void step_trace_end(StepTrace *trace, const Options *options)
         if (!fails || passes)
             append_position(trace, i, LINE_TEST, trials);
     }
-    append_position(trace, count, LINE_END, 0);
+    append_position(trace, count, LINE_END_STEP, 0);
 }
 
 int step_trace_walk(const StepTrace *trace, TimeUnit unit, int position,
@@ -228,7 +228,7 @@ int step_trace_walk(const StepTrace *trace, TimeUnit unit, int position,
          i += way) {
         StepLine line = trace->position[i].at_line;
         if (unit == UNIT_LINE || line == LINE_START || line == LINE_TEST ||
-            line == LINE_END)
+            line == LINE_END_STEP)
             return i;
     }
     return position;
@@ -269,7 +269,7 @@ static void show_iterate_values(const StepTrace *trace, const TracePosition *at,
     const NewtonRecord *record = &trace->records.record[at->iterate];
     bool solved = at->at_line >= LINE_SOLVE;
     shown->x = iterate->x;
-    shown->records = at->iterate + solved;
+    shown->record_count = at->iterate + solved;
     shown->trials = at->trials;
     shown->is_accepted = at->trials == record->trials && record->alpha > 0;
     if (at->at_line >= LINE_PROJECT)
@@ -295,16 +295,16 @@ const double *step_trace_show_position(const StepTrace *trace, int position,
     bool over = position < 0 || position >= trace->position_count;
     bool given_up = count > 0 && last->status != STATUS_OK &&
                     last->status != STATUS_RUNNING;
-    const TracePosition at =
-        over ? (TracePosition){count, LINE_END, 0} : trace->position[position];
-    bool end = at.at_line == LINE_END;
+    const TracePosition at = over ? (TracePosition){count, LINE_END_STEP, 0}
+                                  : trace->position[position];
+    bool end = at.at_line == LINE_END_STEP;
     TracePosition source = at;
     if (end && count > 0) /* the end shows the values of the last iterate */
-        source = (TracePosition){count - 1, LINE_END, last->trials};
+        source = (TracePosition){count - 1, LINE_END_STEP, last->trials};
     *shown = trace->common_trace;
     shown->at_line = over ? LINE_NONE : at.at_line;
     shown->iteration = source.iterate;
-    shown->records = at.iterate;
+    shown->record_count = at.iterate;
     shown->record = row;
     shown->x_n = count > 0 ? trace->iterate[0].x : NULL;
     shown->x_tilde = trace->x_tilde;

@@ -85,7 +85,7 @@ static LocalModel evaluate_landscape(const Simulation *simulation,
         P += spring_energy(l2, k, spring_strain(d2, l2));
         for (int i = 0; i < 2; i++)
             E.g[i] += pull * d[i];
-        E.projected += spring_hessian(d, l2, k, projection, H);
+        E.projected_springs += spring_hessian(d, l2, k, projection, H);
         for (int i = 0; i < 3; i++)
             E.H[i] += w * H[i];
     }
@@ -234,7 +234,7 @@ Status step_descent(Simulation *simulation)
         .alpha = 1,
         .slope = descent->slope,
         .has_new_factor = true,
-        .projected = evaluate_local_model(simulation).projected,
+        .projected = evaluate_local_model(simulation).projected_springs,
         .x_before = {descent->iterate[0], descent->iterate[1]}};
     const double *p = descent->direction;
     double *x = simulation->run[0].x;

@@ -197,7 +197,7 @@ static Status set_obstacles(const Options *options, System *system)
     const Contact *contact = get_contact(system);
     Obstacle list[CONTACT_MAX_OBSTACLES];
     int count = list_obstacles(options, list);
-    for (int i = 0; contact && i < contact->obstacles; i++) {
+    for (int i = 0; contact && i < contact->obstacle_count; i++) {
         const Obstacle *old = &contact->obstacle[i];
         for (int k = 0; k < count; k++)
             if (memcmp(old->options_o, list[k].options_o,
@@ -512,10 +512,10 @@ static Status check_clearance(const Simulation *simulation,
         System system = *simulation->run[run].system;
         Contact contact = {.barrier = make_barrier(&own), .free_ball = -1};
         int count = list_obstacles(&own, contact.obstacle);
-        contact.obstacles = (int)(own.grounds + own.balls);
+        contact.obstacle_count = (int)(own.grounds + own.balls);
         if (count > 0 && contact.obstacle[count - 1].node >= 0)
             contact.free_ball = count - 1;
-        system.terms = 1;
+        system.term_count = 1;
         system.term[0] = (EnergyTerm){&contact_energy, &contact};
         status = check_gaps_and_cells(&own, &system, simulation->run[run].x,
                                       min_gap * contact.barrier.d_hat, number,

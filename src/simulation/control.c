@@ -123,7 +123,7 @@ static Status update_run_options(Simulation *simulation, int r,
                                       old.system, old.x, old.v);
         run->steps = old.steps;
         run->clock = old.clock;
-        run->moved_part = old.moved_part;
+        run->moved_fraction = old.moved_fraction;
         run->external_work = old.external_work;
         if (old.newton)
             newton_counters_add(&old.newton->counters,
@@ -192,11 +192,11 @@ static void apply_push(Simulation *simulation, const UserControl *control)
         if (!contact)
             continue;
         int held = control->held_obstacle;
-        contact->hand =
-            (ObstaclePush){.is_held = 0 <= held && held < contact->obstacles,
-                           .obstacle = held,
-                           .target = {control->target[0], control->target[1]},
-                           .mesh = simulation->mesh};
+        contact->hand = (ObstaclePush){
+            .is_held = 0 <= held && held < contact->obstacle_count,
+            .obstacle = held,
+            .target = {control->target[0], control->target[1]},
+            .mesh = simulation->mesh};
         if (contact->hand.is_held)
             contact->hand.target[1] +=
                 get_height_offset(simulation, r, &contact->obstacle[held]);

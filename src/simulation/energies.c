@@ -35,7 +35,7 @@ Energies simulation_get_energies(const Simulation *simulation, int run)
             add_energy(&energies, kind->energy_name, value);
     }
     add_energy(&energies, "gravity", energies.gravity);
-    for (int t = 0; t < system->terms; t++)
+    for (int t = 0; t < system->term_count; t++)
         if (system->term[t].kind->loss_name)
             add_energy(&energies, system->term[t].kind->loss_name, 0);
     for (int i = 0; i < SYSTEM_MAX_TERMS && system->losses[i].name; i++) {

@@ -44,7 +44,8 @@ static void transfer_system(StateCursor *cursor, System *system)
         transfer_piece(cursor, system->k, springs);
     if (contact)
         transfer_piece(cursor, contact->obstacle,
-                       (size_t)contact->obstacles * sizeof *contact->obstacle);
+                       (size_t)contact->obstacle_count *
+                           sizeof *contact->obstacle);
 }
 
 static void transfer_exhibit(StateCursor *cursor, Simulation *simulation)
@@ -82,7 +83,7 @@ static void transfer_state(StateCursor *cursor, Simulation *simulation)
         size_t array = run->x_length * sizeof(double);
         VISIT(run->steps);
         VISIT(run->clock);
-        VISIT(run->moved_part);
+        VISIT(run->moved_fraction);
         VISIT(run->external_work);
         VISIT(run->status);
         transfer_piece(cursor, run->x, array);

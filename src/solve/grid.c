@@ -69,7 +69,7 @@ void grid_lay_out(int segments, ArrayMemory *memory, Grid *grid)
     grid->float_x = memory_take_piece(memory, plane);
     grid->m = memory_take_piece(memory, plane);
     grid->inverse_m = memory_take_piece(memory, plane);
-    grid->node_shift = memory_take_piece(memory, shifts);
+    grid->mass_shift = memory_take_piece(memory, shifts);
     grid->spring_shift = memory_take_piece(memory, shifts);
 }
 
@@ -117,7 +117,7 @@ void grid_copy_system(Grid *grid, const Iterate *at, const double *m)
             grid->inverse_m[q] = system->pinned[node] ? 0 : 1 / grid->m[q];
             grid->float_m[q] = system->pinned[node] ? 0 : (float)grid->m[q];
         }
-    remove_equal_rows(rows, masses, 2, grid->node_shift);
+    remove_equal_rows(rows, masses, 2, grid->mass_shift);
     for (int kind = 0; kind < KINDS; kind++) {
         springs[kind] = grid->c[kind];
         springs[KINDS + kind] = grid->l2[kind];

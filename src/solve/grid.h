@@ -57,9 +57,9 @@ typedef struct Grid {
     double length_unit, mass_unit,
         energy_unit; /* grid units per m, kg, J s^2 */
     /* Equal rows of masses are stored once, and so are equal rows of springs.
-     * Node q in row i has the mass m[q + node_shift[i]]; the springs that start
+     * Node q in row i has the mass m[q + mass_shift[i]]; the springs that start
      * there have the index q + spring_shift[i + 1]; [0] is for row -1. */
-    int *node_shift, *spring_shift; /* [nodes + 1] added to q, by row */
+    int *mass_shift, *spring_shift; /* [nodes + 1] added to q, by row */
     double *c[KINDS];  /* [plane] 2 w k/l2, w: weight of P in E; 0: no spring */
     double *l2[KINDS]; /* [plane] squared rest length */
     double *m, *inverse_m; /* [plane] mass and 1/mass; inverse_m is 0 at pins */
@@ -117,7 +117,7 @@ double grid_gradient(const Grid *grid, double *g);
 double grid_linear_residual(const Grid *grid, const double *g, const double *p);
 
 /* Writes the quartic E(x + a p) - E(x) = q[0] a + q[1] a^2 + ... + q[3] a^4. */
-void grid_line_polynomial(const Grid *grid, const double *p, double quartic[4]);
+void grid_energy_quartic(const Grid *grid, const double *p, double quartic[4]);
 
 /* p += beta last_p: the direction p becomes conjugate to last_p, along which x
  * has just moved to the lowest E (Polak and Ribiere 1969).

@@ -81,8 +81,8 @@ FAST double grid_linear_residual(const Grid *grid, const double *g,
     return total;
 }
 
-FAST void grid_line_polynomial(const Grid *grid, const double *p,
-                               double quartic[4])
+FAST void grid_energy_quartic(const Grid *grid, const double *p,
+                              double quartic[4])
 {
     for (int s = 0; s < 4; s++)
         quartic[s] = 0;

@@ -75,7 +75,7 @@ INLINE NodeRun nodes_in_row(const RowLayout *rows, int i, int odd)
 #ifdef __wasm_simd128__
 typedef float Floats __attribute__((vector_size(16), aligned(4)));
 typedef double Doubles __attribute__((vector_size(16), aligned(8)));
-enum { SECOND_HALF_OFFSET = 2 };
+enum { HIGH_OFFSET = 2 };
 #define FLOATS(a, q)   (*(Floats *)((a) + (q)))
 #define DOUBLES(a, q)  (*(Doubles *)((a) + (q)))
 #define IN_ORDER(a, b) __asm__ volatile("" : "+r"(a), "+r"(b))
@@ -88,7 +88,7 @@ enum { SECOND_HALF_OFFSET = 2 };
 #else
 typedef float Floats;
 typedef double Doubles;
-enum { SECOND_HALF_OFFSET = 0 };
+enum { HIGH_OFFSET = 0 };
 #define FLOATS(a, q)        ((a)[q])
 #define DOUBLES(a, q)       ((a)[q])
 #define IN_ORDER(a, b)      (void)0
@@ -119,7 +119,7 @@ INLINE void narrow_array(const double *from, double factor, double middle,
         EACH_FLOATS (LANES)
             FLOATS(to, e) = narrow_to_single(
                 factor * (DOUBLES(from, e) - middle),
-                factor * (DOUBLES(from, e + SECOND_HALF_OFFSET) - middle));
+                factor * (DOUBLES(from, e + HIGH_OFFSET) - middle));
 }
 
 /* Calls F for springs of a node, with the kind, the distance to the other node,
@@ -148,7 +148,7 @@ INLINE NodeRun grid_nodes(const Grid *grid, int i, int odd)
     NodeRun at = nodes_in_row(&grid->rows, i, odd);
     at.own = grid->spring_shift[i + 1];
     at.below = grid->spring_shift[i];
-    at.mass_shift = grid->node_shift[i];
+    at.mass_shift = grid->mass_shift[i];
     return at;
 }
 

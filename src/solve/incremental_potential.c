@@ -174,7 +174,7 @@ void incremental_potential_absorb_pulls(const Iterate *iterate, double *m,
     const System *system = iterate->E.system;
     EvalPoint at = make_term_point(&iterate->E, iterate->u, iterate->x);
     bool pulls = false;
-    for (int t = 0; t < system->terms; t++)
+    for (int t = 0; t < system->term_count; t++)
         pulls = pulls || system->term[t].kind->is_diagonal;
     for (int i = 0; i < system->nodes; i++)
         m[2 * i] = m[2 * i + 1] = system->m[i];
@@ -203,7 +203,7 @@ void incremental_potential_absorb_pulls(const Iterate *iterate, double *m,
 bool incremental_potential_is_diagonal(const IncrementalPotential *E)
 {
     const System *system = E->system;
-    for (int t = 0; t < system->terms; t++)
+    for (int t = 0; t < system->term_count; t++)
         if (system->term[t].kind->value && !system->term[t].kind->is_diagonal)
             return false;
     return true;

@@ -21,16 +21,15 @@ static const double NEARBY = 0.05;
 static const double STALLS = 0.3, PACE = 0.01;
 
 /* If the first sweep of all tiles in a step lowers E by less than USELESS times
- * the last direction's decrease, tiles pause for TILE_REST iterations. */
+ * the last direction's decrease, tiles pause for TILE_PAUSE iterations. */
 static const double USELESS = 0.005;
-enum { TILE_REST = 5 };
+enum { TILE_PAUSE = 5 };
 
 /* Number of iterations after which Newton takes over; most steps need ten. */
 enum { MAX_MG_ITERATIONS = 200 };
 
-/* A change of E that is at most this fraction of the step's largest change may
- * be rounding.  If p_bound has not fallen, the change is compared with the
- * rounding of E. */
+/* A change of E that is at most this fraction of the step's largest change is
+ * compared with the rounding of E, unless p_bound has fallen. */
 static const double SMALL_CHANGE = 1e-9;
 
 struct Multigrid {
@@ -99,7 +98,7 @@ static const char *find_refusal_reason(const Newton *newton)
     const NewtonSettings *settings = &newton->settings;
     const System *system = newton->system;
     bool alone = system_find_term(system, &mass_spring_energy);
-    for (int t = 0; alone && t < system->terms; t++) {
+    for (int t = 0; alone && t < system->term_count; t++) {
         const TermKind *kind = system->term[t].kind;
         alone =
             kind == &mass_spring_energy || kind->is_diagonal || !kind->value;
@@ -234,7 +233,7 @@ static double minimise_quartic(const Quartic *quartic, int *trials)
 /* Computes the change of E along p. */
 static void multigrid_compute_line_polynomial(Multigrid *mg)
 {
-    grid_line_polynomial(&mg->grid, mg->p, mg->line_E.q);
+    grid_energy_quartic(&mg->grid, mg->p, mg->line_E.q);
     for (int i = 0; i < 4; i++)
         mg->line_E.q[i] /= mg->grid.energy_unit;
 }
@@ -307,7 +306,7 @@ static Status multigrid_update_iterate(Newton *newton)
         double first = tiles_relax(&mg->tiles, PACE * change / tiles, p);
         if (mg->tiles_rest_until == 0)
             mg->tiles_rest_until =
-                record->iteration + (first > USELESS * change ? TILE_REST : 1);
+                record->iteration + (first > USELESS * change ? TILE_PAUSE : 1);
         multigrid_compute_line_polynomial(mg);
         double alpha = minimise_quartic(&mg->line_E, &(int){0});
         if (alpha > 0) { /* false after an overflow of the tiles' floats */

@@ -72,8 +72,8 @@ typedef float NodeSums[SUMS][LANES];
  * that do not wait for each other are faster.
  *   has_tiny_moves  Tiles.has_tiny_moves: a spring's force has changed since
  * the start by c (s d - s0 d0) = c (s w + (s - s0) d0), d = d0 + w */
-INLINE void gather_springs(const Tiles *tiles, NodeRun at, bool has_tiny_moves,
-                           NodeSums of)
+INLINE void compute_spring_sums(const Tiles *tiles, NodeRun at,
+                                bool has_tiny_moves, NodeSums of)
 {
     const Grid *grid = tiles->grid;
     const ptrdiff_t plane = grid->rows.plane;
@@ -152,7 +152,7 @@ INLINE void relax_nodes(const Tiles *tiles, NodeRun at, bool has_tiny_moves,
     float *const x = grid->float_x, *const y = x + plane;
     float *const ux = tiles->u, *const uy = ux + plane;
     NodeSums of;
-    gather_springs(tiles, at, has_tiny_moves, of);
+    compute_spring_sums(tiles, at, has_tiny_moves, of);
     EACH_OF (NEXT(at, LANES)) {
         const ptrdiff_t q = at.first + e;
         float gx = of[GX][e], gy = of[GY][e], negative = of[NEGATIVE][e];

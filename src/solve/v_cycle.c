@@ -171,7 +171,7 @@ INLINE void restrict_row(const RowLayout *finer, const RowLayout *coarse, int I,
 }
 
 /* Computes the matrices of rows i and i + 1, and the coarser row on row i. */
-INLINE void set_up_rows(const VCycle *cycle, const Level *level, int i)
+INLINE void compute_matrix_rows(const VCycle *cycle, const Level *level, int i)
 {
     for (int row = i; row < i + 2; row++)
         if (row_exists(level->rows.nodes, row)) {
@@ -317,7 +317,7 @@ FAST static void descend_level(const VCycle *cycle, const Level *l)
     const int rows = rows_to_coarsen(l);
     for (int i = 0; i < rows + 4; i += 2) {
         if (!cycle->is_set_up)
-            set_up_rows(cycle, l, i);
+            compute_matrix_rows(cycle, l, i);
         pass_over_row(l, i, 0, PASS_FIRST, NULL, NULL);
         pass_over_row(l, i, 1, PASS_FIRST, NULL, NULL);
         pass_over_row(l, i - 1, 2, PASS_FIRST, NULL, NULL);
@@ -434,8 +434,7 @@ enum { MAX_CYCLES = 60 };
  * bound of its error.  If p is not small (SMALL_P), a further iteration costs
  * no more than a p that is exact enough for the test, and leaves a smaller
  * error; then a linear residual of LOOSE times the gradient is enough, in the
- * norm of M^-1.  Else the limit is LEAST, which is all that single precision
- * reaches. */
+ * norm of M^-1.  Otherwise LEAST is the limit, as single precision allows. */
 static const double MARGIN = 1.3, LOOSE = 0.5, LEAST = 1e-4;
 
 /* A small p whose bound (multigrid.h) is more than FAR times too large passes
@@ -445,7 +444,7 @@ static const double MARGIN = 1.3, LOOSE = 0.5, LEAST = 1e-4;
 static const double FAR = 1e4;
 
 /* Returns the largest |x_x| + |x_y| of a node. */
-FAST static double find_largest(const float *x, int plane)
+FAST static double find_largest_node_norm(const float *x, int plane)
 {
     const float *const y = x + plane;
     float most[LANES] = {0};
@@ -478,7 +477,7 @@ FAST bool v_cycle_solve(VCycle *cycle, const double *g, double square,
         cycle->is_set_up = true;
         cycle->cycles++;
         if (i == 0) {
-            *largest = find_largest(found, plane) / unit;
+            *largest = find_largest_node_norm(found, plane) / unit;
             if (!cycle->is_clamped) {
                 double bound = sqrt(2 / grid->min_mass * square);
                 if (*largest > SMALL_P * longest || bound <= FAR * longest)
@@ -502,7 +501,7 @@ FAST bool v_cycle_solve(VCycle *cycle, const double *g, double square,
         double rest =
             advance_conjugate_gradients(cycle, (float)alpha, (float)beta);
         double share = sqrt(rest / square) / unit;
-        *largest = find_largest(found, plane) / unit;
+        *largest = find_largest_node_norm(found, plane) / unit;
         passes = p_passes_test(
             grid, *largest, MARGIN * MARGIN * share * share * square, longest);
         if (share <= (*largest > SMALL_P * longest ? LOOSE : LEAST))

@@ -41,17 +41,17 @@ bool prescribed_begin_step(TimeIntegrator *run)
 {
     Contact *contact = get_contact(run->system);
     bool any = run->system->pin_v != NULL;
-    run->moved_part = 0;
-    run->remaining_part = 1;
-    run->parts_done = 0;
+    run->moved_fraction = 0;
+    run->remaining_fraction = 1;
+    run->parts_made = 0;
     run->is_blocked = false;
     run->updates_before = run->newton ? run->newton->counters.updates : 0;
-    for (int k = 0; contact && k < contact->obstacles; k++) {
+    for (int k = 0; contact && k < contact->obstacle_count; k++) {
         Obstacle *obstacle = &contact->obstacle[k];
         const ObstacleMotion *motion = &obstacle->motion;
         double from = 0; /* start of a phase, from 0 to 1 in the step */
         obstacle->v[0] = obstacle->v[1] = 0;
-        for (int i = 0; i < motion->phases; i++) {
+        for (int i = 0; i < motion->phase_count; i++) {
             double left = motion->phase_end[i] - run->clock.time;
             double to = fmin(fmax(left / run->h, from), 1);
             for (int c = 0; c < 2; c++)
@@ -61,7 +61,7 @@ bool prescribed_begin_step(TimeIntegrator *run)
     }
     if (contact)
         push_begin_step(contact, run->system, run->x, run->h);
-    for (int k = 0; contact && k < contact->obstacles; k++)
+    for (int k = 0; contact && k < contact->obstacle_count; k++)
         any = any || obstacle_moves(contact, k);
     return any;
 }
@@ -69,7 +69,7 @@ bool prescribed_begin_step(TimeIntegrator *run)
 /* Moves all obstacles for `way` seconds: o += way v. */
 static void move_obstacles(Contact *contact, double way)
 {
-    for (int k = 0; contact && k < contact->obstacles; k++)
+    for (int k = 0; contact && k < contact->obstacle_count; k++)
         for (int c = 0; c < 2 && obstacle_moves(contact, k); c++)
             contact->obstacle[k].o[c] += way * contact->obstacle[k].v[c];
 }
@@ -82,7 +82,7 @@ static void move_carried_nodes(const System *system, const Contact *contact,
                                double way, const double *x_n,
                                const double *before, double *u)
 {
-    for (int k = 0; contact && k < contact->obstacles; k++) {
+    for (int k = 0; contact && k < contact->obstacle_count; k++) {
         const Obstacle *obstacle = &contact->obstacle[k];
         double back[2] = {obstacle->o[0] - way * obstacle->v[0],
                           obstacle->o[1] - way * obstacle->v[1]};
@@ -117,7 +117,7 @@ static bool try_prescribed_motion(TimeIntegrator *run, double part)
     double *u = run->new_x, *x = run->new_v, way = part * run->h;
     double *before = run->newton->x_trial, *p = run->newton->u_trial;
     for (int i = 0; i < 2 * system->nodes; i++) {
-        u[i] = p[i] = run->parts_done == 0 ? 0 : run->newton->iterate.u[i];
+        u[i] = p[i] = run->parts_made == 0 ? 0 : run->newton->iterate.u[i];
         before[i] = x_n[i] + u[i];
         if (system->pin_v && system->pinned[i / 2])
             u[i] += way * system->pin_v[i];
@@ -146,7 +146,7 @@ static bool try_prescribed_motion(TimeIntegrator *run, double part)
 static double make_longest_motion(TimeIntegrator *run, double part,
                                   int halvings, int parts)
 {
-    for (int i = 0; i < halvings && run->parts_done < parts; i++, part /= 2)
+    for (int i = 0; i < halvings && run->parts_made < parts; i++, part /= 2)
         if (try_prescribed_motion(run, part))
             return part;
     return 0;
@@ -159,25 +159,25 @@ void prescribed_begin_part(TimeIntegrator *run)
     if (contact && contact->hand.is_held &&
         obstacle_moves(contact, contact->hand.obstacle)) {
         part = make_longest_motion(
-            run, fmin(run->remaining_part, push_max_step(contact, run->h)),
+            run, fmin(run->remaining_fraction, push_max_step(contact, run->h)),
             MAX_HAND_HALVINGS, MAX_HAND_PARTS);
         contact->hand.is_blocked = part == 0;
-        contact->hand.moving_part = run->moved_part;
+        contact->hand.moving_fraction = run->moved_fraction;
     }
     bool others = run->system->pin_v != NULL;
-    for (int k = 0; contact && k < contact->obstacles; k++)
+    for (int k = 0; contact && k < contact->obstacle_count; k++)
         others = others || obstacle_moves(contact, k);
     if (part == 0 && others)
-        part = make_longest_motion(run, run->remaining_part, MAX_HALVINGS,
+        part = make_longest_motion(run, run->remaining_fraction, MAX_HALVINGS,
                                    MAX_MOTION_PARTS);
     run->is_blocked = part == 0 && others;
     if (part == 0) /* no further motion in this step */
         try_prescribed_motion(run, 0);
     else
-        run->moved_part += part;
-    run->remaining_part = part == 0 ? 0 : run->remaining_part - part;
-    run->parts_done++;
-    bool guess = run->remaining_part > 0;
+        run->moved_fraction += part;
+    run->remaining_fraction = part == 0 ? 0 : run->remaining_fraction - part;
+    run->parts_made++;
+    bool guess = run->remaining_fraction > 0;
     double tolerance = run->newton->settings.tolerance;
     newton_start(run->newton, run->x, run->new_x, run->weight,
                  guess ? 10 * tolerance + 0.01 : tolerance);
@@ -205,10 +205,10 @@ bool prescribed_end_part(TimeIntegrator *run, Status *status)
         return false;
     if (run->is_blocked && !*status)
         *status = STATUS_BLOCKED;
-    if (run->remaining_part > 0 && updates < newton_iteration_limit(newton))
+    if (run->remaining_fraction > 0 && updates < newton_iteration_limit(newton))
         return true;
     /* The parts of a step share one limit of iterations. */
-    if (run->remaining_part > 0)
+    if (run->remaining_fraction > 0)
         *status = STATUS_ITERATION_LIMIT;
     if (*status != newton->status)
         report_motion_end(newton, *status);
@@ -243,7 +243,8 @@ double prescribed_compute_work(const TimeIntegrator *run)
             const double *v = contact->obstacle[k].v, *n = walk.element.n;
             bool stopped =
                 contact->hand.is_blocked && k == contact->hand.obstacle;
-            sum += (stopped ? contact->hand.moving_part : run->moved_part) *
+            sum += (stopped ? contact->hand.moving_fraction
+                            : run->moved_fraction) *
                    contact_normal_force(&contact->barrier, walk.element.s) *
                    (n[0] * v[0] + n[1] * v[1]);
         }

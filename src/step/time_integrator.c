@@ -18,7 +18,7 @@ const IntegratorMethod *integrator_find_method(const char *name)
 bool integrator_method_refuses_system(const IntegratorMethod *method,
                                       const System *system)
 {
-    for (int t = 0; t < system->terms; t++) {
+    for (int t = 0; t < system->term_count; t++) {
         const TermKind *kind = system->term[t].kind;
         if (!kind->supports_all_integrators && !method->supports_all_terms)
             return true;
@@ -83,7 +83,7 @@ static Status begin_term_steps(TimeIntegrator *run)
 {
     System *system = run->system;
     Status status = STATUS_OK;
-    for (int t = 0; t < system->terms && !status; t++)
+    for (int t = 0; t < system->term_count && !status; t++)
         if (system->term[t].kind->begin_step)
             status = system->term[t].kind->begin_step(
                 &(TermStep){system, &system->term[t], run->x, run->v, run->h});
@@ -94,7 +94,7 @@ static Status begin_term_steps(TimeIntegrator *run)
 static void end_term_steps(TimeIntegrator *run)
 {
     System *system = run->system;
-    for (int t = 0; t < system->terms; t++)
+    for (int t = 0; t < system->term_count; t++)
         if (system->term[t].kind->end_step)
             system->term[t].kind->end_step(
                 &(TermStep){system, &system->term[t], run->x, run->v, run->h});

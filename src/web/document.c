@@ -150,7 +150,7 @@ static void write_live_values(Writer *to, const Pane *pane, const char *name)
         print(to, ": ");
         write_energies(to, pane->simulation);
     } else if (strcmp(name, "residual") == 0 && trace) {
-        for (int i = 0; i < trace->records; i++)
+        for (int i = 0; i < trace->record_count; i++)
             print(to, "; update %d: residual %s, step length %s", i + 1,
                   format_number(trace->record[i].residual).text,
                   format_number(trace->record[i].alpha).text);

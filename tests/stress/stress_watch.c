@@ -70,7 +70,7 @@ static IncrementalPotential get_potential(const RunWatch *watch)
 static StepPotential get_step_potential(const RunWatch *watch)
 {
     double moved =
-        watch->run->is_driven ? watch->run->moved_part * watch->run->h : 0;
+        watch->run->is_driven ? watch->run->moved_fraction * watch->run->h : 0;
     return (StepPotential){get_potential(watch), moved};
 }
 
@@ -166,7 +166,7 @@ static void judge_step_end(RunWatch *watch)
     double l2 = system->springs ? INFINITY : 1;
     for (int s = 0; s < system->springs; s++)
         l2 = fmin(l2, system->l2[s]);
-    bool guess = watch->run->is_driven && watch->run->remaining_part > 0;
+    bool guess = watch->run->is_driven && watch->run->remaining_fraction > 0;
     double limit = guess ? newton->tolerance : watch->tolerance;
     if (newton->passes_test)
         judge_convergence(watch, watch->u, limit);
@@ -317,7 +317,7 @@ bool watch_create(TimeIntegrator *run, VerdictTally *tally, RunWatch *watch)
     bool good = true;
     for (int i = 0; i < 5; i++)
         good = (*vectors[i] = calloc(n, sizeof(double))) && good;
-    for (int i = 0; i < run->system->terms; i++) {
+    for (int i = 0; i < run->system->term_count; i++) {
         const TermKind *kind = run->system->term[i].kind;
         if (kind != &mass_spring_energy && kind != &central_field &&
             kind != &hand_energy)
@@ -406,7 +406,7 @@ static bool momentum_is_conserved(const TimeIntegrator *run, int *pin)
             free = free && *pin < 0;
             *pin = i;
         }
-    for (int t = 0; t < run->system->terms; t++) {
+    for (int t = 0; t < run->system->term_count; t++) {
         bool found = false;
         for (int k = 0; k < 8; k++)
             found = found || run->system->term[t].kind == inner[k];

@@ -466,7 +466,7 @@ static int count_parts(const Probe *probe, PartKind parts, const void *data)
     case PART_COORDINATE:
         return 2 * system->nodes;
     case PART_WALL_PAIR:
-        return contact->obstacles * system->nodes;
+        return contact->obstacle_count * system->nodes;
     case PART_CELL:
     case PART_TRIANGLE:
         return ((const Triangles *)data)->count;
@@ -642,7 +642,7 @@ Jet oracle_energy(Probe *probe, const TermKind *only)
     Jet sum = {0};
     probe->outline = &outline;
     probe->abs_sum = (Jet){0};
-    for (int t = 0; t < system->terms; t++) {
+    for (int t = 0; t < system->term_count; t++) {
         int row = find_formula_row(system->term[t].kind);
         const void *data = system->term[t].data;
         if (row < 0 || (only && only != formulas[row].kind))
@@ -772,7 +772,7 @@ static void visit_parts(const Probe *there, const double *u,
             block.g[c] = m * ((Real)u[2 * i + c] - u_tilde[2 * i + c]);
         take(to, &block);
     }
-    for (int t = 0; t < system->terms; t++) {
+    for (int t = 0; t < system->term_count; t++) {
         int row = find_formula_row(system->term[t].kind);
         const void *data = system->term[t].data;
         int count =
@@ -1056,7 +1056,7 @@ double find_smallest_gap(const System *system, const double *x)
 {
     const Contact *contact = get_contact(system);
     double smallest = INFINITY;
-    for (int k = 0; contact && k < contact->obstacles; k++)
+    for (int k = 0; contact && k < contact->obstacle_count; k++)
         for (int i = 0; i < system->nodes; i++)
             if (contact_includes_pair(contact, system, i, k))
                 smallest = fmin(smallest, exact_gap(system, x, i, k));

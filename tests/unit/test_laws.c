@@ -89,7 +89,7 @@ TEST(a_belt_takes_its_load_along)
     int slips = 0;
     put_mass_on_wall(n, mu, 1e-4, G);
     get_contact(&masses)->obstacle[0].motion = (ObstacleMotion){
-        .phases = 1, .phase_end = {1e9}, .v = {{W * t[0], W * t[1]}}};
+        .phase_count = 1, .phase_end = {1e9}, .v = {{W * t[0], W * t[1]}}};
     begin_free_masses(h, (double[2]){0.005 * n[0], 0.005 * n[1]}, still);
     for (int i = 0; i < 200; i++) {
         double before = speed, done = run.external_work;
@@ -228,7 +228,7 @@ static double find_wall_work(const System *system, const double *x, double h)
 {
     const Contact *contact = get_contact(system);
     double sum = 0;
-    for (int k = 0; contact && k < contact->obstacles; k++) {
+    for (int k = 0; contact && k < contact->obstacle_count; k++) {
         const Obstacle *wall = &contact->obstacle[k];
         double distance =
             (wall->n[0] * wall->v[0] + wall->n[1] * wall->v[1]) * h;
@@ -387,13 +387,13 @@ TEST(a_fast_ceiling_comes_in_parts)
     TimeIntegrator *it = &scene->run[0];
     Obstacle *ceiling = &get_contact(it->system)->obstacle[1];
     ceiling->motion = (ObstacleMotion){
-        .phases = 2, .phase_end = {0.01, 10}, .v = {{0, -50}, {0, -60}}};
+        .phase_count = 2, .phase_end = {0.01, 10}, .v = {{0, -50}, {0, -60}}};
     make_steps(scene, 1);
     CHECK_NEAR(ceiling->o[1], 0.51 - 0.5, 1e-12);
-    CHECK(it->parts_done > 1);
-    CHECK_NEAR(it->moved_part, 1, 1e-15);
+    CHECK(it->parts_made > 1);
+    CHECK_NEAR(it->moved_fraction, 1, 1e-15);
     CHECK_STATUS(simulation_step(scene), STATUS_BLOCKED);
-    CHECK(ceiling->o[1] > -0.51 && it->moved_part < 1);
+    CHECK(ceiling->o[1] > -0.51 && it->moved_fraction < 1);
     CHECK(find_smallest_gap(it->system, it->x) > 0);
 }
 
@@ -406,7 +406,7 @@ TEST(a_moving_wall_never_gives_back_what_is_dissipated)
     for (int k = 0; k < 3; k++) {
         put_mass_on_wall(up, 0, 0, G);
         get_contact(&masses)->obstacle[0].motion =
-            (ObstacleMotion){.phases = 3,
+            (ObstacleMotion){.phase_count = 3,
                              .phase_end = {0.2, 0.3, 0.8},
                              .v = {{0, 0.5}, {0, -3}, {0, 1}}};
         begin_free_masses(h[k], x, v);

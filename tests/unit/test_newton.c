@@ -288,12 +288,12 @@ TEST(parts_share_one_limit)
 {
     Simulation *simulation = simulate("squeeze --segments 8 --gravity 0");
     TimeIntegrator *run = &simulation->run[0];
-    get_contact(run->system)->obstacle[1].motion =
-        (ObstacleMotion){.phases = 1, .phase_end = {0.01}, .v = {{0, -50}}};
+    get_contact(run->system)->obstacle[1].motion = (ObstacleMotion){
+        .phase_count = 1, .phase_end = {0.01}, .v = {{0, -50}}};
     run->newton->settings.max_iterations = 10;
     CHECK_STATUS(simulation_step(simulation), STATUS_ITERATION_LIMIT);
     CHECK_AT_MOST(run->newton->counters.updates, 19);
-    CHECK(run->moved_part > 0 && run->moved_part < 1);
+    CHECK(run->moved_fraction > 0 && run->moved_fraction < 1);
     CHECK(find_smallest_gap(run->system, run->x) > 0);
 }
 

@@ -164,7 +164,7 @@ TEST(pairs_that_come_up_inside_a_step_have_entries)
     bool grown;
     CHECK(system->nodes == 18);
     make_steps(scene, 1);
-    CHECK(self->pairs == 0);
+    CHECK(self->pair_count == 0);
     CHECK_OK(incremental_potential_extend_pattern(&newton->iterate, &grown));
     CHECK(!grown);
     for (int i = 9; i < 18; i++)
@@ -177,7 +177,7 @@ TEST(pairs_that_come_up_inside_a_step_have_entries)
     before.u = newton->u_trial;
     before.x = newton->x_trial;
     incremental_potential_gradient(&before.E, before.u, before.x, before.g);
-    CHECK(self->pairs > 0);
+    CHECK(self->pair_count > 0);
     incremental_potential_apply_hessian(&before, newton->direction.projection,
                                         before.p, Hp);
     for (int i = 0; i < 36; i++)

@@ -238,7 +238,7 @@ static void draw_positions(const TermRow *row, Random *random, TermCase *c)
             c->p[i] = random_uniform(random, -1, 1);
             c->q[i] = random_uniform(random, -1, 1);
         }
-        for (int t = 0; t < c->system.terms; t++) {
+        for (int t = 0; t < c->system.term_count; t++) {
             c->at.term = &c->system.term[t];
             if (c->at.term->kind->element)
                 good = good && elements_are_feasible(&c->at) &&
@@ -258,7 +258,7 @@ static void make_case(const TermRow *row, Random *random, TermCase *c)
     add_terms(row, random, system);
     c->unknowns = 2 * system->nodes;
     c->h = random_logarithmic(random, 1e-3, 1);
-    for (int i = 0; i < system->terms; i++)
+    for (int i = 0; i < system->term_count; i++)
         if (system->term[i].kind->begin_step)
             CHECK_OK(system->term[i].kind->begin_step(
                 &(TermStep){system, &system->term[i], c->x_n, c->u, c->h}));
