@@ -114,7 +114,7 @@ int find_newest_spring(const Simulation *simulation);
 Box card_inner_box(Box card, double em);
 
 /* Writes all lines with known values into a card, in letters as large as fit:
- * at most the size of plain text, on a page 1.2, in its main card 1.6 times. */
+ * up to the size of plain text, or 1.2 times on pages, 1.6 in main cards. */
 void card_write_text(const Plot *card, const LiveValues *values,
                      const char *text);
 
