@@ -8,7 +8,7 @@
 #include "simulation/options.h"
 
 /* Length of line_highlight: lines 1 to 8 of Algorithm 3; [0] is unused. */
-enum { PAGE_MAX_CODE_LINES = 9 };
+enum { PAGE_HIGHLIGHT_LINES = 9 };
 
 /* A page: a field for each word of pages.txt.  Texts: see live_values.h. */
 typedef struct LecturePage {
@@ -31,19 +31,19 @@ typedef struct LecturePage {
     const char *notes;       /* text for the lecturer */
     const char *file;        /* path of the source shown by K */
     const char *functions;   /* functions shown by K, separated by ',' */
-    const char *const *code; /* code lines of `function`, then NULL */
+    const char *const *code; /* code lines of `functions`, then NULL */
     const char *lit_code;    /* code lines with this text are highlighted */
-    /* [PAGE_MAX_CODE_LINES] text of the code lines that are highlighted at each
-     * line of Algorithm 3; NULL: `highlight` */
+    /* [PAGE_HIGHLIGHT_LINES] text of the code lines that are highlighted at
+     * each line of Algorithm 3; NULL: `lit_code` */
     const char *const *line_highlight;
-    const char *claim;      /* statement that a test checks */
-    unsigned switch_flips;  /* bit s: switch s of the scene is turned over */
-    int printed_step;       /* step that the printed page shows */
-    double speed;           /* steps for each frame; 0: as in the scene */
-    const char *on_open;    /* commands at the opening, separated by ';' */
-    const char *on_answer;  /* commands at the answer, separated by ';' */
-    int print_presses;      /* presses of N before the print; 0: printed_step */
-    unsigned layers;        /* bits of PictureLayer: additions to the picture */
+    const char *claim;     /* statement that a test checks */
+    unsigned switch_flips; /* bit s: switch s of the scene is turned over */
+    int printed_step;      /* step that the page shows when printed */
+    double speed;          /* steps for each frame; 0: as in the scene */
+    const char *on_open;   /* commands at the opening, separated by ';' */
+    const char *on_answer; /* commands at the answer, separated by ';' */
+    int print_presses; /* presses of N before printing; 0: by printed_step */
+    unsigned layers;   /* bits of PictureLayer: additions to the picture */
     NextAction next_action; /* effect of the key N after the answer */
     int pause_step;         /* step at which a run pauses; 0: none */
 } LecturePage;
@@ -58,16 +58,15 @@ typedef struct SlideLetter {
 
 extern const SlideLetter lecture_letters[];
 
-/* Returns the number of pages. */
 int lecture_count_pages(void);
 
 /* Returns the page with this name, or this number from 1; NULL: none. */
 const LecturePage *lecture_find_page(const char *text);
 
-/* Whether the page asks for a click on the picture, or for a number.  page may
- * be NULL. */
+/* Return whether the page asks for a click on the picture, and whether for a
+ * number.  page may be NULL. */
 bool page_wants_click(const LecturePage *page);
 bool page_wants_number(const LecturePage *page);
 
-/* Sets options->page, and the options that a page has beside its line. */
+/* Sets options->page, and the options that a page has outside its line. */
 void lecture_apply_page(const LecturePage *page, Options *options);

@@ -60,7 +60,7 @@ typedef struct CommandRow {
                           those of the row before; NULL: not listed */
     const char *args;  /* arguments: "N X Y", a whole number from 0 and two
                           numbers; "OPTION VALUE"; a name; NULL: none */
-    KeyScope key_scope;      /* places where the keys work; 0: SCOPE_PLAY */
+    KeyScope key_scope;      /* parts in which the keys work; 0: SCOPE_PLAY */
     const char *chip_labels; /* labels of its chip, by state: "pause|play" */
 } CommandRow;
 
@@ -94,7 +94,7 @@ bool command_replaces_last(const Command *command, const Command *before);
  * A command with & is undone together with the command of the line before.  A
  * line waits for its step, unless the run is paused or at its end. */
 typedef struct ScriptLine {
-    long due_step; /* step at which it is obeyed */
+    long due_step; /* step at which the line is obeyed */
     Command command;
     int gesture; /* id of the command's gesture; 0: not known */
 } ScriptLine;

@@ -37,8 +37,8 @@ Status output_open(const char *name, char *message, OutputFile *output);
 /* Closes an open file.  Returns OK, or FILE_FAILED and leaves NAME.part. */
 Status output_close(OutputFile *output, CloseAction keep);
 
-/* Writes "NAME: why" into an empty message; why NULL stands for output_explain.
- * Returns the status. */
+/* Writes "NAME: why" into an empty message; with NULL for `why`, the text of
+ * output_explain. Returns the status. */
 Status output_report(char *message, const char *name, Status status,
                      const char *why);
 

@@ -32,7 +32,7 @@
 /* Bytes for states and samples; beyond them every second state is dropped. */
 #define PAST_BYTES ((size_t)256 << 20)
 
-/* Largest reach that a picture can show, over the reach after step 1. */
+/* A picture can show positions up to this many times max_x after step 1. */
 #define PAST_EXPLODED 10
 
 enum { ALL_PANES = -1 }; /* past_edit edits each pane */
@@ -58,7 +58,7 @@ typedef struct StepOutcome {
     int updates;          /* number of Newton's updates in all substeps */
     Status status;        /* OK, or the last other status of the substeps */
     double energy_change; /* change of E in the step, J s^2 */
-    double max_x;         /* m, largest |coordinate| of run 0 */
+    double max_x;         /* largest |coordinate| of run 0, m */
 } StepOutcome;
 
 /* A step that a pane has made. */
@@ -79,7 +79,7 @@ typedef struct Branch {
     long first_step;   /* step of entry 0 */
     long entries;      /* number of entries, at least 1 */
     long capacity;     /* entries that memory is reserved for */
-    int copied;        /* entries copied from below; 2: repeats a step */
+    int copied;        /* entries from the branch below; 2: repeats a step */
     long left_step;    /* step that was shown when the user left the branch */
     long stride;       /* every stride-th entry stores its state */
     int panes;         /* number of panes */
@@ -93,15 +93,15 @@ typedef struct PastPane {
     Simulation simulation;
     const UserControl *start_control; /* control at step 0, or NULL */
     const UserControl *control;       /* control of the simulation */
-    bool has_state;        /* the simulation has the state of `step` */
-    long step;             /* last step that the pane has finished */
-    bool is_iterating;     /* a step of the simulation has begun */
-    int substeps;          /* steps of the simulation since `step` */
-    long start_steps;      /* steps of the simulation before this substep */
-    StepOutcome outcome;   /* outcome of this step, else of the last step */
-    bool has_failed;       /* the step after `step` could not be made */
-    StepTrace trace;       /* iterates of the last step that was made */
-    bool has_trace;        /* trace, records: of `step` or the failed step */
+    bool has_state;            /* the simulation has the state of `step` */
+    long step;                 /* last step that the pane has finished */
+    bool is_iterating;         /* a step of the simulation has begun */
+    int substeps;              /* steps of the simulation since `step` */
+    long steps_before_substep; /* steps of the simulation before this substep */
+    StepOutcome outcome;       /* outcome of the present step, or of the last */
+    bool has_failed;           /* the step after `step` could not be made */
+    StepTrace trace;           /* iterates of the last step that was made */
+    bool has_trace;            /* trace is that of `step` or of a failed step */
     NewtonRecords records; /* Newton's records of the last step, for the log */
 } PastPane;
 
@@ -122,15 +122,15 @@ typedef struct Past {
     PastPane pane[OPTIONS_MAX_PANES];
     bool stores_states;    /* states are stored: the user may go back */
     bool panes_fail_alone; /* a pane that fails ends alone; the others go on */
-    long written_step;     /* last with valid rows in the tables; -1: none */
-    long energies_step;    /* last with valid energies in the tables */
-    size_t used_bytes, max_bytes; /* memory of states, samples; its limit */
+    long written_step;     /* last step with valid rows in the tables, or -1 */
+    long energies_step;    /* last step with valid energies in the tables */
+    size_t used_bytes, max_bytes; /* memory of states and samples, limit */
     int line_energy_pane; /* pane in which E along p is drawn; -1: none */
     WorkStage work_stage; /* stage of the work that leads to `goal_step` */
     long goal_step;       /* step that is to be shown */
-    long load_step;       /* step to which WORK_LOADING brings the panes */
-    bool samples_energy;  /* samples E along p in each iteration of that step */
-    double end_time;      /* s, end of the new step */
+    long step_to_load;    /* step to which WORK_LOADING brings the panes */
+    bool samples_energy;  /* each iteration of goal_step samples E along p */
+    double end_time;      /* end of the new step, s */
     Status bad_status;    /* OK, or the last other status of the new step */
 } Past;
 

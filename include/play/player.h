@@ -25,7 +25,7 @@ typedef struct PlayerSetup {
     char *const *arguments; /* command line, ended by NULL; or NULL */
     Script script;
     const volatile sig_atomic_t *stop_signal; /* not 0: the run ends */
-    double start_time; /* s, time on the wall clock when the run began */
+    double start_time; /* time on the wall clock when the run began, s */
     bool is_attended;  /* a window, script or page can pause and go back */
     bool asks_guess;   /* pages hide the answer until the user guesses */
 } PlayerSetup;
@@ -64,7 +64,7 @@ typedef struct Playback {
     PlayMode mode;
     TimeUnit walk_unit; /* unit of "next" and "back" */
     ActionAfterWork after_work;
-    TracePosition wanted_position; /* shown after an edit; iterate -1: none */
+    TracePosition wanted_position; /* shown after an edit if iterate >= 0 */
     int log_speed;                 /* 2^log_speed steps a frame */
     double due_time;    /* s on the wall clock, time of the next step */
     double work_start;  /* s on the wall clock; 0: there is no work */
@@ -80,7 +80,7 @@ typedef struct CommandQueue {
     Command command[MAX_QUEUED_COMMANDS];
     int count;                /* number of commands */
     bool is_from_page;        /* the commands belong to a page */
-    const UserControl *pins;  /* pins set at the end of the queue, or NULL */
+    const UserControl *pins;  /* pins to set after the last command, or NULL */
     char note[SENTENCE_SIZE]; /* message when the queue is empty, or "" */
 } CommandQueue;
 
@@ -89,7 +89,7 @@ typedef struct Commands {
     CommandQueue queue;
     int gesture;      /* id of the present gesture, which is undone as one */
     int gestures;     /* number of gestures so far, the id of the newest */
-    int held_gesture; /* gesture that drags join: last grab, push */
+    int held_gesture; /* id of the gesture that drags join */
     Script journal;   /* commands of the session, with undo and redo */
     CommandKind leave_command; /* command that ends the program if repeated */
     bool has_refused_line;     /* a line of the script was refused */
@@ -99,7 +99,7 @@ typedef struct Commands {
 typedef struct Tour {
     const LecturePage *last_page;     /* page that was last open, or NULL */
     const LecturePage *revealed_page; /* page whose answer is shown, or NULL */
-    char asked_question[ANSWER_SIZE]; /* question of that page, as asked */
+    char asked_question[ANSWER_SIZE]; /* question of revealed_page */
     char verdict[VALUE_SIZE];   /* verdict on the guess at the page, or "" */
     int guesses, right_guesses; /* numbers of guesses so far */
     bool is_page_running;       /* a page's commands are running */
@@ -113,8 +113,8 @@ typedef struct WindowFrame {
     FrameContent content;
     History history[LAYOUT_MAX_PANES];
     NewtonTrace trace[LAYOUT_MAX_PANES];
-    char label[LAYOUT_MAX_PANES][LABEL_SIZE];   /* values that differ by pane */
-    CommandKind chip_command[LAYOUT_MAX_CHIPS]; /* command of a click on it */
+    char label[LAYOUT_MAX_PANES][LABEL_SIZE];   /* how each pane differs */
+    CommandKind chip_command[LAYOUT_MAX_CHIPS]; /* command of each chip */
     int options; /* number of options in the row */
     const OptionRow *option[OPTIONS_MAX_ROWS];
 } WindowFrame;
@@ -148,7 +148,7 @@ typedef struct Mouse {
     int dragged_id; /* index of the dragged part; -1: edge of the square */
     double drag_start[2];  /* pixels, start of the drag, or of its last pan */
     bool has_moved;        /* the mouse has moved farther than a click may */
-    double grip_offset[2]; /* m, from the mouse to the dragged obstacle */
+    double grip_offset[2]; /* from the mouse to the dragged obstacle, m */
     bool repins_node;      /* the dragged node is pinned again after the drag */
     bool was_wheel_turn;   /* the last input was a turn of the wheel */
     int gesture;           /* id of the last key, click or turn of the wheel */

@@ -56,7 +56,7 @@ enum { MAX_FRAMES = 1000000 }; /* frames have numbers of six digits */
 typedef struct Recording {
     const char *folder;          /* folder of the frames, or NULL */
     long frames;                 /* number of frames written */
-    unsigned char *is_old_frame; /* [step] 1: is of an earlier run; or NULL */
+    unsigned char *is_old_frame; /* [step] 1: left by an earlier run */
     Film film;
     int panes; /* number of panes at the start */
     CsvTable table[RECORDING_TABLE_COUNT];

@@ -22,7 +22,7 @@ typedef struct NewtonRecords {
 } NewtonRecords;
 
 /* Reserves memory for `count` records.  Returns false if memory is missing. */
-bool records_reserve(NewtonRecords *records, int count);
+bool newton_records_reserve(NewtonRecords *records, int count);
 
 /* An iterate of Newton's method, with its direction and its line search. */
 typedef struct TraceIterate {
@@ -88,9 +88,8 @@ void step_trace_free(StepTrace *trace);
 int step_trace_walk(const StepTrace *trace, TimeUnit unit, int position,
                     int way);
 
-/* Returns the index of the last position at an iterate whose line is at most
- * `line`; if there is no such position, that of the last position of the step.
- */
+/* Returns the index of the last position at iterate i up to the line `line`; if
+ * there is no such position, that of the last position of the step. */
 int step_trace_find_position(const StepTrace *trace, int i, StepLine line);
 
 /* Returns the index of the position where E was highest, if E exploded: E rose

@@ -14,7 +14,7 @@ typedef enum InputKind {
     INPUT_MOVE,    /* the mouse moves: x, y */
     INPUT_PRESS,   /* a button is pressed: button, clicks, x, y */
     INPUT_RELEASE, /* a button is released: button, x, y */
-    INPUT_WHEEL,   /* turned: wheel_notches, x, y */
+    INPUT_WHEEL,   /* the wheel turns: wheel_notches, x, y */
     INPUT_LEAVE    /* the mouse has left the window */
 } InputKind;
 
@@ -25,14 +25,14 @@ typedef struct Input {
     InputKind kind;
     char key[32];       /* "N", "Shift+N", "Ctrl+R", "Tab+M", "Left", "+" */
     bool is_repeat;     /* the key is held down */
-    int button, clicks; /* BUTTON_...; 2: a double click */
+    int button, clicks; /* button: BUTTON_...; clicks 2: a double click */
     double x, y; /* place of the mouse, pixels of the picture in the window */
     double wheel_notches; /* notches of the wheel; > 0: away from the user */
 } Input;
 
 /* Functions of the only window. */
 typedef struct Window {
-    /* Opens the window.  Returns false after a failure (find_failure).
+    /* Opens the window.  Returns false after a failure (get_failure_reason).
      *   size  [2] in, pixels; 0: 1280 x 800, or what fits on the screen
      *   full  the window fills the screen */
     bool (*open)(const int size[2], bool full);
@@ -51,12 +51,11 @@ typedef struct Window {
     void (*set_title)(const char *title);
 
     /* Returns the reason of the last failure.  NULL: no function fails. */
-    const char *(*find_failure)(void);
+    const char *(*get_failure_reason)(void);
 
     /* Shows the paper's canvas.  Returns OK, OUT_OF_MEMORY, SCREEN_FAILED. */
     Status (*show)(const Canvas *canvas);
 
-    /* Switches to the full screen or back. */
     void (*set_full_screen)(bool full);
     bool (*is_full_screen)(void);
 

@@ -20,12 +20,12 @@
 #include "simulation/simulation.h"
 
 /* Stores a user's guess that the next step, or the longest step of the dial,
- * leads to (x, y), m.  No effect without a single point, or after the end. */
+ * leads to (x, y), m.  No effect with several nodes, or after the end. */
 void scene_store_guess(Simulation *simulation, double x, double y);
 
 /* ---- one mass, one spring ------------------------------------------------ */
 
-#define SMALL_MASS 1.0 /* kg, mass of each node */
+#define SMALL_MASS 1.0 /* mass of each node, kg */
 
 /* Creates a system of a free node 0 and some pinned nodes, each with a spring
  * to node 0; m, J/m^2.  Returns as system_create. */
@@ -66,7 +66,7 @@ typedef struct SpringValues {
     double force[2];          /* -grad P, on the free end, N */
     double eigenvalue_along;  /* eigenvalue of P's Hessian along d, J/m^2 */
     double eigenvalue_across; /* eigenvalue of P's Hessian across d, J/m^2 */
-    double root_energy;       /* J, P_root, the energy in |d| - l instead */
+    double root_energy;       /* P_root, the energy in |d| - l instead, J */
     /* J/m^2, eigenvalues of P_root's Hessian; the second is -inf at d = 0 */
     double root_eigenvalue_along, root_eigenvalue_across;
 } SpringValues;
@@ -84,7 +84,7 @@ Status create_landscape_scene(Simulation *simulation);
 
 /* Makes one Newton update (Algorithm 1), with the projection (Algorithm 3, line
  * 3) and line search (Algorithm 2) of the options.  Convergence is tested by
- * |g| for one unknown or with neither of the two, else by |p|/h. */
+ * |g| with one unknown or without both options, else by |p|/h. */
 Status step_descent(Simulation *simulation);
 
 /* Computes the direction at the present iterate with the present options. */
@@ -103,8 +103,8 @@ double descent_direction(const Simulation *simulation, Projection projection,
 
 /* Classifies the Hessian without projection: 0 if all its eigenvalues are
  * positive, as at a minimum, and Newton's direction is downhill; 1 if its
- * determinant is not, as at a saddle; 2 if all are negative, as at a maximum.
- * With one unknown: 2 if H < 0, else 0. */
+ * determinant is not positive, as at a saddle; 2 if all are negative, as at a
+ * maximum. With one unknown: 2 if H < 0, else 0. */
 int descent_classify_hessian(const Simulation *simulation, double x, double y);
 
 /* Returns the value of some parts of E at (x, y), J s^2.
@@ -115,7 +115,7 @@ double landscape_evaluate_parts(const Simulation *simulation, unsigned parts,
 /* Creates `dial`: a step makes h 10^(1/10) times longer, up to 10 s; node 0 is
  * at the minimiser. */
 Status create_dial_scene(Simulation *simulation);
-Status step_dial(Simulation *simulation);
+Status step_dial_scene(Simulation *simulation);
 void dial_restart(Simulation *simulation);
 
 /* ---- run time against error ---------------------------------------------- */
@@ -138,7 +138,7 @@ Status race_measure_method(Simulation *simulation,
 Status create_race_scene(Simulation *simulation);
 
 /* Makes the next run.  The methods take turns, with ever shorter time steps. */
-Status step_race(Simulation *simulation);
+Status step_race_scene(Simulation *simulation);
 
 /* Returns method i of the race, 0 ... RACE_METHODS - 1. */
 const IntegratorMethod *race_get_method(int i);
@@ -156,7 +156,7 @@ double envelope_stiffness(int row);
 Status create_envelope_scene(Simulation *simulation);
 
 /* Runs the cells of the next row, from the softest springs to the stiffest. */
-Status step_envelope(Simulation *simulation);
+Status step_envelope_scene(Simulation *simulation);
 
 /* Runs the steps of a cell, with the h of its column and the k of its row, as
  * run 0.  Returns OK, also if steps did not converge, or OUT_OF_MEMORY. */

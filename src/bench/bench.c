@@ -59,9 +59,9 @@ typedef struct TimedMotion {
     const char *name;
     double stiffness; /* J/m^2 */
     double stretch;   /* factor on all x at the start */
-    double spin;      /* rad/s, angular velocity at the start */
-    double time;      /* s, duration */
-    int segments[4];  /* sizes of the square, then 0 */
+    double spin;      /* angular velocity at the start, rad/s */
+    double time;      /* duration, s */
+    int segments[4];  /* segments of each square, then 0 */
 } TimedMotion;
 
 /* A stiffness 10^4 times as large makes vibrations 100 times as fast.  The last
@@ -75,10 +75,10 @@ enum { MOTION_COUNT = sizeof motions / sizeof *motions };
 
 enum { COARSEST_STEPS = 8, ERROR_TARGETS = 5 };
 
-/* m, errors for which the fastest methods are named */
+/* Errors for which the fastest methods are named, m */
 static const double targets[ERROR_TARGETS] = {1e-2, 1e-3, 1e-4, 1e-5, 1e-6};
 
-/* m, expected error of the first run */
+/* Expected error of the first run, m */
 static const double first_error = 1e-2;
 
 /* The fastest run with an error below a target. */
@@ -208,16 +208,15 @@ static const struct {
     int max_segments; /* largest number of segments that is measured */
 } programs[SOLVERS] = {{"lecture.c", 32}, {"newton", 64}, {"multigrid", 512}};
 
-/* s, after which no further start of the same size begins */
+/* Time after which no further start of the same size begins, s */
 static const double time_limit = 60;
 
 /* Results of one program on one square, for each start. */
 typedef struct ProgramResults {
-    double ms[STARTS];               /* processor time a step */
-    double updates_per_step[STARTS]; /* number of updates of x a step */
-    double end_energy[STARTS]; /* energy at the end, % of the energy at the
-                                  start */
-    long unconverged;          /* steps of all starts that did not converge */
+    double ms[STARTS];                 /* processor time a step */
+    double updates_per_step[STARTS];   /* number of updates of x a step */
+    double end_energy_percent[STARTS]; /* % of the energy at the start */
+    long unconverged; /* steps of all starts that did not converge */
 } ProgramResults;
 
 /* Makes a step by step_forward of lecture.c, with the springs and masses of a
@@ -269,7 +268,7 @@ static Status measure_run_from_start(BenchSolver program, int segments,
     runs->updates_per_step[start] =
         (double)simulation_sum_newton_counters(&simulation).updates / steps;
     if (!status)
-        runs->end_energy[start] =
+        runs->end_energy_percent[start] =
             100 * simulation_get_energies(&simulation, 0).total / energy;
     simulation_free(&simulation);
     return status;
@@ -298,7 +297,7 @@ static Status measure_solvers(bool quick, int segments, double ms[SOLVERS])
         printf("%d,%s,%d,%.6g,%.6g,%.6g,%.6g,%.6g,%ld\n", segments,
                programs[m].name, count, ms[m], all->ms[0], all->ms[count - 1],
                find_median(all->updates_per_step, count),
-               find_median(all->end_energy, count), all->unconverged);
+               find_median(all->end_energy_percent, count), all->unconverged);
     }
     return status;
 }

@@ -20,7 +20,7 @@
 typedef void TaskFunction(void);
 extern TaskFunction *const student[];
 
-/* TASK_FUNCTIONS is F(name) for each function of tasks.txt (check.sh). */
+/* check.sh defines TASK_FUNCTIONS: F(name) for each function of tasks.txt. */
 #define F(name) TASK_##name,
 enum { TASK_FUNCTIONS };
 #undef F
@@ -95,10 +95,10 @@ typedef enum ResultKind { NUMBER, POINTS, MATRIX, SEARCH, STATE } ResultKind;
 typedef struct Task {
     int index; /* TASK_..., index in student[] */
     const char *name;
-    TaskFunction *truth;
+    TaskFunction *truth;       /* function of lecture.c */
     ResultKind kind;           /* kind of the result */
     const char *case_names[5]; /* name of each case for messages, then NULL */
-    int steps; /* number of calls of step_forward; only the first has a table */
+    int steps; /* calls of step_forward; table is NULL from the second on */
     unsigned needed_tasks; /* bits of the tasks that this task calls */
 } Task;
 
@@ -136,7 +136,7 @@ static void make_random_solid(int case_number, Solid *solid)
     }
 }
 
-/* Makes the start of a step: as in the lecture, or in case 1 with alpha < 1. */
+/* Makes the start of a step: the lecture's, or in case 1 one with alpha < 1. */
 static void make_step_start(int case_number, TaskCase *c)
 {
     c->solid = square(1, 2, 1000, 1e5);
@@ -164,7 +164,6 @@ static void make_search_case(int case_number, TaskCase *c)
     }
 }
 
-/* Makes the arguments of a task's function. */
 static void make_arguments(const Task *task, int case_number, TaskCase *c)
 {
     static const double shift[] = {0, -300, 1000, 0}, scale[] = {1, 1e-3, 1, 0};
@@ -181,7 +180,7 @@ static void make_arguments(const Task *task, int case_number, TaskCase *c)
         make_random_solid(searches ? 0 : case_number, &c->solid);
     c->x_tilde = make_random_points(MAX_NODES, 0.7);
     c->p = make_random_points(MAX_NODES, 1);
-    c->p[1] = (Vec2){-1.5, -1.2}; /* the longest one, with negative parts */
+    c->p[1] = (Vec2){-1.5, -1.2}; /* the longest p of a node is negative */
     c->g = make_random_points(MAX_NODES, 900);
     memcpy(c->g_before, c->g, sizeof c->g_before);
     if (searches)
@@ -320,7 +319,7 @@ static const Task tasks[] = {
      {""},
      20,
      2 * BIT(step_forward) - 1}};
-enum { TASKS = sizeof tasks / sizeof *tasks };
+enum { TASK_COUNT = sizeof tasks / sizeof *tasks };
 
 /* Returns the name of number i of a result, for messages. */
 static const char *describe_number(ResultKind kind, int i)
@@ -515,7 +514,7 @@ int main(int argc, char **argv)
                   MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     if (shared == MAP_FAILED)
         FAIL(1, "not enough memory\n");
-    for (int t = 0; t < TASKS; t++) {
+    for (int t = 0; t < TASK_COUNT; t++) {
         unsigned missing = tasks[t].needed_tasks & failed;
         if (missing) { /* the lowest bit is that of the first task */
             shared->case_name[0] = '\0';
@@ -536,7 +535,7 @@ int main(int argc, char **argv)
         fflush(out);
     }
     if (argc == 2)
-        fprintf(out, "%d of %d are right\n%s%s", right, TASKS, argv[1],
+        fprintf(out, "%d of %d are right\n%s%s", right, TASK_COUNT, argv[1],
                 *argv[1] ? "\n" : "");
     else
         fprintf(out, "\"%s\",%d,\"%s\"\n", argv[2], right,

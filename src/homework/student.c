@@ -1,5 +1,5 @@
 /* student.c - lists the eleven functions of the student's file, HOMEWORK.
- * TASK_FUNCTIONS is F(name) for each function of tasks.txt (check.sh). */
+ * check.sh defines TASK_FUNCTIONS: F(name) for each function of tasks.txt. */
 #define main student_main
 int main(int argc, char **argv);
 #include HOMEWORK

@@ -27,7 +27,7 @@ typedef struct ArgLine {
     Message message;  /* out, the first mistake */
     int words;        /* number of words */
     ArgWord word[MAX_WORDS];
-    char text_copy[512]; /* texts of the words, if they stand in one text */
+    char text_copy[512]; /* copy of a line in one text, cut into words */
 } ArgLine;
 
 /* Returns the last word that sets an option; NULL: no word sets it. */
@@ -76,7 +76,7 @@ static Status refuse_value(const ArgLine *line, const ArgWord *word, int count)
         row->low, row->high, row->unit[0] ? ", in " : "", row->unit, hint.text);
 }
 
-/* Stores a name or numbers.  With one coordinate the start may be x alone. */
+/* Stores a name or numbers.  In one dimension the start may be x without y. */
 static Status apply_option_numbers(const ArgLine *line, const ArgWord *word)
 {
     const OptionRow *row = word->row;
@@ -123,7 +123,7 @@ static Status apply_option_text(const ArgLine *line, const ArgWord *word)
     return STATUS_OK;
 }
 
-/* Stores the value of an option.  --lecture alone is the first page. */
+/* Stores the value of an option.  --lecture with no value is the first page. */
 static Status apply_option_word(const ArgLine *line, const ArgWord *word)
 {
     Options *options = line->options;

@@ -19,7 +19,7 @@ Phrase join_names(NameTable names)
 
 /* ---- mistyped names ----------------------------------------------------- */
 
-/* Whether a typed letter fits one of a name: in any case, and '_' for '-'. */
+/* Whether a typed letter is that of a name, in any case, with '_' as '-'. */
 static bool letters_match(char typed, char letter)
 {
     return tolower((unsigned char)typed) == tolower((unsigned char)letter) ||
@@ -28,7 +28,7 @@ static bool letters_match(char typed, char letter)
 
 enum {
     NAME_LETTERS = 24,     /* largest number of letters that are compared */
-    SHORT_NAME_LETTERS = 4 /* most letters if the first one must be right */
+    SHORT_NAME_LETTERS = 4 /* longest text whose first letter must fit */
 };
 
 /* Number of typing mistakes (Damerau 1964) between a text, of at most

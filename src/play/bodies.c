@@ -17,7 +17,7 @@ Status obey_toggle_pin(Player *player, const Command *command)
     return status;
 }
 
-/* Takes hold of a node or an obstacle at its place. */
+/* Takes hold of a node or an obstacle without moving it. */
 Status obey_take_hold(Player *player, const Command *command)
 {
     const Simulation *simulation = player_simulation(player);
@@ -81,7 +81,7 @@ Status obey_drag_hand(Player *player, const Command *command)
     return player_edit_step(player, command, ALL_PANES, false);
 }
 
-/* Moves a handle or flips a switch; a moved start leads back to step 0. */
+/* Moves a handle or flips a switch.  Moving the start leads back to step 0. */
 Status obey_drag_handle(Player *player, const Command *command)
 {
     Past *past = &player->past;

@@ -126,7 +126,7 @@ static bool read_argument(const char *word, char kind, Command *command)
         snprintf(command->text, sizeof command->text, "%s", row ? "" : word);
         return true;
     case 'V':
-        if (command->number < 0) /* refused later, with option and value */
+        if (command->number < 0) /* unknown option */
             return append(command->text, sizeof command->text, " %s", word),
                    true;
         row = &option_rows[command->number];
@@ -179,7 +179,7 @@ void command_format(const Command *command, char *line, size_t size)
     for (const char *at = row->args; at; at = skip_to_next_argument(at)) {
         char word[COMMAND_TEXT_SIZE];
         if (*at == 'V' && command->number < 0)
-            continue; /* text of an unknown option includes its value */
+            continue; /* an unknown option: its text has the value */
         if (*at == 'N')
             snprintf(word, sizeof word, "%ld", command->number);
         else if (*at == 'X' || *at == 'Y')
@@ -209,7 +209,7 @@ Status script_add(Script *script, long step, const Command *command,
     ScriptLine line = {step, *command, gesture};
     ScriptLine *last = script->lines ? script->line + script->lines - 1 : NULL;
     bool same = gesture && last && last->gesture == gesture;
-    if (gesture) /* drag and release need no &: they join their grab */
+    if (gesture) /* a drag needs no & to join its grab */
         line.command.joins_gesture = same && command->kind != COMMAND_DRAG &&
                                      command->kind != COMMAND_RELEASE;
     if (same && last->due_step == step &&

@@ -26,7 +26,7 @@ static const struct FilmKind {
     {NULL, 0, NULL},
 };
 
-/* Why no film can be made where the program ffmpeg is missing. */
+/* Message if the program ffmpeg is missing. */
 #ifdef __EMSCRIPTEN__
 #define WHY_NO_FILM "a page makes no films; the program does"
 #else
@@ -55,8 +55,8 @@ Status film_open(const char *name, char *message, Film *film)
 }
 
 /* Starts ffmpeg for frames of the size of the first one.  The messages of
- * ffmpeg are discarded; setsid keeps Ctrl+C from ffmpeg, so that a film which
- * is interrupted has its end. */
+ * ffmpeg are discarded.  setsid keeps Ctrl+C from ffmpeg: an interrupted film
+ * is whole. */
 static void start_ffmpeg(Film *film, const Canvas *canvas)
 {
     char line[512];
@@ -71,7 +71,7 @@ static void start_ffmpeg(Film *film, const Canvas *canvas)
     if (setenv("ELASTO_FILM", film->output.part_name, 1) == 0)
         film->pipe = popen(line, "we");
     if (film->pipe)
-        setvbuf(film->pipe, NULL, _IOFBF, 1 << 16); /* size of a pipe */
+        setvbuf(film->pipe, NULL, _IOFBF, 1 << 16); /* a pipe's buffer size */
 }
 
 Status film_add_frame(Film *film, const Canvas *canvas, int times)

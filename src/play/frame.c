@@ -9,7 +9,7 @@
 #include "picture/plot.h"
 #include "play/playing.h"
 
-static const double LONG_WORK = 0.3;  /* s, longer work is reported */
+static const double LONG_WORK = 0.3;  /* longer work is reported, s */
 static const double SMALL_LETTER = 9; /* pixels, smallest letters in files */
 
 /* ---- the list of keys ---------------------------------------------------- */
@@ -122,7 +122,7 @@ static void list_shown_options(const Player *player, FrameContent *content)
 /* ---- the chips ----------------------------------------------------------- */
 
 /* Adds the chip of a command, with its first key and one of its labels.
- *   state  in, index of the label in CommandRow.chips */
+ *   state  in, index of the label in CommandRow.chip_labels */
 static void add_chip(WindowFrame *frame, CommandKind kind, int state, bool lit)
 {
     ChipRow *chips = &frame->content.chips;
@@ -198,7 +198,7 @@ static void format_pane_value(const Player *player, int pane,
                         &past->pane[pane].simulation, value, VALUE_SIZE);
 }
 
-/* Whether all of at least three panes but one have this value of an option. */
+/* Whether at least two panes, and all but one, have this value of an option. */
 static bool most_panes_have_value(const Player *player, const OptionRow *row,
                                   const char *value)
 {
@@ -276,7 +276,7 @@ static void build_time_line(const Player *player, FrameContent *content)
     const Past *past = &player->past;
     const char *turn = player_simulation(player)->scene->step_name;
     char *text = content->time_line.label;
-    double time = 0, longest = -1; /* s, time of the pane with the longest h */
+    double time = 0, longest = -1; /* time of the pane with the longest h, s */
     bool shared = true;            /* true if panes share one h */
     for (int p = 0; p < past_panes(past); p++) {
         const Simulation *now = &past->pane[p].simulation;
@@ -333,7 +333,7 @@ static void write_page_heading(const Player *player, LectureContent *lecture)
                             sizeof value);
         size_t comma = strcspn(value, ",");
         if (player_simulation(player)->descent.scalar)
-            value[comma] = '\0'; /* y of the start is unused */
+            value[comma] = '\0'; /* y is left out: one unknown */
         append(text, sizeof text,
                value[comma] ? "%s%s = (%.*s)%s" : "%s%s = %.*s%s", before,
                option_get_label(row[i]), (int)strcspn(value, " "), value,
@@ -358,7 +358,7 @@ static void build_frame_content(const Player *player, WindowFrame *frame)
     content->is_stage_only = window && window->has_document;
     content->has_document = content->is_stage_only && window->has_document();
     content->panes = past_panes(past);
-    if (content->panes > LAYOUT_MAX_PANES) /* scripts can have more panes */
+    if (content->panes > LAYOUT_MAX_PANES) /* a script can open more panes */
         content->panes = LAYOUT_MAX_PANES;
     content->active_pane = active < content->panes ? active : 0;
     for (int i = 0; i < content->panes; i++)
@@ -408,8 +408,8 @@ static void build_frame_content(const Player *player, WindowFrame *frame)
     frame_expand_texts(content);
 }
 
-/* Finds what is under the mouse, if it was a body, which may have moved. */
-static void update_hover(Player *player)
+/* Finds again what is under the mouse if a body was, which may have moved. */
+static void update_hovered_object(Player *player)
 {
     const FrameContent *content = &player->screen.frame.content;
     const Mouse *mouse = &player->hands.mouse;
@@ -428,7 +428,7 @@ static void update_hover(Player *player)
 void player_build_frame(Player *player)
 {
     build_frame_content(player, &player->screen.frame);
-    update_hover(player);
+    update_hovered_object(player);
 }
 
 /* ---- the paper ----------------------------------------------------------- */

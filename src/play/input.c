@@ -19,7 +19,7 @@ typedef struct MouseTarget {
     Layout layout; /* layout of the last frame */
     WindowHit hit; /* part of the window under the mouse */
     int pane;
-    double point[2]; /* m, position of the mouse in the scene of this pane */
+    double point[2]; /* position of the mouse in the scene of this pane, m */
     Pick pick;       /* part of the scene under the mouse */
 } MouseTarget;
 
@@ -49,7 +49,7 @@ static MouseTarget find_mouse_target(Player *player)
     return target;
 }
 
-/* Obeys a command with a place, m, as a part of the present gesture. */
+/* Obeys a command at a place (metres) as a part of the present gesture. */
 static Status obey_at(Player *player, CommandKind kind, long number,
                       const double at[2])
 {
@@ -104,7 +104,7 @@ static Status open_list_line(Player *player, const char *line)
 
 /* Acts on the typed text: opens the page, adds or sets the number, or checks
  * the answer.  The field stays open if its text cannot be read. */
-static Status accept_text(Player *player)
+static Status accept_typed_text(Player *player)
 {
     const OptionRow *row = player->hands.selected;
     Status status;
@@ -144,7 +144,7 @@ static Status drag_number(Player *player, const MouseTarget *target)
         fmax(rint(200 * fabs(target->point[0]) / now.side), 2) / 100;
     if (!row)
         return STATUS_OK;
-    if (row->count > 1) /* change_number refuses several numbers. */
+    if (row->count > 1) /* refused: several numbers */
         return change_number(player, row, 1);
     if (row->display.notch_increment > 0 || row->kind == OPTION_NAME)
         notches = rint(notches);
@@ -285,7 +285,7 @@ static Status continue_drag(Player *player)
     mouse->has_moved = mouse->has_moved || math_hypot(dx, dy) > CLICK_TOLERANCE;
     if (mouse->dragged_id >=
         player_count_targets(player, player->active, mouse->drag_command))
-        mouse->drag_command = COMMAND_NONE; /* an undo removed what was held */
+        mouse->drag_command = COMMAND_NONE; /* an undo removed the part */
     switch (mouse->has_moved ? mouse->drag_command : COMMAND_NONE) {
     case COMMAND_GRAB: /* a drag frees a pinned node */
         if (!player->hands.is_holding) {
@@ -467,7 +467,7 @@ static Status release_button(Player *player)
         return player_show_refusal(player, player_obey_queue(player, false));
     }
     if (drag == COMMAND_SET && mouse->has_moved)
-        player_deselect(player); /* after a click the number stays selected */
+        player_deselect(player); /* only a click leaves it selected */
     if (drag == COMMAND_SET && !mouse->has_moved && mouse->dragged_id >= 0 &&
         player->hands.selected && player->hands.selected->kind == OPTION_NAME)
         return change_number(player, player->hands.selected, 1);
@@ -546,8 +546,9 @@ Status player_obey_input(Player *player, const Input *input)
         }
         if (command.kind)
             status = player_obey(player, &command);
-        return !status && command.kind == COMMAND_ENTER ? accept_text(player)
-                                                        : status;
+        return !status && command.kind == COMMAND_ENTER
+                   ? accept_typed_text(player)
+                   : status;
     case INPUT_CLOSE:
         return obey(player, COMMAND_QUIT, 0);
     case INPUT_LEAVE:

@@ -128,7 +128,7 @@ Status obey_set_option(Player *player, const Command *command)
     change.x = options[player->active].number[row->slot];
     const SavedState *state =
         past_entry(&player->past, 0, player->past.step)->state;
-    bool is_set = state && state->is_set; /* not made by a step */
+    bool is_set = state && state->is_set; /* by the user, not by a step */
     bool again = (!is_set || player_active_pane(player)->has_failed) &&
                  (row->effect == EFFECT_REPEAT ||
                   (player_active_options(player)->law_name &&

@@ -42,7 +42,7 @@ long player_count_targets(const Player *player, int pane, CommandKind kind)
     }
 }
 
-/* Refuses a command whose number names no node, obstacle, ... in some pane. */
+/* Refuses a number if a pane has no such node, obstacle, ... */
 static Status check_command_target(Player *player, const Command *command)
 {
     for (int p = 0; p < past_panes(&player->past); p++) {
@@ -71,7 +71,7 @@ static Command resolve_key_command(const Player *player, const Command *asked)
     return meant;
 }
 
-/* Copies to the page's own options what a command of the page has set. */
+/* Stores what a command of the page has set among the page's own options. */
 static void store_page_option(Player *player, const Command *command)
 {
     Options *own = &player->tour.page_options[player->active];
@@ -120,7 +120,7 @@ Status player_obey_queue(Player *player, bool now)
     return STATUS_OK;
 }
 
-/* Whether the new step still comes to its end before this command. */
+/* Whether this command waits until the step being made has ended. */
 static bool command_waits_for_goal(const Past *past, CommandKind kind)
 {
     return past_makes_step(past) &&
@@ -196,7 +196,7 @@ Status player_obey(Player *player, const Command *command)
         return STATUS_OK;
     if (player_hides_answer(player) &&
         (meant.kind == COMMAND_NEXT || meant.kind == COMMAND_PLAY)) {
-        status = player_reveal_answer(player, NULL); /* instead of a step */
+        status = player_reveal_answer(player, NULL); /* no step is made */
         return status ? status : player_obey_queue(player, false);
     }
     if (past_is_working(past) && !(flags & KEEPS_STEP)) {
@@ -224,7 +224,7 @@ Status player_obey(Player *player, const Command *command)
         append(player->note, sizeof player->note,
                "%ssteps %ld ... %ld: Ctrl+Z leads back",
                player->note[0] ? "; " : "", step + 1, newest);
-    status = player_tolerate_failure(player, status);
+    status = player_pause_after_failure(player, status);
     return status ? status : player_obey_queue(player, false);
 }
 

@@ -54,7 +54,7 @@ Status output_open(const char *name, char *message, OutputFile *output)
         output->file = stdout;
     else if (exists && !S_ISREG(info.st_mode))
         output->file = fopen(name, "wbe");
-    else if (!exists || access(name, W_OK) == 0) { /* not read-only */
+    else if (!exists || access(name, W_OK) == 0) { /* new, or writable */
         snprintf(output->part_name, PATH_BYTES, "%.4096s.part", name);
         output->file = fopen(output->part_name, "wbe");
     }

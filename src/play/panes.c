@@ -1,8 +1,8 @@
 /* panes.c - changes the method of a pane; adds and closes panes. */
 #include "play/playing.h"
 
-/* Returns the next method for a pane that key M can choose, all terms allow and
- * no pane has.  NULL: no method is left, and the command is refused. */
+/* Returns the next method for a pane that key M can choose, that all terms
+ * allow and no pane has.  NULL: no method is left; the command is refused. */
 static const IntegratorMethod *find_next_method(Player *player, int pane)
 {
     const Simulation *simulation = &player->past.pane[pane].simulation;

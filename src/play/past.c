@@ -73,7 +73,7 @@ static bool entry_is_failure(const PastEntry *entry)
     return status_is_failure(entry->outcome.status);
 }
 
-/* Whether a failure has ended a pane before it could make an entry's step. */
+/* Whether a failure has ended the pane before the step of this entry. */
 static bool entry_ends_pane(const PastEntry *entry)
 {
     return entry->substeps == 0 && entry_is_failure(entry);
@@ -250,8 +250,8 @@ static void leave_steps_of_panes(Past *past)
 }
 
 /* Puts a branch on top of the present one, and drops undone branches.  The
- * first `copies` entries are copies from the branch below; entry 0 shares its
- * state with the copied entry.  Returns NULL if memory is missing. */
+ * first wanted.copied entries are copies from the branch below; entry 0 shares
+ * its state with the copied entry.  Returns NULL if memory is missing. */
 static Branch *push_new_branch(Past *past, Branch wanted, const Command *edit)
 {
     drop_branches(past, past->current + 1);
@@ -327,7 +327,7 @@ static bool observe_newton(void *user, const NewtonRecord *record)
     if (newton && pane->trace.x_length > 0 && record->iteration >= 0)
         step_trace_add_iterate(&pane->trace, newton, record);
     NewtonRecords *records = &pane->records;
-    if (records_reserve(records, records->count + 1))
+    if (newton_records_reserve(records, records->count + 1))
         records->record[records->count++] = *record;
     else
         records->is_incomplete = true;
@@ -554,7 +554,7 @@ static Status pane_end_iteration(Past *past, int p, Status status)
     pane->is_iterating = false;
     if (past->stores_states)
         step_trace_end(&pane->trace, &simulation->options);
-    bool moved = simulation->steps > pane->start_steps;
+    bool moved = simulation->steps > pane->steps_before_substep;
     outcome->status = status ? status : outcome->status;
     outcome->max_x = 0;
     for (int i = 0; i < 2 * simulation->system.nodes; i++)
@@ -599,7 +599,7 @@ static Status pane_iterate(Past *past, int p)
     if (past->stores_states)
         step_trace_begin(&pane->trace, &pane->simulation, past->samples_energy,
                          p == past->line_energy_pane);
-    pane->start_steps = pane->simulation.steps;
+    pane->steps_before_substep = pane->simulation.steps;
     pane->is_iterating = true;
     return pane_end_iteration(past, p,
                               simulation_begin_step(&pane->simulation));
@@ -650,7 +650,7 @@ Status past_do_work(Past *past)
         return STATUS_OK;
     int panes = past_panes(past), pane = 0;
     for (; past->work_stage == WORK_LOADING && pane < panes; pane++) {
-        Status status = pane_seek(past, pane, past->load_step);
+        Status status = pane_seek(past, pane, past->step_to_load);
         if (status)
             return pane_record_failure(past, pane, status);
     }
@@ -698,13 +698,13 @@ void past_set_goal(Past *past, long step, bool again)
     abandon_past_work(past);
     long newest = past_newest(past);
     past->goal_step = step < 0 ? 0 : step > newest ? newest + 1 : step;
-    past->load_step = past->goal_step < newest ? past->goal_step : newest;
+    past->step_to_load = past->goal_step < newest ? past->goal_step : newest;
     past->work_stage = WORK_LOADING;
     past->samples_energy = again;
     if (past->goal_step == 0 || past->goal_step > newest ||
         !past->stores_states || !(again || can_trace_goal(past)))
         return;
-    past->load_step = past->goal_step - 1;
+    past->step_to_load = past->goal_step - 1;
     for (int p = 0; p < past_panes(past); p++)
         step_trace_clear(&past->pane[p].trace);
     leave_steps_of_panes(past);
@@ -712,8 +712,8 @@ void past_set_goal(Past *past, long step, bool again)
 
 /* ---- edits --------------------------------------------------------------- */
 
-/* Marks the rows of later steps in the tables as invalid, the energies of this
- * step and, if the state has changed, all rows of this step. */
+/* Marks rows of the tables as invalid: the rows of later steps, the energies of
+ * this step and, if its state has changed, all its rows. */
 static void invalidate_tables(Past *past, long step, bool changed)
 {
     if (past->written_step > step - changed)
@@ -852,7 +852,7 @@ Status past_edit(Past *past, const Command *edit, int pane, bool again,
     Branch *branch = present_branch(past);
     const int panes = branch->panes + (edit->kind == COMMAND_ADD_PANE) -
                       (edit->kind == COMMAND_END_PANE);
-    bool counts = panes != branch->panes; /* changes only the number of panes */
+    bool counts = panes != branch->panes; /* adds or removes a pane */
     bool joins = gesture && branch->gesture == gesture &&
                  !branch->from_options && !counts && !again &&
                  past->step == past_newest(past) &&
@@ -862,7 +862,7 @@ Status past_edit(Past *past, const Command *edit, int pane, bool again,
                            .copied = 1 + again,
                            .panes = panes,
                            .gesture = gesture};
-    if (joins) /* the edit replaces undone branches */
+    if (joins) /* the present branch goes on, undone branches end */
         drop_branches(past, past->current + 1);
     else
         branch = push_new_branch(past, wanted, edit);

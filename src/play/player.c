@@ -12,7 +12,7 @@ enum {
     FRAME_SIZE = 900,       /* pixels of a frame without a window */
     WINDOWLESS_STEPS = 100, /* default number of steps without a window */
     FRAME_RATE = 60,        /* frames a second at most */
-    MAX_IDLE_WAIT = 200     /* ms, longest wait; then signals are noticed */
+    MAX_IDLE_WAIT = 200     /* longest wait, ms; then signals are noticed */
 };
 
 static const double EARLY = 0.002; /* s by which a frame may be drawn early */
@@ -191,7 +191,7 @@ static void open_window(Player *player, const Window *window)
         if (!options->frames && !options->film)
             options->frames = "frames";
         print_line(stderr, "no screen: %.300s; the frames go to %.300s%s",
-                   window->find_failure(),
+                   window->get_failure_reason(),
                    options->frames ? options->frames : options->film,
                    options->frames ? "/" : "");
         window->close();
@@ -238,7 +238,7 @@ Status player_create(const Options *options, char *const *words,
                 player->setup.is_attended && options->steps < 0, &player->past);
     if (!status)
         status = player_begin_runs(player, options, options->panes, &begin);
-    /* The journal is a script, and a script does not begin paused. */
+    /* A script does not begin paused, so the journal begins with the pause. */
     if (!status && player_is_stopped(player))
         status = script_add(&player->commands.journal, 0, &pause, 0);
     bool nodes = !status && player_simulation(player)->mesh.nodes > 0;
@@ -264,7 +264,7 @@ static void close_window(Player *player)
 Status player_finish(Player *player, Status status)
 {
     if (player->past.branches > 0) {
-        Status rest = player_write_remaining(player);
+        Status rest = player_write_missing_steps(player);
         status = status ? status : rest;
     }
     CloseAction keep = player->past.written_step < 0 ? KEEP_NOTHING

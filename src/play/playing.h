@@ -8,7 +8,7 @@
 /* The functions of commands have the same parameters; some use only one. */
 #pragma GCC diagnostic ignored "-Wunused-parameter"
 
-/* s, time of a frame for steps; after it, inputs are read again */
+/* Time for steps in a frame, until inputs are read, s */
 static const double SLICE = 0.05;
 
 /* ---- session.c ----------------------------------------------------------- */
@@ -25,7 +25,7 @@ Options player_shown_options(const Player *player);
 /* Whether the scene uses this option, and its value is a number or a choice. */
 bool player_shows_number(const Player *player, const OptionRow *row);
 
-/* Lists the row of numbers, or all numbers of the scene.  Returns how many. */
+/* Lists the row of numbers, or all numbers of the scene; returns the count. */
 int player_list_options(const Player *player, bool all,
                         const OptionRow *found[OPTIONS_MAX_ROWS]);
 
@@ -52,12 +52,12 @@ bool player_is_stopped(const Player *player);
 /* Whether a factorisation of --solver newton takes longer than SLICE. */
 bool player_is_slow(const Player *player);
 
-/* Lets E along p be sampled from now on if a card draws it.  Prepares to make
- * the shown step once more (player_do_work) if its samples are missing. */
+/* Lets E along p be sampled from now on if a card draws the curve.  Prepares to
+ * make the shown step once more (player_do_work) if its samples are missing. */
 void player_sample_line_energy(Player *player);
 
-/* Returns log_speed at the start of a run: from the options; else of the scene,
- * if the run is attended and no page; else 0, or UPDATE_SPEED without time. */
+/* Returns log_speed for the start of a run: from the options; from the scene if
+ * the run is attended without page; 0, or UPDATE_SPEED without time. */
 int player_find_first_speed(const Player *player, const Options *options);
 
 /* Whether a list of pages or numbers is open, from which a number chooses. */
@@ -82,12 +82,12 @@ Status player_show_refusal(Player *player, Status status);
 void player_pause(Player *player);
 
 /* Pauses an attended run after a failure.  Returns OK, or what ends the run. */
-Status player_tolerate_failure(Player *player, Status status);
+Status player_pause_after_failure(Player *player, Status status);
 
 /* Returns the command that sets an option as a part of the present gesture. */
 Command make_set_command(const OptionRow *row, double value);
 
-/* Queues a command if there is room.  A drag's place replaces the last one. */
+/* Queues a command if there is room.  A drag's new place replaces its old. */
 void player_enqueue(Player *player, const Command *command);
 void player_enqueue_set(Player *player, const OptionRow *row, double value);
 
@@ -129,7 +129,7 @@ Status player_repeat_step(Player *player, const Command *change, int pane);
 void player_reset_view(Player *player);
 
 /* Writes the steps that the tables do not have yet. */
-Status player_write_remaining(Player *player);
+Status player_write_missing_steps(Player *player);
 
 /* ---- start.c ------------------------------------------------------------- */
 
@@ -190,8 +190,8 @@ typedef Status CommandFunction(Player *player, const Command *command);
 /* Counts the nodes, obstacles, cards or others that a command can name. */
 long player_count_targets(const Player *player, int pane, CommandKind kind);
 
-/* Obeys the commands in the queue until one must wait: each for the end of a
- * step, a release also for a step since the hand's last move.
+/* Obeys the queue until a command must wait: each command waits for the end of
+ * the step being made, a release also for one step after the hand's last move.
  *   now  obeys all commands at once */
 Status player_obey_queue(Player *player, bool now);
 

@@ -90,7 +90,7 @@ static int report_failure(const Player *player, Status status)
         return print_error(code, "%s", message);
     if (status == STATUS_SCREEN_FAILED)
         return print_error(code, "%s: %s", status_text(status),
-                           player->screen.window->find_failure());
+                           player->screen.window->get_failure_reason());
     if (p < panes)
         return print_error(code, "%sstep %ld failed: %s%s", pane,
                            player->past.pane[p].simulation.steps + 1,
@@ -105,7 +105,7 @@ static int report_failure(const Player *player, Status status)
 #define print_quantity(file, name, format, ...)                                \
     print_line(file, "%-20s" format, name, __VA_ARGS__)
 
-/* Prints the last step's solver, why not multigrid, and Newton's work. */
+/* Prints the solver of the last step, why not multigrid, and counts of work. */
 static void print_newton_counters(FILE *file, const Simulation *simulation)
 {
     const Newton *newton = simulation->run[0].newton;
@@ -170,7 +170,8 @@ static void print_summary(FILE *file, const Player *player)
         print_newton_counters(file, simulation);
         if (in_time) {
             print_quantity(file, "energy at start", "%.9g J",
-                           simulation->ledger[0].start_energy + 0.0); /* no -0 */
+                           simulation->ledger[0].start_energy +
+                               0.0); /* no -0 */
             print_quantity(file, "energy at end", "%.9g J",
                            simulation_get_energies(simulation, 0).total);
             print_energy_gain(file, simulation);

@@ -19,7 +19,7 @@ typedef struct RunAtStep {
     double step, time;
     int run_index; /* index of the run in its simulation */
     int pane;      /* number of the pane, from 1 */
-    int first_run, first_node, first_spring; /* counts in the runs before */
+    int first_run, first_node, first_spring; /* numbers in the tables */
 } RunAtStep;
 
 static void add_state_rows(CsvTable *table, const RunAtStep *at)
@@ -80,8 +80,8 @@ static const char *get_log_code_name(const char *column, int number)
 static const struct {
     size_t file;         /* offset of the file's name in Options */
     const char *columns; /* names of columns, for table_add_columns */
-    void (*write_rows)(CsvTable *table, const RunAtStep *at); /* adds the rows
-                                of a step; NULL: the log, a row an iteration */
+    /* Writes a step's rows; NULL for the log, whose rows are iterations. */
+    void (*write_rows)(CsvTable *table, const RunAtStep *at);
 } kinds[RECORDING_TABLE_COUNT] = {
     {offsetof(Options, states), "step:whole,time,node:whole,x,y,vx,vy",
      add_state_rows},

@@ -6,7 +6,7 @@
 
 #include "play/playing.h"
 
-enum { NOTED_LINE_BYTES = 100 }; /* longest command line of a note */
+enum { NOTED_LINE_BYTES = 100 }; /* longest command line that a note shows */
 
 /* Finds a name that no file has: elasto_SCENE_000012.png, ..._2.png, ... */
 static void find_unused_file_name(const Player *player, const char *end,

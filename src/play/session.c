@@ -235,7 +235,7 @@ void player_pause(Player *player)
         player->play.mode = MODE_PAUSE;
 }
 
-Status player_tolerate_failure(Player *player, Status status)
+Status player_pause_after_failure(Player *player, Status status)
 {
     bool fatal = status == STATUS_OUT_OF_MEMORY ||
                  status == STATUS_INVALID_INPUT ||

@@ -12,12 +12,12 @@ enum {
     CELL_PAUSE_FRAMES = 24 /* frames between two steps in scenes without time */
 };
 
-/* s, computing time in a frame of the window for the steps of all scenes */
+/* Computing time in a frame of the window for the steps of all scenes, s */
 static const double STEP_TIME = 0.008;
 
 /* The first cell shows the tour's pages in turn, each other cell a scene. */
 typedef struct Sheet {
-    int cells;
+    int cells;     /* number of cells */
     int next_cell; /* index of the cell that gets the next step */
     int next_page; /* index of the page that the first cell shows next */
     int turns[LAYOUT_MAX_CELLS]; /* frames in which the cell had its turn */

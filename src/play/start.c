@@ -83,7 +83,7 @@ Status player_restart_runs(Player *player, const Options *options, int panes,
 {
     const UserControl *before = control_retain(past_control(&player->past, 0));
     const LecturePage *page = options->page;
-    Options own; /* opening commands need the page's own nodes */
+    Options own; /* options of the page, for whose mesh on_open is made */
     bool opens = edit->kind == COMMAND_RESTART && page && page->on_open &&
                  !lecture_make_options(page, &own, MESSAGE(player->message)) &&
                  own.segments == options->segments;
@@ -91,7 +91,7 @@ Status player_restart_runs(Player *player, const Options *options, int panes,
     if (opens)
         player->play.walk_unit = UNIT_STEP;
     if (!status && opens &&
-        player->setup.asks_guess) { /* a script has the page's commands in it */
+        player->setup.asks_guess) { /* a script has the page's commands */
         player->commands.queue.pins = before;
         return player_enqueue_page(player);
     }
@@ -167,7 +167,7 @@ Status player_reveal_answer(Player *player, const char *typed)
     player->tour.verdict[0] = '\0';
     TextLine asked =
         text_first_line(&active_pane(content)->values, page->question);
-    /* The values are known once the page has been drawn. */
+    /* The numbers in the question are known once the page has been drawn. */
     bool is_filled = content->lecture.page == page;
     snprintf(player->tour.asked_question, ANSWER_SIZE, "%s",
              is_filled ? asked.text : page->question);

@@ -8,7 +8,7 @@
 /* From this number of trials on, the walk shows only the last trial. */
 enum { MAX_WALK_TRIALS = 12 };
 
-bool records_reserve(NewtonRecords *records, int count)
+bool newton_records_reserve(NewtonRecords *records, int count)
 {
     if (count <= records->capacity)
         return true;
@@ -168,7 +168,7 @@ void step_trace_add_iterate(StepTrace *trace, const Newton *newton,
         trace->iterate = iterate;
         trace->iterate_capacity = 2 * count;
     }
-    if (!records_reserve(&trace->records, count))
+    if (!newton_records_reserve(&trace->records, count))
         return;
     trace->records.record[trace->records.count] = *record;
     store_iteration(trace, newton);

@@ -29,8 +29,8 @@ static Status record_iterations(Player *player, long step)
     return status;
 }
 
-/* Writes the shown step, or only its energies if only these are missing, to the
- * tables if it is the next one to be written and all panes have its records. */
+/* Writes the shown step, or only missing energies, to the tables.  Does nothing
+ * unless the step is the next to be written and all panes have its records. */
 static Status record_step(Player *player)
 {
     Past *past = &player->past;
@@ -57,7 +57,7 @@ static Status record_step(Player *player)
                                            simulation, panes, step);
 }
 
-Status player_write_remaining(Player *player)
+Status player_write_missing_steps(Player *player)
 {
     Past *past = &player->past;
     Status status = STATUS_OK;
@@ -104,7 +104,7 @@ void player_reset_view(Player *player)
     }
 }
 
-static void drop_hand_and_queue(Player *player)
+static void forget_hold_and_queue(Player *player)
 {
     player->hands.is_holding = false;
     player->commands.queue.count = 0;
@@ -158,7 +158,7 @@ Status player_begin_runs(Player *player, const Options *options, int count,
     player->play.mode = player_is_stopped(player) ? MODE_PAUSE : MODE_RUN;
     player->screen.drawn_step = -1;
     player->play.has_warned = player->play.reported_gain = false;
-    drop_hand_and_queue(player);
+    forget_hold_and_queue(player);
     update_player_after_edit(player);
     return record_step(player);
 }
@@ -228,7 +228,7 @@ static void stop_run_if_over(Player *player)
     int going = 0;
     const Options *options = player_active_options(player);
     if (player->setup.options[0].steps >= 0 || !player->setup.is_attended ||
-        (options->next_action == NEXT_ADDS_SPRING && /* a spring is left */
+        (options->next_action == NEXT_ADDS_SPRING && /* springs left to add */
          past->step < player_simulation(player)->system.springs))
         return;
     for (int p = 0; p < past_panes(past); p++) {
@@ -260,15 +260,15 @@ static void stop_run_if_over(Player *player)
 
 /* ---- inside a step ------------------------------------------------------- */
 
-/* Shows a line of Algorithm 3 in each pane whose step has some: the first line,
- * the last one, or the update at which E was highest if E exploded. */
+/* Shows a line of Algorithm 3 in each pane whose step has lines: the first
+ * line, the last one, or the update at which E was highest if E exploded. */
 static void begin_line_walk(Player *player, ActionAfterWork after)
 {
     for (int p = 0; p < past_panes(&player->past); p++) {
         const StepTrace *trace = &player->past.pane[p].trace;
         NewtonTrace shown;
         double far = 0;
-        int place = trace->position_count <= 2  ? -1 /* no update */
+        int place = trace->position_count <= 2  ? -1 /* without an update */
                     : after == AFTER_SHOW_FIRST ? 0
                     : after == AFTER_SHOW_LAST  ? trace->position_count - 1
                                                 : step_trace_find_peak(trace);
@@ -288,7 +288,8 @@ static void begin_line_walk(Player *player, ActionAfterWork after)
     }
 }
 
-/* Walks a line or update on (1) or back (-1).  Returns whether a pane moved. */
+/* Walks on (1) or back (-1) by a line or update.  Returns whether a pane
+ * moved. */
 static bool walk_algorithm_lines(Player *player, int way)
 {
     bool moved = false;
@@ -392,7 +393,7 @@ static Status finish_work(Player *player, Status status, long before, bool made)
         long seen = past_find_drawable_step(past, 0, before);
         bool lost = runs && status == STATUS_NOT_FINITE;
         player->screen.drawn_step = -1;
-        status = player_tolerate_failure(player, status);
+        status = player_pause_after_failure(player, status);
         if (status || !lost || seen == before)
             return status;
         player_note(player,
@@ -463,7 +464,7 @@ Status player_seek(Player *player, long step, ActionAfterWork after)
     bool known = step <= past_newest(past);
     Status status = known ? STATUS_OK : record_step(player);
     if (known)
-        drop_hand_and_queue(player);
+        forget_hold_and_queue(player);
     if (!status && !known)
         status = release_unused_hand(player);
     if (status)
@@ -486,7 +487,7 @@ Status obey_pause(Player *player, const Command *command)
     return STATUS_OK;
 }
 
-Status obey_next(Player *player, const Command *command)
+Status obey_go_forward(Player *player, const Command *command)
 {
     ActionAfterWork after = command->kind == COMMAND_STEP ? AFTER_NOTHING
                             : player->play.walk_unit != UNIT_STEP
@@ -514,7 +515,7 @@ static bool panes_use_newton(const Player *player)
 /* Goes back by a step, an update or a line.  From the first line of a step,
  * goes to the end of the step before.  At the end of a step without a trace the
  * step is made once more, and its last line is shown. */
-Status obey_back(Player *player, const Command *command)
+Status obey_go_back(Player *player, const Command *command)
 {
     long step = player->past.step;
     player_pause(player);
@@ -533,7 +534,7 @@ Status obey_back(Player *player, const Command *command)
     return player_seek(player, step - 1, AFTER_SHOW_LAST);
 }
 
-Status obey_change_unit(Player *player, const Command *command)
+Status obey_change_walk_unit(Player *player, const Command *command)
 {
     static const char *const paces[] = {
         "whole steps", "updates of Newton's method", "lines of Algorithm 3"};
@@ -548,7 +549,7 @@ Status obey_change_unit(Player *player, const Command *command)
     return STATUS_OK;
 }
 
-Status obey_goto(Player *player, const Command *command)
+Status obey_go_to_step(Player *player, const Command *command)
 {
     long step = command->kind == COMMAND_HOME ? 0 : past_newest(&player->past);
     if (command->kind == COMMAND_GOTO && command->number < step)
@@ -595,7 +596,7 @@ Status obey_undo(Player *player, const Command *command)
                                              : "nothing was undone");
     const Command edit = *made;
     player->play.mode = MODE_PAUSE;
-    drop_hand_and_queue(player);
+    forget_hold_and_queue(player);
     player->hands.mouse.gesture = ++player->commands.gestures;
     update_player_after_edit(player);
     player_reset_view(player);

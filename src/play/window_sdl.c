@@ -22,7 +22,7 @@ static bool tab_alone; /* Tab is down, and no other key was pressed since */
 static bool tab_held;
 static SDL_Point mouse;
 
-static const char *sdl_find_failure(void)
+static const char *sdl_get_failure_reason(void)
 {
     return SDL_GetError();
 }
@@ -242,11 +242,11 @@ static Input sdl_read_input(void)
     return input;
 }
 
-/* SDL_WaitEventTimeout would end the program after the window is closed: on X
- * it sends itself an event of a second connection. */
+/* SDL_WaitEventTimeout would end the program after the window is closed: on X,
+ * SDL sends itself an event by a second connection. */
 static void sdl_wait_for_input(int milliseconds)
 {
-    enum { POLL_MS = 8 }; /* ms, between two looks for an event */
+    enum { POLL_MS = 8 }; /* between two looks for an event, ms */
     for (; milliseconds > 0; milliseconds -= POLL_MS) {
         SDL_PumpEvents();
         if (SDL_HasEvents(SDL_FIRSTEVENT, SDL_LASTEVENT))
@@ -261,7 +261,7 @@ const Window window_sdl = {
     .find_size = sdl_find_size,
     .find_font_size = sdl_find_font_size,
     .set_title = sdl_set_title,
-    .find_failure = sdl_find_failure,
+    .get_failure_reason = sdl_get_failure_reason,
     .show = sdl_show,
     .set_full_screen = sdl_set_full_screen,
     .is_full_screen = sdl_is_full_screen,

@@ -11,21 +11,21 @@
 enum { LANDSCAPE_PINS = 2, LANDSCAPE_NODES = 1 + LANDSCAPE_PINS };
 
 static const double LINE_STIFFNESS = 10;       /* J/m^2 */
-static const double LINE_LENGTH = 1;           /* m, rest length */
-static const double LINE_TARGET = 2;           /* m, x_tilde of node 0 */
+static const double LINE_LENGTH = 1;           /* rest length, m */
+static const double LINE_TARGET = 2;           /* x_tilde of node 0, m */
 static const double LANDSCAPE_STIFFNESS = 100; /* J/m^2 */
-static const double LANDSCAPE_LENGTH = 1.5;    /* m, rest length */
+static const double LANDSCAPE_LENGTH = 1.5;    /* rest length, m */
 
-/* m, x_tilde of the free node, the minimiser of the inertia energy. */
+/* x_tilde of the free node: minimiser of the inertia energy, m */
 static const double LANDSCAPE_TARGET[2] = {0.2, 0.3};
 
-/* s, time steps of the dial: from 1e-3 to 10, ten for each factor of 10. */
+/* Time steps of the dial, s: from 1e-3 to 10, ten for each factor of 10 */
 static const double DIAL_FIRST = 1e-3, DIAL_LAST = 10, DIAL_PER_TEN = 10;
 
-/* m; a shorter p ends the search for a minimiser. */
+/* Length of p below which the search for a minimiser ends, m */
 static const double DIAL_SHORT_P = 1e-14;
 
-/* m, smallest distance of a start from the line through the pins. */
+/* Smallest distance of a start from the line through the pins, m */
 static const double DIAL_OFF_LINE = 1e-9;
 
 /* ---- the functions ------------------------------------------------------- */
@@ -243,8 +243,8 @@ Status step_descent(Simulation *simulation)
         Status found =
             line_search_backtrack(descent_energy_difference, simulation,
                                   &record.alpha, &record.trials);
-        /* Uphill E grows by about slope (alpha - alpha^2/2), so that a very
-         * short step lowers E only by rounding. */
+        /* Along an uphill p, E grows by about slope (alpha - alpha^2/2): if a
+         * very short step lowers E, this is rounding. */
         bool rounding = record.slope > 0 && record.alpha < 1e-3;
         if (found || rounding) {
             status = record.slope > 0 ? STATUS_NOT_DESCENT
@@ -371,7 +371,7 @@ Status create_dial_scene(Simulation *simulation)
     return STATUS_OK;
 }
 
-Status step_dial(Simulation *simulation)
+Status step_dial_scene(Simulation *simulation)
 {
     double h = simulation->options.timestep * pow(10, 1 / DIAL_PER_TEN);
     h = fmin(h, DIAL_LAST);

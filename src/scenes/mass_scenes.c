@@ -7,10 +7,10 @@
 #include "model/pull_energy.h"
 #include "model/spring_law.h"
 
-static const double CIRCLE_OMEGA = 6.283185307179586; /* 1/s: a turn a second */
-static const double MASS_OMEGA2 = 1; /* 1/s^2, omega2 in the scene `arrows` */
+static const double CIRCLE_OMEGA = 6.283185307179586; /* a turn a second, 1/s */
+static const double MASS_OMEGA2 = 1; /* omega2 in the scene `arrows`, 1/s^2 */
 static const double SPRING_STIFFNESS = 100; /* J/m^2 */
-static const double SPRING_LENGTH = 1;      /* m, rest length */
+static const double SPRING_LENGTH = 1;      /* rest length, m */
 
 Status create_small_system(System *system, int pins, double length,
                            double stiffness)

@@ -118,7 +118,7 @@ const Scene scenes[] = {
           "--at -0.08636008618973134,0.2372723867484419 "
           "--friction 0.36397023426620234 "
           "--ground -0.3420201433256687,0.9396926207859084,0,0",
-     /* A block just stays at rest with the friction of this line. */
+     /* friction = tan(20 degrees): a block just stays at rest. */
      create_square_scene, .view = {-2.3, -2.75, 0.9, 2.0}, .body.runs = 3,
      .body.height_step = 2.6, .body.friction_factor = {0.5, 0.9, 1.1}},
     {"squeeze", "Contact: pressed flat",
@@ -179,12 +179,12 @@ const Scene scenes[] = {
      PICTURE_RACE, HAS_MESH | HAS_SPRINGS | HAS_MINIMUM | HAS_BODY,
      /* motion without chaos; a tolerance below the error of every time step */
      "--stretch 1.1 --tolerance 1e-8", create_race_scene, .step_name = "run",
-     .step = step_race, .switch_labels = {"error over h"},
+     .step = step_race_scene, .switch_labels = {"error over h"},
      .group_heading = "Measured now"},
     {"envelope", "How far it can be trusted",
      "where the square converges: h across, k upwards", PICTURE_ENVELOPE,
      HAS_MESH | HAS_SPRINGS | HAS_MINIMUM | HAS_TIMESTEP, NULL,
-     create_envelope_scene, .step_name = "row", .step = step_envelope},
+     create_envelope_scene, .step_name = "row", .step = step_envelope_scene},
     /* Scenes of the tour, small enough to compute on paper. */
     {"landscape", "Search directions",
      "without projection Newton may go uphill; clamped, never",
@@ -208,7 +208,7 @@ const Scene scenes[] = {
     {"dial", "The time step as a dial",
      "a longer time step: from free flight to the rest shape", PICTURE_DIAL,
      HAS_TIMESTEP, "--timestep 0.005", create_dial_scene, .step_name = "point",
-     .step = step_dial, .restart = dial_restart, .handle_kinds = "t",
+     .step = step_dial_scene, .restart = dial_restart, .handle_kinds = "t",
      .switch_labels = {"inertia", "elasticity"}, .is_hidden = true},
     {"spring", "One spring",
      "one spring: energy, force, eigenvalues; drag its end", PICTURE_SPRING,
@@ -235,7 +235,7 @@ void scene_store_guess(Simulation *simulation, double x, double y)
     MassStep step;
     if (simulation->is_over || count == 0)
         return;
-    if (scene->step == step_dial)
+    if (scene->step == step_dial_scene)
         end = simulation->exhibit.dial.point[DIAL_POINTS - 1];
     if (scene->parts & HAS_TIME) {
         mass_find_next_step(simulation, 0, &step);

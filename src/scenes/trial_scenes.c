@@ -148,9 +148,9 @@ static Status measure_run_time(Simulation *simulation,
                                const IntegratorMethod *method, double h,
                                long steps, TimeIntegrator *run, double *seconds)
 {
-    const double shortest = 1e-3; /* s, shortest measurement */
+    const double shortest = 1e-3; /* shortest measurement, s */
     double end =
-        clock_processor_time() + 0.01; /* s, no measurement begins later */
+        clock_processor_time() + 0.01; /* latest start of a measurement, s */
     Options options = simulation->options;
     Status status = STATUS_OK;
     options.timestep = h;
@@ -192,7 +192,7 @@ Status race_measure_method(Simulation *simulation,
     return STATUS_OK;
 }
 
-Status step_race(Simulation *simulation)
+Status step_race_scene(Simulation *simulation)
 {
     Race *race = &simulation->exhibit.race;
     const IntegratorMethod *method =
@@ -279,7 +279,7 @@ Status create_envelope_scene(Simulation *simulation)
 }
 
 /* The row's runs replace run 0, so the shown cell's run is made again. */
-Status step_envelope(Simulation *simulation)
+Status step_envelope_scene(Simulation *simulation)
 {
     const EnvelopeMap *map = &simulation->exhibit.envelope;
     int row = (int)simulation->steps, shown[2] = {map->column, map->row};

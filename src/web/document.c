@@ -13,9 +13,9 @@
  *     number NAME LABEL VALUE UNIT CHOICES HELP IDLE SHOWN
  *                                 an option.  CHOICES: names with | between, or
  *                                 "" for a number; IDLE: why it has no effect
- *                                 now, or ""; SHOWN: row (it is in the window's
- *                                 row), tried (and Try asks to change it), or
- *                                 others
+ *                                 now, or ""; SHOWN: row (in the window's row),
+ *                                 tried (in this row; the text Try asks to
+ *                                 change it), or others (only in the full list)
  *     point INDEX X Y             a handle, m
  *     switch INDEX ON LABEL
  *     code LIT TEXT               a line of the page's code, without markup
@@ -69,7 +69,7 @@ static double find_luminance(Colour colour)
 
 unsigned document_darken(Colour colour)
 {
-    const double contrast = 4.6; /* contrast with white; WCAG 2.1: 4.5 */
+    const double contrast = 4.6; /* contrast with white; WCAG 2.1 asks 4.5 */
     Colour darker = colour & 0xffffff;
     for (int i = 99; 1.05 / (find_luminance(darker) + 0.05) < contrast; i--) {
         darker = 0;
@@ -80,8 +80,8 @@ unsigned document_darken(Colour colour)
 }
 
 /* Writes the lines of a text whose values are all known, each after `word`. */
-static void write_page_text(Writer *to, const LiveValues *values,
-                            const char *word, const char *text)
+static void write_text_lines(Writer *to, const LiveValues *values,
+                             const char *word, const char *text)
 {
     for (TextLine line = text_begin(values, text); text_next_line(&line);)
         print(to, "%s\t#%06x\t%d\t%s\n", word, document_darken(line.colour),
@@ -95,9 +95,9 @@ static void write_page_texts(Writer *to, const FrameContent *content)
 {
     const LecturePage *page = content->lecture.page;
     const LiveValues *values = &active_pane(content)->values;
-    write_page_text(to, values, "text", page->intro);
-    write_page_text(to, values, "formula", page->formula);
-    write_page_text(to, values, "ask", page->question);
+    write_text_lines(to, values, "text", page->intro);
+    write_text_lines(to, values, "formula", page->formula);
+    write_text_lines(to, values, "ask", page->question);
     if (content->lecture.hides_answer) {
         double at[2];
         print(to, "asks\t%s\t%d\n",
@@ -106,11 +106,11 @@ static void write_page_texts(Writer *to, const FrameContent *content)
                                      : "words",
               simulation_find_point(active_pane(content)->simulation, at));
     } else {
-        write_page_text(to, values, "look", content->lecture.answer_text);
-        write_page_text(to, values, "try", page->try);
+        write_text_lines(to, values, "look", content->lecture.answer_text);
+        write_text_lines(to, values, "try", page->try);
     }
-    write_page_text(to, values, "claim", page->claim);
-    write_page_text(to, values, "notes", page->notes);
+    write_text_lines(to, values, "claim", page->claim);
+    write_text_lines(to, values, "notes", page->notes);
     for (int i = 0; page->code[i]; i++)
         print(to, "code\t%d\t%s\n",
               strstr(page->code[i], lecture_find_highlight(content)) != NULL,
@@ -157,7 +157,6 @@ static void write_live_values(Writer *to, const Pane *pane, const char *name)
     }
 }
 
-/* Writes a row of a table or legend. */
 static void write_table_row(Writer *to, const char *word, int index,
                             const CardTableRow *row)
 {
@@ -221,12 +220,12 @@ static void write_document_card(Writer *to, const FrameContent *content,
     print(to, "card\t%d\t%s%s\t%s\t%d\t%s\t\n", index, card->name,
           graph ? "-text" : "", covered ? "covered" : "text", closed,
           title.text);
-    write_page_text(to, &pane->values, word,
-                    covered ? "after your guess" : card->words);
+    write_text_lines(to, &pane->values, word,
+                     covered ? "after your guess" : card->words);
     if (card->listing && !covered)
         write_algorithm_lines(to, content, index, card->listing);
     if (card->make_row && !covered && !write_table(to, content, index, card))
-        write_page_text(to, &pane->values, word, text_undrawn);
+        write_text_lines(to, &pane->values, word, text_undrawn);
 }
 
 /* ---- what can be set ----------------------------------------------------- */

@@ -73,7 +73,7 @@ EMSCRIPTEN_KEEPALIVE const char *web_get_address(void)
         return words;
     int panes = player_copy_options(player, now);
     bool same = now->page == given->page && now->scene == given->scene;
-    base[0] = *given; /* base: an option that has this value is left out */
+    base[0] = *given; /* the words leave out options with base's values */
     if ((panes != given->panes && !now->page) ||
         (!same &&
          player_find_defaults(player, now->scene->name, now->page, base)))

@@ -1,5 +1,5 @@
 /* oracle_wide.c - the formulas of the oracle with 34 digits where the compiler
- * has them: with stiff terms and a light body even 19 digits hide rotations. */
+ * has them: 19 digits do not resolve how a stiff, light body turns. */
 #define ORACLE_WIDE
 #include <float.h>
 #include <math.h>

@@ -13,7 +13,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* s, processor time after which a case counts as endless */
+/* Processor time after which a case counts as endless, s */
 enum { CASE_TIME_LIMIT = 240 };
 
 static void report_endless_case(int number)
@@ -79,7 +79,7 @@ static const struct {
     const char *name, *kinds;
     long scene_count;
     int steps;
-    double least_share;
+    double least_converged_share;
 } families[] = {{"squares, shaken", "s", 20000, 2, 0.5},
                 {"contact", "cccctbww", 20000, 10, 0.999},
                 {"large squares", "l", 80, 4, 0.5},
@@ -100,7 +100,7 @@ static void run_random_families(uint64_t seed, bool quick, VerdictTally *sum)
         double good = (double)tally.steps[VERDICT_CONVERGED];
         double all = good + (double)(tally.steps[VERDICT_REPORTED] -
                                      tally.steps_by_status[STATUS_BLOCKED]);
-        if (!(good >= families[i].least_share * all)) {
+        if (!(good >= families[i].least_converged_share * all)) {
             printf("only %g of %g steps converged\n", good, all);
             tally.wrong_cases++;
         }

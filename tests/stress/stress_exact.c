@@ -91,8 +91,8 @@ static void clear_pinned(const System *system, Real *vector)
 }
 
 /* Computes y = H d, which is 0 at pinned nodes. */
-static void multiply_blocks(const System *system, const HessianBlocks *blocks,
-                            const Real *d, Real *y)
+static void multiply_hessian(const System *system, const HessianBlocks *blocks,
+                             const Real *d, Real *y)
 {
     const Real *entry = blocks->entry;
     memset(y, 0, 2 * (size_t)system->nodes * sizeof *y);
@@ -116,7 +116,7 @@ static Real find_longest_step(int size, const Real *p)
 }
 
 /* Returns |r|_(M^-1)^2. */
-static Real inverse_mass_norm_square(const System *system, const Real *r)
+static Real squared_norm_by_inverse_mass(const System *system, const Real *r)
 {
     Real sum = 0;
     for (int i = 0; i < 2 * system->nodes; i++)
@@ -135,7 +135,7 @@ static TestVerdict decide_test(const System *system, Real h, Real tolerance,
     for (int i = 0; i < system->nodes; i++)
         if (!system->pinned[i])
             lightest = fminl(lightest, system->m[i]);
-    Real now = inverse_mass_norm_square(system, r), last = INFINITY;
+    Real now = squared_norm_by_inverse_mass(system, r), last = INFINITY;
     for (int k = 0; k < MAX_JUDGE_ITERATIONS; k++) {
         Real away = find_longest_step(size, p) / h - tolerance, bend = 0;
         Real error = sqrtl(2 / lightest) / h * sqrtl(now);
@@ -145,7 +145,7 @@ static TestVerdict decide_test(const System *system, Real h, Real tolerance,
             return TEST_FAILED;
         for (int i = 0; i < size; i++)
             d[i] = r[i] / system->m[i / 2] + now / last * d[i];
-        multiply_blocks(system, blocks, d, y);
+        multiply_hessian(system, blocks, d, y);
         for (int i = 0; i < size; i++)
             bend += d[i] * y[i];
         for (int i = 0; i < size; i++) {
@@ -153,7 +153,7 @@ static TestVerdict decide_test(const System *system, Real h, Real tolerance,
             r[i] -= now / bend * y[i];
         }
         last = now;
-        now = inverse_mass_norm_square(system, r);
+        now = squared_norm_by_inverse_mass(system, r);
     }
     return TEST_UNDECIDED;
 }

@@ -8,7 +8,7 @@
 #include <string.h>
 #include <sys/time.h>
 
-/* s, processor time after which a scene counts as endless */
+/* Processor time after which a scene counts as endless, s */
 enum { SCENE_TIME_LIMIT = 120 };
 
 bool stress_visit_rows(const char *name, bool (*take)(void *user, char *row),
@@ -219,7 +219,7 @@ typedef struct RowContext {
 } RowContext;
 
 /* Runs a row "STEPS ! LINE", which must converge, or "STEPS ? LINE". */
-static bool run_row(void *user, char *row)
+static bool run_stress_row(void *user, char *row)
 {
     static const char *const solvers[] = {" --solver multigrid",
                                           " --solver newton"};
@@ -249,19 +249,19 @@ static bool run_row(void *user, char *row)
 
 static bool run_extreme_squares(VerdictTally *tally, char *reason)
 {
-    return stress_visit_rows("extreme squares", run_row,
+    return stress_visit_rows("extreme squares", run_stress_row,
                              &(RowContext){tally, reason, true});
 }
 
 static bool run_large_squares(VerdictTally *tally, char *reason)
 {
-    return stress_visit_rows("large squares", run_row,
+    return stress_visit_rows("large squares", run_stress_row,
                              &(RowContext){tally, reason, false});
 }
 
 static bool run_earlier_failures(VerdictTally *tally, char *reason)
 {
-    return stress_visit_rows("once wrong", run_row,
+    return stress_visit_rows("once wrong", run_stress_row,
                              &(RowContext){tally, reason, false});
 }
 
@@ -273,7 +273,7 @@ static bool run_every_integrator(VerdictTally *tally, char *reason)
             char row[128];
             snprintf(row, sizeof row, "20 ? --integrator %s --timestep %s",
                      integrator_methods[i].name, gently ? "1e-3" : "0.05");
-            if (!run_row(&(RowContext){tally, reason, true}, row))
+            if (!run_stress_row(&(RowContext){tally, reason, true}, row))
                 return false;
         }
     return true;

@@ -19,7 +19,7 @@
 /* Error of a sum of many terms, in units of rounding */
 enum { SUM_ROUNDINGS = 16 };
 
-/* J s^2: squares of larger energies may overflow; NOT_FINITE is then right */
+/* Energy, J s^2, above which squares may overflow: NOT_FINITE is then right */
 static const long double HUGE_ENERGY = 1e280L;
 
 /* Share of its area at rest at which coordinates hardly resolve a cell */
@@ -66,7 +66,7 @@ static IncrementalPotential get_potential(const RunWatch *watch)
     return E;
 }
 
-/* Returns this potential with the time for which walls have moved so far. */
+/* Returns the present potential, with the time for which walls have moved. */
 static StepPotential get_step_potential(const RunWatch *watch)
 {
     double moved =
@@ -128,7 +128,7 @@ static bool residual_passes(const RunWatch *watch, const double *u,
 
 /* Tests the residual with all terms; the iterate alone comes from the program.
  * A residual that 19 digits refuse is tested with 34, since rounding can only
- * raise one so small. Noise above the tolerance is allowed and counted. */
+ * raise a small residual. Noise above the tolerance is allowed and counted. */
 static void judge_residual(RunWatch *watch, const double *u, double limit)
 {
     double noise, residual;
@@ -280,7 +280,7 @@ static bool check_iterate(void *user, const NewtonRecord *record)
 {
     RunWatch *watch = user;
     const Newton *newton = watch->run->newton;
-    if (record->iteration < 0) /* the last record, by moving walls or pins */
+    if (record->iteration < 0) /* record of moved walls or pins */
         return true;
     if (record->iteration == 0)
         begin_minimisation(watch);
@@ -425,7 +425,7 @@ static void check_step_momentum(RunWatch *watch, int pin)
     const TimeIntegrator *run = watch->run;
     const double *g = run->system->gravity, *m = run->system->m;
     Real mass = 0, sum[2] = {0}, middle[2] = {0}, turn = 0, arms = 0, noise = 0;
-    Real unsure = 0; /* kg m^2/s, error by the last digits of the arms */
+    Real unsure = 0; /* error by the last digits of the arms, kg m^2/s */
     for (int i = 0; i < count_unknowns(watch); i++) {
         middle[i % 2] += (Real)m[i / 2] * run->x[i];
         mass += 0.5L * m[i / 2];
@@ -457,7 +457,6 @@ static void check_step_momentum(RunWatch *watch, int pin)
         mark_wrong(watch, "angular momentum is off by %Lg kg m^2/s", turn);
 }
 
-/* Tests the state after a successful step. */
 static void check_step_state(RunWatch *watch)
 {
     const TimeIntegrator *run = watch->run;

@@ -20,7 +20,7 @@ static inline void begin_scripted_player(const char *script, const char *line)
 {
     static Options options[OPTIONS_MAX_PANES];
     static char name[] = "/tmp/elasto-test-XXXXXX";
-    static char copy[256]; /* the options point into it */
+    static char copy[256]; /* the options point into this text */
     char message[256] = "";
     char *argv[32] = {(char[]){"elasto"}, (char[]){"--script"}, name,
                       (char[]){"--headless"}, (char[]){"--quiet"}};

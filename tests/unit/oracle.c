@@ -28,13 +28,13 @@ static Jet jet_mul(Jet a, Jet b)
                  a.pq * b.f + a.f * b.pq + a.p * b.q + a.q * b.p};
 }
 
-/* Returns F(a), given the values of F, F' and F'' there. */
+/* Returns F(a), given the values of F, F' and F'' at a. */
 static Jet jet_chain(Jet a, Real F, Real F1, Real F2)
 {
     return (Jet){F, F1 * a.p, F1 * a.q, F1 * a.pq + F2 * a.p * a.q};
 }
 
-/* Adds factor times a part to the sum, and its sizes to probe->size. */
+/* Adds factor times a part to the sum, and its absolute value to abs_sum. */
 static void add_part(Probe *probe, Jet *sum, Real factor, Jet part)
 {
     probe->part_count++;
@@ -129,7 +129,7 @@ static void add_barrier(Probe *probe, Jet *sum, Real c, Jet s)
                            logl(s.f) + 1 - 1 / s.f, (1 + s.f) / (s.f * s.f)));
 }
 
-/* Returns the gap of contact.h over d_hat, and its direction n. */
+/* Returns the gap of contact.h divided by d_hat, and the gap's direction n. */
 static Jet scaled_gap(Probe *probe, const Contact *contact, int i, int k,
                       Real n[2])
 {
@@ -218,7 +218,7 @@ static void add_wall_contact(Probe *probe, Jet *sum, const void *data, int i)
 /* Boundary of the bodies, as in boundary.h. Spring [i][k] begins at node i and
  * leads, for k = 0 to 3, up, right, up right and down right. */
 typedef struct Outline {
-    int edges, points, *point, (*edge)[2]; /* nodes of the boundary */
+    int edges, points, *point, (*edge)[2]; /* of the boundary: counts, nodes */
     unsigned char (*is_whole)[4];          /* [n] 1: the spring is unbroken */
     unsigned char (*triangle_count)[4];    /* [n] triangles at a spring */
     unsigned char *role;                   /* [n] IN_A_TRIANGLE, ON_AN_EDGE */
@@ -384,7 +384,7 @@ static void add_self_contact(Probe *probe, Jet *sum, const void *data, int i)
         add_self_friction(probe, sum, self, p, end);
 }
 
-/* Computes J, area of triangle t over that at rest; false: it is torn. */
+/* Computes J of triangle t, area / area at rest; false: it is torn. */
 static bool find_cell_area(Probe *probe, const CellBarriers *cells, int t,
                            Jet *J)
 {
@@ -477,8 +477,8 @@ static int count_parts(const Probe *probe, PartKind parts, const void *data)
 
 /* ---- what clamping adds ------------------------------------------------- */
 
-/* Numbers on which the energy of a part depends. read: derivatives by the node
- * coordinates; move: displacements that change one number alone, by 1 */
+/* Numbers on which the energy of a part depends. derivative: by the node
+ * coordinates; unit_move: displacements that change one number alone, by 1 */
 typedef struct PartFrame {
     int n, node[3];
     Real derivative[4][6];
@@ -706,7 +706,7 @@ static int find_part_nodes(const Probe *probe, PartKind parts, const void *data,
     return count;
 }
 
-/* Adds `lifts` times what cutting adds to a block with the frame's nodes. */
+/* Adds to a block `lifts` times the cut of its negative eigenvalues. */
 static void clamp_block(const Probe *probe, int row, const void *data, int part,
                         int lifts, double *p, double *q, EnergyPart *block)
 {
@@ -721,8 +721,9 @@ static void clamp_block(const Probe *probe, int row, const void *data, int part,
 }
 
 /* Computes the block of a part, if it has energy. p, q [2n] all 0 */
-static bool evaluate_part(Probe *probe, int row, const void *data, int part,
-                          int lifts, double *p, double *q, EnergyPart *block)
+static bool evaluate_energy_part(Probe *probe, int row, const void *data,
+                                 int part, int lifts, double *p, double *q,
+                                 EnergyPart *block)
 {
     long booked = probe->part_count;
     Real w = probe->at->weight;
@@ -778,7 +779,7 @@ static void visit_parts(const Probe *there, const double *u,
         int count =
             row < 0 ? 0 : count_parts(&probe, formulas[row].part_kind, data);
         for (int i = 0; i < count; i++)
-            if (evaluate_part(&probe, row, data, i, lifts, p, q, &block))
+            if (evaluate_energy_part(&probe, row, data, i, lifts, p, q, &block))
                 take(to, &block);
     }
     free(p);
@@ -815,7 +816,7 @@ static void add_block(void *assembly, const EnergyPart *block)
     }
 }
 
-/* Assembles g, size and H, with unit rows for pinned nodes. */
+/* Assembles g, abs_sum and H, with unit rows for pinned nodes. */
 static void assemble_system(const Probe *probe, const double *u,
                             const double *u_tilde, const DenseSystem *to)
 {
@@ -906,8 +907,9 @@ double exact_rise(const IncrementalPotential *E, const double *from,
     return (double)(energy[1] - energy[0]);
 }
 
-/* UNITS: error of each part of a double gradient and of each coordinate, in
- * units of the last place. SAMPLES: random errors, of which the worst counts */
+/* ERROR_ULPS: error of parts of a double gradient and of coordinates, in units
+ * of the last place. ERROR_SAMPLES: random errors, of which the worst is
+ * used. */
 enum { ERROR_ULPS = 4, ERROR_SAMPLES = 12 };
 
 /* Returns the largest |p_x| + |p_y| after random errors in the last digits of
@@ -1015,7 +1017,6 @@ void exact_eigenvectors(int n, Real *a, Real *v)
 
 /* ---- boundaries that must not cross ------------------------------------- */
 
-/* Returns twice the area of the triangle with nodes a, b and c. */
 static Real twice_area(const double *x, int a, int b, int c)
 {
     const double *o = x + 2 * a, *p = x + 2 * b, *q = x + 2 * c;

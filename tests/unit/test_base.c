@@ -90,7 +90,7 @@ typedef enum MatrixDamage {
     EMPTY_ALL,
     SMALL_PIVOT, /* [[1e-17, 1], [1, 1]] in the corner of a regular matrix */
     NOT_FINITE,
-    ALL_TINY /* 1 / 1e-310 is infinite */
+    ALL_TINY /* diagonal 1e-310, whose inverse is infinite */
 } MatrixDamage;
 
 static void damage_matrix(GridMatrix *matrix, MatrixDamage how, int trial)
@@ -115,11 +115,11 @@ static void damage_matrix(GridMatrix *matrix, MatrixDamage how, int trial)
         }
 }
 
-/* Each kind of factorisation solves a matrix or names its defect, and solves
- * the next one. Sums are about 10 large, so 1e-14 is rounding; refinement ends
- * at a residual of 1e-15. L D L^T skips a zero pivot, and the solution reports
- * it. Matrices are followed by an entry that must not be read. */
-TEST(matrices_are_solved_or_named)
+/* Each kind of factorisation solves a matrix or returns the status of its
+ * defect; then it solves the next one. Entries of A x are near 10, so 1e-14 is
+ * rounding; refinement ends at 1e-15. L D L^T skips a zero pivot, which the
+ * solution reports. The entry after a matrix must not be read. */
+TEST(matrices_are_solved_or_refused)
 {
     static const struct {
         MatrixDamage damage;
@@ -179,7 +179,7 @@ void dtrsm_(const char *, const char *, const char *, const char *, const int *,
             const int *);
 void dpotrf_(const char *, const int *, double *, const int *, int *);
 
-enum { MAX_ORDER = 21, LD = MAX_ORDER + 2 };
+enum { MAX_ORDER = 21, LD = MAX_ORDER + 2 }; /* LD: leading dimension */
 static const int ld = LD;
 static const double one = 1, zero = 0;
 
@@ -198,8 +198,8 @@ static double dot_rows(const double *A, const double *B, int i, int j, int k)
     return sum;
 }
 
-/* Products have the same bits whatever the width of the registers. Other
- * entries are not written, but by dsyrk right of the triangle. */
+/* Products have the same bits whatever the width of the registers. Only dsyrk
+ * may write other entries, right of its triangle. */
 TEST(products_have_one_order_of_sums)
 {
     Random random = {71};

@@ -29,7 +29,7 @@ static void check_document_lines(void)
 {
     static const struct {
         const char *word;
-        int fields;
+        int fields; /* number of fields */
     } words[] = {
         {"page", 3},  {"topic", 1},  {"sentence", 1}, {"time", 1},
         {"told", 2},  {"step", 3},   {"text", 3},     {"formula", 3},
@@ -37,7 +37,7 @@ static void check_document_lines(void)
         {"claim", 3}, {"notes", 3},  {"code", 2},     {"verdict", 3},
         {"card", 6},  {"words", 4},  {"row", 6},      {"number", 8},
         {"point", 3}, {"switch", 3}, {"picture", 1},  {"event", 1},
-        {"cells", 0}, {"legend", 0}, /* a field for each column */
+        {"cells", 0}, {"legend", 0}, /* as many fields as columns */
     };
     assert_true(strlen(text) < DOCUMENT_SIZE - 100);
     for (char *line = text, *end; *line; line = end + 1) {
@@ -127,7 +127,7 @@ TEST(a_table_is_text_after_the_guess)
     CHECK_OK(obey_line("set stretch 1"));
     CHECK_OK(player_make_step(&player));
     write_document();
-    assert_int_equal(count_lines("cells"), 3); /* of one update */
+    assert_int_equal(count_lines("cells"), 3); /* heads, update, last row */
     end_player();
 }
 

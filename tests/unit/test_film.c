@@ -145,7 +145,7 @@ TEST(films_show_what_was_drawn)
         assert_int_equal(frames, count);
         check_format(row);
         check_frames(row, bytes, frames);
-        if (frames == FRAMES) /* milliseconds of .webm: coarse for one frame */
+        if (frames == FRAMES) /* .webm counts ms, too coarse for one frame */
             CHECK(fabs(find_frame_rate(row->name, frames) / row->frame_rate -
                        1) < 1e-2);
         CHECK(unlink(row->name) == 0);

@@ -97,7 +97,7 @@ TEST(a_belt_takes_its_load_along)
         step_masses();
         speed = run.v[0] * t[0] + run.v[1] * t[1];
         if (i < 60 || speed > 0.9 * W)
-            continue; /* the block falls to its height, or sticks */
+            continue; /* the block still falls onto the belt, or sticks */
         CHECK_NEAR((speed - before) / h, mu * N - G * sin(angle), 1e-6);
         CHECK_NEAR((run.external_work - done) / h, mu * N * W, 1e-5);
         CHECK_NEAR((get_booked_loss() - heat) / h, mu * N * (W - speed), 1e-5);
@@ -107,7 +107,7 @@ TEST(a_belt_takes_its_load_along)
     CHECK_NEAR(speed, W, 1e-4);
 }
 
-/* Makes a hand push the wall at o = (-0.1, 0), whose normal is x, to (1, 0). */
+/* Makes a hand push the wall at (-0.1, 0), with normal (1, 0), to (1, 0). */
 static Obstacle *add_hand_on_wall(void)
 {
     Contact *contact = get_contact(&masses);
@@ -158,7 +158,7 @@ TEST(a_fixed_body_stops_the_hand)
                          {.n = {left[0], 0}, .o = {0.05, 0}, .node = -1}};
     CHECK_OK(contact_configure(&masses, &(Barrier){0.01, 1}, 2, walls));
     wall = add_hand_on_wall();
-    get_contact(&masses)->hand.target[0] = 0.05; /* near, where it slows */
+    get_contact(&masses)->hand.target[0] = 0.05; /* close: the wall slows */
     begin_free_masses(0.01, still, still);
     for (int i = 0; i < 300; i++)
         step_masses();
@@ -427,23 +427,23 @@ TEST(a_moving_wall_never_gives_back_what_is_dissipated)
 }
 
 /* A method of the table with one of its solvers */
-typedef struct RunKind {
+typedef struct MethodCase {
     const IntegratorMethod *method;
     Solver solver;
-} RunKind;
+} MethodCase;
 
-static bool next_variant(RunKind *variant)
+static bool find_next_variant(MethodCase *variant)
 {
     if (!variant->method)
         variant->method = integrator_methods;
     else if (variant->method->stages > 0 && variant->solver + 1 < SOLVER_COUNT)
         variant->solver++;
     else
-        *variant = (RunKind){.method = variant->method + 1};
+        *variant = (MethodCase){.method = variant->method + 1};
     return variant->method->name != NULL;
 }
 
-static Simulation *start_variant(const RunKind *variant, const char *line)
+static Simulation *start_variant(const MethodCase *variant, const char *line)
 {
     return simulate("%s --integrator %s --solver %s", line,
                     variant->method->name, get_solver_name(variant->solver));
@@ -451,10 +451,10 @@ static Simulation *start_variant(const RunKind *variant, const char *line)
 
 /* ---- orders ------------------------------------------------------------ */
 
-/* s, time in which nine nodes move by a tenth, unlike along x and y */
+/* Time in which nine nodes move by a tenth, differently in x and y, s */
 static const double TIME = 0.064;
 
-static Simulation *start_moving_square(const RunKind *variant, int steps)
+static Simulation *start_moving_square(const MethodCase *variant, int steps)
 {
     char line[120];
     Random random = {90};
@@ -473,7 +473,7 @@ static Simulation *start_moving_square(const RunKind *variant, int steps)
 TEST(methods_have_the_order_of_their_table)
 {
     enum { STEPS = 16384 };
-    const RunKind verlet = {integrator_find_method("verlet"), SOLVER_NEWTON};
+    const MethodCase verlet = {integrator_find_method("verlet"), SOLVER_NEWTON};
     const TimeIntegrator *start = &start_moving_square(&verlet, STEPS)->run[0];
     Simulation *far = make_steps(start_moving_square(&verlet, STEPS), STEPS);
     Simulation *near =
@@ -482,7 +482,7 @@ TEST(methods_have_the_order_of_their_table)
     for (int i = 1; i < 2 * 9; i += 2)
         fallen += (far->run[0].x[i] - start->x[i] - TIME * start->v[i]) / 9;
     CHECK_NEAR(fallen, -9.81 / 2 * TIME * TIME, 1e-12);
-    for (RunKind variant = {0}; next_variant(&variant);) {
+    for (MethodCase variant = {0}; find_next_variant(&variant);) {
         int order = variant.method->order;
         int steps = order == 1 ? 2048 : 256;
         double last = 0;
@@ -551,7 +551,7 @@ static void check_momentum(Simulation *square, double angular)
  * tolerance of Newton's method. */
 TEST(momentum_is_kept)
 {
-    for (RunKind variant = {0}; next_variant(&variant);) {
+    for (MethodCase variant = {0}; find_next_variant(&variant);) {
         bool midpoint = strcmp(variant.method->name, "midpoint") == 0;
         bool symplectic = strcmp(variant.method->name, "verlet") == 0 ||
                           strcmp(variant.method->name, "symplectic-euler") == 0;
@@ -599,7 +599,7 @@ TEST(triangles_have_no_torque)
         for (int i = 2; i < 32; i += 2)
             torque +=
                 ((Real)x[i] - x[0]) * g[i + 1] - ((Real)x[i + 1] - x[1]) * g[i];
-        /* arms are up to four legs long */
+        /* lever arms are up to four segments long */
         CHECK_NEAR(torque, 0, 8 * DBL_EPSILON * size);
         free_simulations();
     }

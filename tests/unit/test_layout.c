@@ -18,7 +18,7 @@ enum {
     ENERGY_CARD,
     ASSEMBLY_CARD,
     SHOWN_CARDS = 5
-}; /* indices of cards */
+}; /* indices of the cards that are shown */
 
 static Simulation simulation;
 static FrameContent content;
@@ -50,7 +50,7 @@ static bool box_is_inside(Box inner, Box outer)
             inner.y + inner.height <= outer.y + outer.height);
 }
 
-/* Checks that boxes lie in their zone and apart, and counts them. */
+/* Checks that boxes lie in their zone without overlap. Counts the boxes. */
 static int check_boxes(const Box *boxes, int count, Box zone)
 {
     int there = 0;
@@ -74,7 +74,7 @@ static void check_chips(const Layout *l, int wished)
     for (int i = 0; i < l->chips; i++) {
         out += l->chip[i].width <= 0;
         if (i > 0 && i < l->chips - 1 && l->chip[i - 1].width <= 0)
-            CHECK(l->chip[i].width <= 0); /* the first chips stay */
+            CHECK(l->chip[i].width <= 0); /* the chip before has no room */
     }
     CHECK(out == l->chips_left_out);
     CHECK(check_boxes(l->chip, l->chips, l->chip_row) == l->chips - out);
@@ -222,12 +222,12 @@ static int free_texts(void **unused)
     return 0;
 }
 
-/* Scripts are small, marks add no width, and unknown braces stay. */
+/* Exponents and indices are small, accents have no width, {unknown} stays. */
 TEST(markup_has_its_widths)
 {
     static const struct {
         const char *markup;
-        double min_width, max_width; /* times the width of an x */
+        double min_width, max_width; /* in widths of an x */
         bool is_plain;
     } rows[] = {
         {"xx", 2, 2, false},           {"x\u0303", 1, 1, false},
@@ -250,7 +250,7 @@ TEST(markup_has_its_widths)
 static void add_drawing(const TextStyle *like, const char *markup, char *line)
 {
     double ink[3] = {0}, at[2] = {0};
-    Text *boxes = (Text *)line; /* no letter is asked of it */
+    Text *boxes = (Text *)line; /* never read: letters are boxes here */
     TextExtent extent = text_measure(boxes, like, markup);
     canvas_clear(&canvas, 0xffffffff);
     CHECK(text_draw(boxes, &canvas, like, 9, 40, ALIGN_LEFT, markup) ==

@@ -13,9 +13,9 @@
 enum { MAX_UNKNOWNS = 2 * 129 * 129 }; /* unknowns of the largest square here */
 
 static Newton *newton; /* minimiser of the running test */
-static Iterate *at;    /* its iterate */
+static Iterate *at;    /* iterate of newton */
 static System *body;
-static double *x_n; /* m, start of the step */
+static double *x_n; /* positions at the start of the step, m */
 static int size;    /* 2n */
 
 static const double H = 0.004;
@@ -80,7 +80,7 @@ static void pull_middle_node(double times)
 /* E at the start and now; counts of residuals tested in extended precision */
 typedef struct EnergyHistory {
     Real start_energy, last_energy;
-    int residuals;
+    int residuals;      /* number of tested residuals */
     int ended_by_bound; /* steps ended by a bound of the next residual */
 } EnergyHistory;
 
@@ -150,8 +150,8 @@ static Status minimise(double tolerance)
     return newton_minimise(newton);
 }
 
-/* The first direction fails a tolerance just below its residual, which a factor
- * yields: multigrid's p may be shorter, but its error counts. */
+/* The tolerance is just below the exact residual of the first direction.
+ * Multigrid's p may be short enough, but not with the bound of its error. */
 TEST(undecided_directions_have_not_converged)
 {
     static const double parts[] = {0.9, 0.99, 0.999, 0.999999};

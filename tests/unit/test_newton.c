@@ -30,8 +30,8 @@ static bool store_record(void *user, const NewtonRecord *record)
 }
 
 /* A residual that is called exact belongs to the exact direction at the iterate
- * before the update. An estimate is within what refinement leaves, 1e-3 of
- * itself; that of multigrid as near as the tolerance, which it decides. */
+ * before the update. An estimate errs by at most 1e-3 of itself; that of
+ * multigrid by less than its distance from the tolerance. */
 TEST(residuals_are_what_they_are_called)
 {
     static const char *const lines[] = {
@@ -65,7 +65,7 @@ TEST(residuals_are_what_they_are_called)
                 CHECK_NEAR(residual, exact, 1e-9 * exact + 1e-10);
             else if (multigrid && newton->passes_test)
                 CHECK_NEAR(residual, exact, tolerance - residual);
-            else if (multigrid) /* a bound passed the test */
+            else if (multigrid) /* a bound of the next p passed the test */
                 CHECK_AT_MOST(exact_residual(&E, newton->iterate.u, NULL,
                                              run->h, 0, 1, NULL),
                               tolerance);
@@ -171,9 +171,6 @@ TEST(nearly_singular_steps_end_or_say_why_not)
 
 /* ---- squares of next to no mass --------------------------------------- */
 
-/* Beside springs of 1e30 J/m^2 masses vanish, and pivots of a free square are
- * rounding. A shift, small beside h^2 k, makes a factor possible, and conjugate
- * gradients restore the masses: a square keeps its mean velocity. */
 static bool store_shift(void *user, const NewtonRecord *record)
 {
     double *largest = user;
@@ -181,6 +178,9 @@ static bool store_shift(void *user, const NewtonRecord *record)
     return true;
 }
 
+/* Beside springs of 1e30 J/m^2 rounding loses masses, and pivots of a free
+ * square are rounding. A shift, small beside h^2 k, makes a factor possible,
+ * and conjugate gradients restore the masses and the mean velocity. */
 TEST(tiny_masses_keep_their_velocity)
 {
     double shift = 0;
@@ -196,7 +196,7 @@ TEST(tiny_masses_keep_their_velocity)
     double mean[2] = {0, 0};
     for (int i = 0; i < UNKNOWNS; i++)
         mean[i % 2] += run->v[i] / (UNKNOWNS / 2);
-    CHECK_NEAR(mean[0], 1, 1e-12); /* a sum of 16 terms of up to 100 m/s */
+    CHECK_NEAR(mean[0], 1, 1e-12); /* rounding of 16 terms of up to 100 m/s */
     CHECK_NEAR(mean[1], 2, 1e-12);
     CHECK_AT_MOST(system_potential(&simulation->system, run->x), 1e-6 * start);
 }

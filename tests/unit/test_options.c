@@ -214,7 +214,7 @@ TEST(help_fits_a_terminal)
         if (row->name[0] && value && next && value < next && value[2] != 'P') {
             snprintf(word, sizeof word, "--%s=%.*s", row->name,
                      (int)strcspn(value, "]") - 2, value + 2);
-            /* an option alone may be refused */
+            /* stored even if refused because another option is missing */
             options_parse(2, argv, false, &options, MESSAGE(message));
             CHECK(options.number[row->slot] == usual.number[row->slot]);
         }

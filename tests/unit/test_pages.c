@@ -65,9 +65,10 @@ TEST(the_map_is_convex_for_short_steps)
     }
 }
 
-/* Makes one update of the first step, u += p [n], by eigenvectors of the dense
- * H, and returns the smallest |eigenvalue|. */
-static Real update_exactly(const Simulation *simulation, int n, double *u)
+/* Makes one Newton update of the first step, u += p [n], by eigenvectors of the
+ * dense H. Returns the smallest |eigenvalue| of H. */
+static Real make_dense_newton_update(const Simulation *simulation, int n,
+                                     double *u)
 {
     static Real g[50], H[50 * 50], q[50 * 50];
     double x[50] = {0}, resting[50] = {0}, h = simulation->options.timestep;
@@ -100,7 +101,7 @@ TEST(the_tenth_update_has_a_tiny_eigenvalue)
     double u[32] = {0}, farthest = 0;
     CHECK(simulation->system.nodes == 16);
     for (int update = 1; update <= 10; update++) {
-        Real least = update_exactly(simulation, 32, u);
+        Real least = make_dense_newton_update(simulation, 32, u);
         CHECK(update == 1 || update == 10 || least > 62);
         if (update == 10)
             CHECK_NEAR(least, 0.0043, 5e-5);
@@ -156,9 +157,10 @@ TEST(the_race_measures_errors)
     for (int i = 0; i < RACE_METHODS; i++) {
         const RacePoint *point =
             &race->point[(RACE_STEP_SIZES - 1) * RACE_METHODS + i];
-        while (point->error < 1e-8) /* below 1e-8 the tolerance counts */
+        /* Errors below 1e-8 come from the tolerance, not from h. */
+        while (point->error < 1e-8)
             point -= RACE_METHODS;
-        /* terms of higher order: a quarter */
+        /* 25 %, since the error also has terms of higher order */
         CHECK_NEAR((point - RACE_METHODS)->error / point->error, factor[i],
                    0.25 * factor[i]);
     }
@@ -175,7 +177,7 @@ TEST(the_race_measures_errors)
 
 /* ---- code and questions -------------------------------------------------- */
 
-/* Each page shows its functions whole and in order, with few lines lit. */
+/* Each page shows its functions whole and in order, few lines highlighted. */
 TEST(pages_show_their_code)
 {
     for (const LecturePage *page = lecture_pages; page->name; page++) {
@@ -219,8 +221,8 @@ TEST(questions_have_answers)
  * dots, of texts that are cut or overlap, and of points outside their axes */
 enum { MAX_WORDS = 512 };
 static struct {
-    int min_letter, min_code_letter, ellipses, cut_texts, overlaps;
-    int outside_points, word_count;
+    int min_letter, min_code_letter, ellipsis_count, cut_text_count, overlaps;
+    int outside_point_count, word_count;
     char cut_words[80]; /* the last text that leaves its box */
     Box column, word[MAX_WORDS];
     char texts[1 << 15];
@@ -240,7 +242,7 @@ const Glyph *__wrap_font_get_glyph(Text *text, Face face, int size,
         seen.min_letter = size;
     if (face == FACE_MONO && size < seen.min_code_letter)
         seen.min_code_letter = size;
-    seen.ellipses += letter == 0x2026;
+    seen.ellipsis_count += letter == 0x2026;
     return __real_font_get_glyph(text, face, size, letter);
 }
 
@@ -254,7 +256,7 @@ int __wrap_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
     if (left < place->x - 1.5 || y < place->y - 1.5 ||
         left + wide > place->x + place->width + 1.5 ||
         y + style->size > place->y + place->height + 1.5) {
-        seen.cut_texts++;
+        seen.cut_text_count++;
         snprintf(seen.cut_words, sizeof seen.cut_words, "%s", markup);
     }
     snprintf(seen.texts + used, sizeof seen.texts - used, "%s ", markup);
@@ -279,14 +281,14 @@ void __wrap_plot_curve(const Plot *plot, int count, const double *x,
     const Axis *axis = &plot->y;
     double slack = 1e-9 * fmax(fabs(axis->low), fabs(axis->high));
     for (int i = 0; i < count && plot->x.high > plot->x.low; i++)
-        seen.outside_points +=
+        seen.outside_point_count +=
             x[i] >= plot->x.low && x[i] <= plot->x.high &&
             (y[i] < axis->low - slack || y[i] > axis->high + slack);
     __real_plot_curve(plot, count, x, y, width, colour);
 }
 
 /* Cards, large cards after and before the answer, code, the list of pages */
-enum { CARDS_VIEW, LARGE_VIEW, ASK_VIEW, CODE_VIEW, LIST_VIEW, VIEWS };
+enum { CARDS_VIEW, LARGE_VIEW, ASK_VIEW, CODE_VIEW, LIST_VIEW, VIEW_COUNT };
 
 /* Returns the first line of a text that is not drawn whole, or NULL. */
 static const char *find_missing_line(const FrameContent *content,
@@ -327,7 +329,7 @@ static void inspect_frame(const FrameContent *content, Paper *paper)
 static void check_frame(const LecturePage *page, Simulation *simulation,
                         int kind, Paper *paper)
 {
-    static const ColumnContent column[VIEWS] = {
+    static const ColumnContent column[VIEW_COUNT] = {
         COLUMN_CARDS, COLUMN_CARDS, COLUMN_CARDS, COLUMN_CODE, COLUMN_PAGES};
     int width = paper->canvas.width, height = paper->canvas.height;
     bool large = kind == LARGE_VIEW || kind == ASK_VIEW;
@@ -355,16 +357,17 @@ static void check_frame(const LecturePage *page, Simulation *simulation,
     }
     if (kind < CODE_VIEW)
         missing = find_missing_text(&content);
-    if (!good || missing || (large && seen.ellipses > 0) ||
-        (kind != LIST_VIEW && seen.cut_texts > 0) || seen.overlaps > 0 ||
-        (!cuts && seen.outside_points > 0))
+    if (!good || missing || (large && seen.ellipsis_count > 0) ||
+        (kind != LIST_VIEW && seen.cut_text_count > 0) || seen.overlaps > 0 ||
+        (!cuts && seen.outside_point_count > 0))
         fail_msg(
             "page %s, step %ld, at %d x %d, %d: letters of %d, of code "
             "%d, %d ends in dots, %d outside its box (%s), %d over others, %d "
             "curves beyond the axes, no '%s'",
             page->name, simulation->steps, width, height, kind, seen.min_letter,
-            seen.min_code_letter, seen.ellipses, seen.cut_texts, seen.cut_words,
-            seen.overlaps, seen.outside_points, missing ? missing : "");
+            seen.min_code_letter, seen.ellipsis_count, seen.cut_text_count,
+            seen.cut_words, seen.overlaps, seen.outside_point_count,
+            missing ? missing : "");
 }
 
 /* On each page, at its start and later, letters have a 55th of the height, in
@@ -380,7 +383,7 @@ TEST(pages_are_legible_from_the_back_row)
         for (int i = 0; lecture_pages[i].name; i++) {
             const LecturePage *page = &lecture_pages[i];
             Simulation *simulation = open_page(page->name, "");
-            for (int kind = 0; kind < VIEWS; kind++)
+            for (int kind = 0; kind < VIEW_COUNT; kind++)
                 if (kind == LARGE_VIEW || kind == ASK_VIEW ||
                     (i + kind) % 3 == s)
                     check_frame(page, simulation, kind, &paper);
@@ -410,10 +413,10 @@ TEST(scenes_keep_their_words_in_place)
             frame_expand_texts(&content);
             inspect_frame(&content, &paper);
             paper_free(&paper);
-            if (seen.cut_texts > 0 || seen.overlaps > 0)
+            if (seen.cut_text_count > 0 || seen.overlaps > 0)
                 fail_msg("%s at %d x %d: %d words cut (%s), %d over others",
                          scenes[i].name, sizes[s][0], sizes[s][1],
-                         seen.cut_texts, seen.cut_words, seen.overlaps);
+                         seen.cut_text_count, seen.cut_words, seen.overlaps);
         }
         free_simulations();
     }

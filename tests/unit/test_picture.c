@@ -163,7 +163,7 @@ TEST(numbers_have_three_digits)
         assert_string_equal(format_number(rows[i].value).text, rows[i].text);
 }
 
-/* Counts the pixels of a colour; left: the leftmost one. */
+/* Counts the pixels of a colour; left: x of the leftmost one. */
 static int count_pixels(const Canvas *canvas, Colour colour, int *left)
 {
     int count = 0;
@@ -227,7 +227,7 @@ static void paint_step(const char *line, int step, Canvas frame[2])
     end_player();
 }
 
-/* Pictures of `make pictures` equal frames of now; late steps: long tests. */
+/* README pictures equal frames drawn now; late steps only in long tests. */
 TEST(readme_pictures_are_current)
 {
     char name[32], line[128], file[64];

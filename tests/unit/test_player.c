@@ -13,11 +13,11 @@ TEST(the_curve_goes_through_the_step)
     static const char *const lines[] = {"square", "drop --segments 6",
                                         "dent --segments 6",
                                         "tear --segments 6", "slope"};
-    for (int i = 0; i < 5; i++) { /* slope has three runs, one is shown */
+    for (int i = 0; i < 5; i++) {
         int rough = 0, seen = 0;
         begin_player(lines[i]);
         for (int step = 0; step < 90; step++) {
-            /* with all lines of the step */
+            /* the trace gets all lines of the step */
             past_set_goal(&player.past, step + 1, true);
             Status status = past_finish_work(&player.past);
             CHECK(!status || status_is_unconverged(status));
@@ -39,7 +39,7 @@ TEST(the_curve_goes_through_the_step)
                 rough += kept->iterate[iterate].has_remainder;
                 if (kept->iterate[iterate].has_remainder &&
                     record->alpha < trace.first_alpha / SAMPLE_INTERVALS)
-                    continue; /* between two kept values */
+                    continue; /* alpha is between two samples of E */
                 CHECK_NEAR(change, record->change,
                            1e-7 * fabs(record->slope) * record->alpha);
             }
@@ -53,7 +53,7 @@ TEST(the_curve_goes_through_the_step)
     }
 }
 
-/* s, time of the window; < 0: the real clock */
+/* Time of the window, s; < 0: the real clock */
 static double fake_time = -1;
 
 int __real_clock_gettime(clockid_t clock, struct timespec *now);

@@ -19,15 +19,15 @@ int main(int argc, char **argv);
 
 enum { MAX_UPDATE_ROWS = 1024 };
 
-/* Newton updates of a table or of a run */
-typedef struct UpdateRows {
+/* The Newton updates of a table, or of a run */
+typedef struct NewtonUpdates {
     int count;
     struct {
         long step;
         int update;
         double residual, alpha;
     } row[MAX_UPDATE_ROWS];
-} UpdateRows;
+} NewtonUpdates;
 
 static FILE *open_reference(const char *name, const char *kind)
 {
@@ -40,7 +40,7 @@ static FILE *open_reference(const char *name, const char *kind)
     return file;
 }
 
-static void read_updates(FILE *file, UpdateRows *updates)
+static void read_updates(FILE *file, NewtonUpdates *updates)
 {
     int i = 0;
     while (i < MAX_UPDATE_ROWS &&
@@ -55,7 +55,7 @@ static void read_updates(FILE *file, UpdateRows *updates)
 
 static bool store_update(void *user, const NewtonRecord *record)
 {
-    UpdateRows *kept = user;
+    NewtonUpdates *kept = user;
     CHECK(kept->count < MAX_UPDATE_ROWS);
     int i = kept->count++;
     kept->row[i].step = record->step_number;
@@ -65,10 +65,12 @@ static bool store_update(void *user, const NewtonRecord *record)
     return true;
 }
 
-/* Checks that updates have the same steps and alpha: a power of two exactly,
- * the limit of a gap of 1e-3 to 1e-11. Residuals agree to 1e-8, since those
- * near the end of a step are differences of nearly equal numbers. */
-static void check_updates(const UpdateRows *got, const UpdateRows *expected)
+/* Checks that updates have the same steps and alpha: powers of two exactly;
+ * an alpha that a gap of 1e-3 m limits, to 1e-11. Residuals agree to 1e-8,
+ * since those near the end of a step are differences of nearly equal numbers.
+ */
+static void check_updates(const NewtonUpdates *got,
+                          const NewtonUpdates *expected)
 {
     CHECK_NEAR(got->count, expected->count, 0);
     for (int i = 0; i < got->count; i++) {
@@ -210,10 +212,10 @@ static void free_solid(Solid *solid)
 }
 
 /* lecture.c follows the slides; velocities have the error of two positions,
- * 1e-9, over h. A step leaves no memory behind: 20 kB for the C library. */
+ * 1e-9, over h. Steps leak no memory; the C library may keep 20 kB. */
 TEST(lecture_follows_the_slides)
 {
-    static UpdateRows got, expected;
+    static NewtonUpdates got, expected;
     for (int i = 0; i < count && case_is_for(&cases[i], "lecture"); i++) {
         const Options options = simulate("%s", cases[i].line)->options;
         Solid solid = square(1, options.segments, 1000, options.stiffness);
@@ -244,7 +246,7 @@ TEST(lecture_follows_the_slides)
 /* Makes a step of lecture.c that updates x and then tests p. All of p is used
  * if it is so short that rounding of E hides its effect. */
 static void make_step_tested_last(Solid *solid, double h, double tol, int step,
-                                  UpdateRows *updates)
+                                  NewtonUpdates *updates)
 {
     int n = solid->nodes;
     size_t bytes = (size_t)n * sizeof(Vec2);
@@ -276,12 +278,12 @@ static void make_step_tested_last(Solid *solid, double h, double tol, int step,
     free(x_n);
 }
 
-/* Checks that updates agree but for the last one of a step, which the program
- * omits if it is shorter than a millionth of a spring (negligible, m/s).
- * Directions by the factor of an earlier update are refined to 1e-4; the next p
- * is down to 1/400 of them, or 1e-3 of the tolerance. */
-static void check_same_updates(const UpdateRows *got,
-                               const UpdateRows *expected, double tolerance,
+/* Checks that updates agree. The program may omit the last one of a step if its
+ * residual is at most `negligible`, m/s (p below a millionth of a spring). A
+ * direction by an older factor has an error of 1e-4 of itself, which is 2 % of
+ * the next p if this is 200 times shorter; else 1e-3 of the tolerance. */
+static void check_same_updates(const NewtonUpdates *got,
+                               const NewtonUpdates *expected, double tolerance,
                                double negligible)
 {
     int i = 0;
@@ -302,12 +304,12 @@ static void check_same_updates(const UpdateRows *got,
     CHECK(i == got->count && i > 10);
 }
 
-/* The loop of the program is that of lecture.c with the test last: update by
- * update at the slides' tolerance, where refined directions differ by 1e-5 m in
- * 15 steps, and to 1e-8 m at 1e-9 m/s. */
+/* The program makes the updates of lecture.c if this tests p after the update:
+ * at the slides' tolerance x differs by 1e-5 m in 15 steps, since directions
+ * are refined, and at the tolerance 1e-9 m/s by 1e-8 m. */
 TEST(the_program_makes_the_updates_of_lecture)
 {
-    static UpdateRows got, expected;
+    static NewtonUpdates got, expected;
     for (int i = 0; i < count && case_is_for(&cases[i], "lecture"); i++)
         for (int tight = 0; tight < 2; tight++) {
             got.count = expected.count = 0;
@@ -337,7 +339,7 @@ TEST(the_program_makes_the_updates_of_lecture)
         }
 }
 
-/* Both explicit methods agree in 20 steps. */
+/* Both methods of explicit_euler in lecture.c agree with the program's. */
 TEST(explicit_euler_agrees_with_the_program)
 {
     static const char *const lines[] = {

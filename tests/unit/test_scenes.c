@@ -136,7 +136,8 @@ TEST(envelope_cells_are_runs)
     CHECK(refused >= 1); /* cells that did not converge are compared, too */
 }
 
-/* The clearance test of a run ignores the start of a ball and torn cells. */
+/* Balls where they are now, not at their start, and only whole cells count for
+ * the check that obstacles do not overlap the body. */
 TEST(obstacles_may_stand_where_cells_were_torn)
 {
     char message[256];
@@ -172,8 +173,7 @@ TEST(pairs_that_come_up_inside_a_step_have_entries)
     newton->settings.max_iterations = 1;
     newton_start(newton, scene->run[0].x, u, 1e-4, 1e-30);
     CHECK_STATUS(newton_minimise(newton), STATUS_ITERATION_LIMIT);
-    Iterate before =
-        newton->iterate; /* for the residual of the last direction */
+    Iterate before = newton->iterate; /* where p was computed */
     before.u = newton->u_trial;
     before.x = newton->x_trial;
     incremental_potential_gradient(&before.E, before.u, before.x, before.g);

@@ -102,7 +102,7 @@ int __wrap_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
     texts[text_count].colour = style->colour;
     text_count += text_count < 1023;
     snprintf(window_text + used, sizeof window_text - used, "%s\n", markup);
-    if (box_contains(column, x, y)) /* key and meaning are two texts */
+    if (box_contains(column, x, y)) /* bold: a key, whose meaning follows */
         snprintf(column_text + more, sizeof column_text - more, "%s%s", markup,
                  style->face == FACE_BOLD ? " " : "\n");
     return __real_text_draw(text, canvas, style, x, y, align, markup);
@@ -165,7 +165,7 @@ static double find_pane_scale(void)
 
 static void finish_session(void)
 {
-    static double lost; /* bytes of all sessions; 1e6: caches keep some */
+    static double lost; /* bytes of all sessions; caches may keep 1e6 */
     if (player_is_open) {
         end_player();
         lost += count_heap_bytes() - heap_before_player;
@@ -245,7 +245,7 @@ static bool is_on_grip(const Layout *layout, int grip)
     return pick.kind == PICK_HANDLE && pick.index == grip;
 }
 
-/* Moves the mouse to a place in the picture of a pane; false: it is not one. */
+/* Moves the mouse to a place in a pane's picture; false: no such place. */
 static bool move_mouse_in_pane(const char *place, const Layout *layout)
 {
     const char *of = strstr(place, " of ");
@@ -326,7 +326,7 @@ static void move_mouse(const char *place)
     }
 }
 
-/* Sends an action of the mouse; false: the verb is not one. */
+/* Sends an action of the mouse; false: no such verb. */
 static bool send_mouse_action(const char *verb, const char *place)
 {
     static const struct {
@@ -352,7 +352,6 @@ static bool send_mouse_action(const char *verb, const char *place)
     return false;
 }
 
-/* Changes the size of the window. */
 static void resize_window(const char *size)
 {
     int *now = player.screen.paper_size;
@@ -367,7 +366,7 @@ static void run_until_step(long step)
     if (player_is_stopped(&player))
         show_refusal(obey_line("play"));
     player.setup.script.lines =
-        player.setup.script.next_line; /* later lines are dropped */
+        player.setup.script.next_line; /* drops later lines */
     CHECK_STATUS(script_add(&player.setup.script, step, &pause, 0), STATUS_OK);
     player_run(&player);
 }
@@ -392,17 +391,18 @@ static int count_files(bool remove_them)
     return count;
 }
 
-/* Checks that the script of Y leads a run without a window to these bits. */
+/* Checks that the saved script leads a run without window to the same bits. */
 static void check_replay(const char *line)
 {
     char script[65536] = "", paused[160];
     glob_t found;
-    show_refusal(obey_line("hash")); /* a selected number would take Y */
+    /* The command, since a selected number could take its key Y as text. */
+    show_refusal(obey_line("hash"));
     assert_int_equal(glob("elasto_*.script", 0, NULL, &found), 0);
     FILE *file = fopen(found.gl_pathv[0], "r");
     assert_true(file && fread(script, 1, sizeof script - 1, file) > 0);
     fclose(file);
-    remove(found.gl_pathv[0]); /* the next Y writes a new one */
+    remove(found.gl_pathv[0]); /* the next call finds only its own script */
     globfree(&found);
     uint64_t hash = player_hash(&player);
     finish_session();
@@ -453,7 +453,7 @@ static void check_picture(const char *name)
 
 /* ---- facts of the window ----------------------------------------------- */
 
-static char facts[1 << 15]; /* a line each: "at 3", "says\tTEXT" */
+static char facts[1 << 15]; /* a fact a line: "at 3", "says\tTEXT" */
 
 static void add_fact(const char *format, ...)
 {
@@ -470,7 +470,7 @@ static const char *text_or_nothing(const char *text)
     return text && text[0] ? text : "<nothing>";
 }
 
-/* Returns true if all nodes of a pane are in its box, larger than a dot. */
+/* Returns true if the nodes of a pane lie in its box, and not in one dot. */
 static bool pane_shows_all_nodes(const Layout *layout, int p)
 {
     const Pane *pane = &content->pane[p];
@@ -580,7 +580,7 @@ static long get_counter(const Simulation *simulation, size_t i)
 
 /* ---- records ------------------------------------------------------------- */
 
-static char record[1 << 20];         /* lines, and facts they changed */
+static char record[1 << 20];         /* lines of a session and changed facts */
 static char recorded_texts[1 << 17]; /* texts that were recorded last */
 
 static void clear_record(void)
@@ -651,7 +651,8 @@ static const char *find_card_name(const Layout *layout, double x, double y)
 
 /* Writes the red, green and blue that a box lacks, in white pixels, and the
  * centre of what is lacking, pixels from the corner of the box. */
-static int write_ink(const Canvas *canvas, Box box, const char *name, char *out)
+static int write_ink_amount(const Canvas *canvas, Box box, const char *name,
+                            char *out)
 {
     double ink[3] = {0}, at[2] = {0}, all = 0;
     for (int y = 0; y < box.height; y++)
@@ -689,16 +690,16 @@ static int write_shape_ink(const Layout *layout, char *out)
                           stage.width * (column + 1) / STAGE_PARTS - left,
                           stage.height * (row + 1) / STAGE_PARTS - top};
         snprintf(name, sizeof name, "picture %d %d", column, row);
-        at += write_ink(&paper->canvas, part, name, at);
+        at += write_ink_amount(&paper->canvas, part, name, at);
     }
     for (int c = 0; c < layout->cards; c++)
-        at += write_ink(&paper->canvas, layout->card[c],
-                        active_picture(content)->cards[c]->name, at);
+        at += write_ink_amount(&paper->canvas, layout->card[c],
+                               active_picture(content)->cards[c]->name, at);
     if (layout->has_list)
-        at += write_ink(&paper->canvas, layout->column, "list", at);
+        at += write_ink_amount(&paper->canvas, layout->column, "list", at);
     for (int i = 0; i < layout->cells; i++)
         if (strcmp(content->sheet.cell[i].name, "race") != 0) /* run times */
-            at += write_ink(&paper->canvas, layout->cell[i], "cell", at);
+            at += write_ink_amount(&paper->canvas, layout->cell[i], "cell", at);
     player.screen.must_redraw = true;
     return (int)(at - out);
 }
@@ -835,7 +836,7 @@ static void check_fact(const char *line)
 
 /* ---- numbers ------------------------------------------------------------- */
 
-/* Returns the number of records of a descent or of the last step; row: out. */
+/* Returns the number of Newton's records, of a descent or of the last step. */
 static int get_newton_records(const Simulation *simulation,
                               const NewtonRecord **row)
 {
@@ -956,7 +957,7 @@ static double find_gained_energy(const Simulation *simulation)
     return simulation->ledger[0].gained_energy;
 }
 
-static double count_energy_gains(const Simulation *simulation)
+static double count_steps_with_energy_gain(const Simulation *simulation)
 {
     return (double)simulation->ledger[0].gain_steps;
 }
@@ -990,7 +991,7 @@ static double find_held_node_step(const Simulation *simulation)
     return run->h * hypot(v[0], v[1]);
 }
 
-/* m, positions [2n] at which `rest` stopped */
+/* Positions [2n], m, at which run_until_rest stopped */
 static double stopped_x[2 * 128];
 
 static double find_distance_from_stop(const Simulation *simulation)
@@ -1026,7 +1027,6 @@ static double find_heap_growth(const Simulation *simulation)
     return (count_heap_bytes() - heap_at_start) / 1e6;
 }
 
-/* Counts the steps that did not converge. */
 static double count_unconverged_steps(const Simulation *simulation)
 {
     return (double)simulation->unconverged_steps;
@@ -1050,7 +1050,7 @@ static const struct {
                {"flattest", find_smallest_area_ratio},
                {"grown", find_heap_growth},
                {"gained", find_gained_energy},
-               {"gains", count_energy_gains},
+               {"gains", count_steps_with_energy_gain},
                {"own energy", find_energy_without_work},
                {"wall", find_wall_height},
                {"hand distance", find_hand_distance},
@@ -1195,12 +1195,11 @@ typedef struct Session {
     const char *name, **line;
 } Session;
 
-static Session sessions[MAX_SESSIONS + 1]; /* the last has no name */
+static Session sessions[MAX_SESSIONS + 1]; /* a NULL name is the end */
 /* Lines of all sessions; NULL ends each session */
 static const char *lines[MAX_LINES];
 static char session_text[1 << 18];
 
-/* Number of sessions and of lines */
 static int session_count, line_count;
 
 static void read_sessions(const char *name)
@@ -1291,7 +1290,7 @@ static const struct SceneRow {
     {"dial", "grip 0", 60, 60, "d"},
     {"spring", "grip 0", 40, 40, "dlfsm"},
 };
-enum { SCENE_ROWS = sizeof rows / sizeof *rows };
+enum { SCENE_ROW_COUNT = sizeof rows / sizeof *rows };
 
 /* Fills the places of a scene into a line. Returns false if the line is for
  * other scenes: "[k] " needs the letter k, "[-k] " its absence. */
@@ -1472,7 +1471,7 @@ static void undo_and_redo_all(uint64_t started)
 }
 
 /* Acts at random, with memory for many states or few: each step of each change
- * keeps its bits, the script of Y leads to the same bits without a refused
+ * keeps its bits, the saved script leads to the same bits without a refused
  * line, and the window shows what it showed. */
 static void record_of_random_hands(void **unused)
 {
@@ -1545,7 +1544,7 @@ static void each_page_has_its_sessions(void **unused)
 
 int main(int argc, char **argv)
 {
-    struct CMUnitTest tests[5 + MAX_SESSIONS + SCENE_ROWS] = {
+    struct CMUnitTest tests[5 + MAX_SESSIONS + SCENE_ROW_COUNT] = {
         cmocka_unit_test_teardown(grips_go_where_they_are_dragged, end_session),
         cmocka_unit_test_teardown(random_keys_stay_in_their_field, end_session),
         cmocka_unit_test_teardown(record_of_random_hands, end_session),
@@ -1562,7 +1561,7 @@ int main(int argc, char **argv)
             tests[count++] =
                 (struct CMUnitTest){sessions[i].name, run_session, NULL,
                                     end_session, (void *)&sessions[i]};
-    for (int i = 0; i < SCENE_ROWS; i++)
+    for (int i = 0; i < SCENE_ROW_COUNT; i++)
         tests[count++] = (struct CMUnitTest){rows[i].scene, drag_in_scene, NULL,
                                              end_session, (void *)&rows[i]};
     assert_int_equal(chdir(folder), 0);

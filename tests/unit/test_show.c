@@ -82,7 +82,6 @@ static Colour get_pixel(int x, int y)
     return paper.canvas.pixels[y * paper.canvas.width + x];
 }
 
-/* Counts the pixels of a colour inside a box. */
 static int count_colour(Box box, Colour colour)
 {
     int count = 0;

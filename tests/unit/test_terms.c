@@ -16,13 +16,13 @@
 #include "model/mass_spring_energy.h"
 #include "model/self_contact.h"
 
-enum { SIZE = 2 * 40 };
+enum { SIZE = 2 * 40 }; /* coordinates at most */
 
 /* A system of a few nodes with one kind of energy, or two */
 typedef struct TermRow {
     const char *name;
     enum { SPRING, GRAPH, WALL, BALL, FREE_BALL, CORNER, GRID, PAIR } shape;
-    double yield, hardening; /* adjacent: plastic_energy.configure reads both */
+    double yield, hardening; /* read as one array by plastic_energy.configure */
     double damping, pull;    /* 0: none; pull in J/m^2 */
     bool rubs, flat;         /* flat: springs have no rest length */
     bool is_solid;           /* triangles instead of springs */
@@ -150,7 +150,8 @@ static void make_cell_pair(const TermRow *row, Random *random, TermCase *c)
         square_mesh_rest_position(&mesh, i, x);
         if (i < 4)
             continue;
-        double right = x[0] + 0.5, high = x[1] - 0.5; /* 0, 0 at the corner */
+        double right = x[0] + 0.5,
+               high = x[1] - 0.5; /* offsets from the corner */
         x[0] = 0.5 + away + cos(angle) * right - sin(angle) * high;
         x[1] = up + sin(angle) * right + cos(angle) * high;
     }
@@ -267,8 +268,8 @@ static void make_case(const TermRow *row, Random *random, TermCase *c)
     draw_positions(row, random, c);
 }
 
-/* Multiplies by the Hessian of a term: out += H q; a constant force has none.
- * Returns the number of changed blocks. */
+/* Multiplies by the Hessian of a term: out += H q; a constant force has no
+ * Hessian. Returns the number of changed blocks. */
 static int apply_hessian(const TermCase *c, const TermKind *kind,
                          Projection projection, const double *q, double *out)
 {
@@ -355,7 +356,7 @@ static void check_derivatives(TermCase *c, const TermKind *kind)
     compare("gradient", case_dot(c, g, c->p), formula.p, noise.p);
     compare("Hessian", case_dot(c, Hq, c->p), formula.pq, noise.pq);
     compare("symmetry", case_dot(c, Hp, c->q), formula.pq, noise.pq);
-    for (int f = 0; f < PROJECTION_COUNT; f++) { /* the result counts changes */
+    for (int f = 0; f < PROJECTION_COUNT; f++) { /* each projection */
         double projected[SIZE] = {0};
         bool differs = false;
         int changed = apply_hessian(c, kind, (Projection)f, c->q, projected);
@@ -426,7 +427,7 @@ static double find_remaining_share(const TermCase *c, const double *x)
                          smallest_area_ratio(&c->system, c->x);
 }
 
-/* Checks that points before the limit are feasible; a tenth is left there. */
+/* Checks that points before the limit are feasible, where a tenth is left. */
 static void check_max_step(TermCase *c, const TermKind *kind)
 {
     double x[SIZE],

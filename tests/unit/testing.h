@@ -31,7 +31,7 @@
     check_status(#got, (got), (expected), __FILE__, __LINE__)
 #define CHECK_OK(got) CHECK_STATUS(got, STATUS_OK)
 
-/* Checks a condition; the message has its text. */
+/* Checks a condition, whose text the message of a failure shows. */
 #define CHECK(condition) check_true((condition), #condition, __FILE__, __LINE__)
 
 void check_near(const char *what, long double got, long double expected,
