@@ -438,7 +438,7 @@ TEST(labels_of_narrow_panes_are_not_cut)
     inspect_frame(&content, &paper);
     paper_free(&paper);
     free_simulations();
-    assert_int_equal(seen.cut_texts, 0);
+    assert_int_equal(seen.cut_text_count, 0);
 }
 
 TESTS(NULL, NULL)
