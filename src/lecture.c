@@ -266,7 +266,7 @@ static void search_dir(const Solid *solid, const Vec2 *x, const Vec2 *x_tilde,
     size_t n = 2 * (size_t)solid->nodes;
     cholmod_common common;
     cholmod_start(&common);
-    common.print = 0;    /* no messages of its own */
+    common.print = 0;    /* CHOLMOD prints no messages */
     common.final_ll = 1; /* L D L^T would exist for an indefinite H, too */
     cholmod_sparse *H = ip_hess(solid, x, h, &common);
     cholmod_dense *g = cholmod_zeros(n, 1, CHOLMOD_REAL, &common), *y = NULL;
@@ -442,7 +442,7 @@ static Screen open_screen(const Solid *solid)
         window, "lecture: pull at a node; Space pauses, R restarts, Esc ends");
     if (!window) {
         printf("no screen: %d pictures go to %s/\n", PICTURES, FOLDER);
-        mkdir(FOLDER, 0777); /* if that fails, saving a picture will say so */
+        mkdir(FOLDER, 0777); /* a failure shows when a picture is saved */
         screen.picture = SDL_CreateRGBSurfaceWithFormat(0, PIXELS, PIXELS, 24,
                                                         SDL_PIXELFORMAT_RGB24);
         screen.renderer = SDL_CreateSoftwareRenderer(screen.picture);
@@ -564,7 +564,7 @@ int main(int argc, char **argv)
     Solid solid = square(side_len.value, (int)n_seg.value, rho.value, k.value);
     for (int i = 0; i < solid.nodes; i++)
         solid.x[i].x *= stretch.value; /* the springs keep their rest length */
-    /* FILE.part becomes FILE when it is complete; a device has no .part. */
+    /* FILE.part becomes FILE when complete; a device has no .part. */
     char part[2 * FILENAME_MAX];
     snprintf(part, sizeof part, "%s%s", states,
              strncmp(states, "/dev/", 5) == 0 ? "" : ".part");

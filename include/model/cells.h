@@ -16,8 +16,8 @@
 #define CELL_J_HAT 0.4 /* area over rest area at which the barrier begins */
 
 typedef struct CellBarriers {
-    Triangles triangles;    /* four in each cell */
-    int (*side_springs)[3]; /* [triangles.count] W is 0 if one is broken */
+    Triangles triangles;    /* four triangles in each cell */
+    int (*side_springs)[3]; /* [triangles.count] W is 0 if a side is broken */
     double c;               /* J, A0 k_c */
 } CellBarriers;
 

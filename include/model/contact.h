@@ -36,7 +36,7 @@ typedef struct Obstacle {
     ObstacleMotion motion; /* prescribed motion */
     double v[2];           /* m/s, velocity in the present step */
     double friction;       /* coefficient of friction mu >= 0 */
-    int node;              /* node at the centre of the free ball; -1: fixed */
+    int node;              /* node at the centre of a free ball; -1: not free */
     double options_o[2];   /* o in the options (m), which no hand moves */
 } Obstacle;
 
@@ -92,7 +92,7 @@ typedef struct Contact {
  * Element of a pair has s, n, r = d, n, r of its NodeGap. */
 extern const TermKind contact_energy;
 
-/* Adds the term or replaces its obstacles; removes it if there are none.
+/* Adds the term or replaces its obstacles; without obstacles removes the term.
  *   obstacle  [obstacles] in, at most one of them with a node
  * Returns OK or OUT_OF_MEMORY. */
 Status contact_configure(System *system, const Barrier *barrier, int obstacles,

@@ -24,7 +24,7 @@
 #include "model/square_mesh.h"
 
 typedef struct NeoHookean {
-    Triangles triangles; /* two in each cell, with the right angle at a */
+    Triangles triangles; /* two triangles a cell, right angle at a */
     double mu, lambda;   /* J/m^2: Lame's parameters times a thickness of 1 m */
 } NeoHookean;
 

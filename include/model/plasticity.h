@@ -16,7 +16,7 @@
 
 #include "model/system.h"
 
-/* Numbers of the function V(e) of one spring in this step (see above).  With
+/* Numbers of the function V(e) of one spring in this step, as above.  With
  * damping (damping.h) V has the further summand theta (e - e_n)^2/2. */
 typedef struct FlowLaw {
     double ep;            /* plastic strain at the step's start */

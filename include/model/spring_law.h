@@ -27,7 +27,7 @@ static inline double spring_vector(const int e[2], const double *x, double d[2])
     return d[0] * d[0] + d[1] * d[1];
 }
 
-/* Returns s.  Near rest spring_eigenvalue_across(d2, l2)/l2 has more digits. */
+/* Returns the strain s; spring_eigenvalue_across/l2 has more digits near 0. */
 static inline double spring_strain(double d2, double l2)
 {
     return d2 / l2 - 1;

@@ -13,7 +13,7 @@ typedef struct Paper {
     Text *text;        /* NULL: no font was found; texts are left out */
     double em;         /* pixels */
     double unit;       /* pixels, 1/14 em */
-    double min_letter; /* ems, least size of letters except scripts */
+    double min_letter; /* ems, least size of normal letters */
     Box word_boxes[MAX_WORD_BOXES]; /* boxes of labels and of words on panels */
     int word_count; /* boxes so far; the newest MAX_WORD_BOXES remain */
 } Paper;

@@ -25,7 +25,7 @@ typedef struct TextStyle {
     double size; /* pixels an em, 5 ... 400; other sizes draw nothing */
     Colour colour;
     bool is_plain;   /* has no markup; braces are ordinary characters */
-    double min_size; /* pixels, least size of scripts and fractions */
+    double min_size; /* pixels, least size in superscripts and fractions */
 } TextStyle;
 
 typedef struct Text Text;

@@ -33,7 +33,7 @@ enum { DESCENT_MAX_RECORDS = 256 };
 /* A minimisation that is shown iteration by iteration. */
 typedef struct Descent {
     int count;                                /* number of records */
-    NewtonRecord record[DESCENT_MAX_RECORDS]; /* first iterations */
+    NewtonRecord record[DESCENT_MAX_RECORDS]; /* records of first iterations */
     double iterate[2];                        /* present iterate (m) */
     double value;                             /* f or E at the iterate */
     double start_value;                       /* E at the start of the search */

@@ -67,7 +67,7 @@ typedef struct Options {
             double ceiling[3]; /* values of --ceiling */
             double barrier[2]; /* d_hat (m), kappa (J/m^2); 0: side/100, 4 k */
             double friction, slip_speed, cells, self_contact;
-            double self_friction;  /* between bodies; -1: equal to `friction` */
+            double self_friction;  /* between two bodies; -1: as `friction` */
             double material;       /* 0: springs, 1: triangles */
             double young, poisson; /* values of --young, --poisson */
             double yield, hardening, tear; /* 0: no spring yields or breaks */
@@ -156,8 +156,8 @@ typedef struct OptionDisplay {
 
 /* One option.  Options differ in many ways; most fields of a row are 0. */
 typedef struct OptionRow {
-    const char *name; /* without dashes; "": help is the heading of a section
-                         of --help; NULL ends the table */
+    const char *name; /* name without dashes; "": help is the heading of a
+                         section of --help; NULL ends the table */
     char letter;      /* letter of the short form, or 0 */
     const char *placeholder; /* value in --help; NULL: the option is a switch */
     const char *help;        /* description in --help */

@@ -130,7 +130,7 @@ typedef struct Newton {
     long step;           /* number of the time step, for the records */
     double tolerance;    /* m/s, tolerance of this minimisation */
     const System *system;
-    double *memory;  /* block of all arrays */
+    double *memory;  /* memory block of all arrays */
     Iterate iterate; /* E, u, x, g, p */
     double *u_tilde; /* [2n] m, x_tilde - x_n, written by the integrator */
     /* [2n] m, end of a trial step; after an update that an observer sees, the
@@ -139,7 +139,7 @@ typedef struct Newton {
     SearchDirection direction; /* the Hessian and its factor */
     bool has_gradient;         /* has the gradient at x in iterate.g */
     bool passes_test;          /* p of the last iteration passes the test */
-    int clamps_left;           /* iterations in which ON_DEMAND clamps */
+    int clamps_left;           /* number of iterations that still clamp */
     RoundingChecks rounding;
     Multigrid *multigrid; /* data of multigrid; NULL: not created yet */
     Solver active_solver; /* solver of the next iteration: NEWTON, MULTIGRID */

@@ -42,7 +42,7 @@ typedef struct StepClock {
 
 struct TimeIntegrator {
     const IntegratorMethod *method;
-    System *system;  /* not owned; its terms may change it */
+    System *system;  /* not owned; terms may change the system */
     size_t x_length; /* 2n, length of x, v, new_x, new_v */
     double h;        /* s, time step */
     long steps;      /* steps so far */
@@ -58,9 +58,9 @@ struct TimeIntegrator {
     double *memory;  /* [arrays * 2n] arrays that the method remembers */
     double memory_h; /* s, time step of `memory`; 0: `memory` is not valid */
     Newton *newton;  /* NULL for explicit methods */
-    /* State of an unfinished step: */
+    /* The following members describe an unfinished step. */
     int stage;                 /* 0 ... stages - 1 */
-    Status unconverged_status; /* OK, or that of the last stage without OK */
+    Status unconverged_status; /* OK, or the last other status of a stage */
     double weight;             /* s^2, factor of P in E */
     double remaining_fraction; /* fraction of the motion that is left */
     int parts_made;            /* number of parts of the motion that are done */

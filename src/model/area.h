@@ -63,10 +63,10 @@ double triangle_max_step(const EvalPoint *at, const Element *element,
  * Element.s as it is. */
 void fill_triangle_element(const EvalPoint *at, int t, Element *element);
 
-/* A Hessian H by its eigenspaces.  H is on_plus in the space of f+, on_minus in
- * that of f- (area_split_edges), plus second (unit K f)(unit K f)^T.  Q is H in
- * the plane of a = f+/|f+| and b = f-/|f-|.  The other two eigenvectors are
- * across_a in the space of f+ and across_b in that of f-. */
+/* A Hessian H by its eigenvectors.  H is on_plus and on_minus times the
+ * projections on the spaces of f+ and f- (area_split_edges), plus second
+ * (unit K f)(unit K f)^T.  Q is H in the plane of a = f+/|f+| and b = f-/|f-|.
+ * The others are across_a in the space of f+ and across_b in that of f-. */
 typedef struct AreaHessian {
     double a[4], b[4], across_a[4], across_b[4]; /* unit vectors */
     double Q[3];                                 /* Q_aa, Q_ab, Q_bb */

@@ -166,8 +166,8 @@ static void plastic_line_polynomial(const EvalPoint *at, const double *p,
 }
 
 /* R_V(e, t) = V(e + t) - V(e) - V'(e) t >= 0 is the integral over s from 0 to t
- * of (t - s) V''(e + s), mirrored so that t >= 0.  V'' is 1 - flow + theta,
- * plus flow where the spring is elastic.  Only the limits are subtracted. */
+ * of (t - s) V''(e + s), mirrored so that t >= 0.  V'' is 1 + theta where the
+ * spring is elastic, else flow less.  Only integral limits are subtracted. */
 static double plastic_line_remainder(const EvalPoint *at, const double *p,
                                      double alpha)
 {

@@ -92,7 +92,7 @@ void hand_begin_step(NodePull *hand, const double *x, const double *v, double m,
     double slow = fmin(MOST, h / TIME), part = slow;
     if (part * away > reach)
         part = reach / away;
-    /* A node at rest feels the force mouse_k times its distance. */
+    /* A node at rest is pulled by mouse_k times its distance from the mouse. */
     hand->k = fmin(fmax(hand->mouse_k / slow, INERTIA * m / (h * h)),
                    LIMIT * hand->mouse_k);
     if (free)

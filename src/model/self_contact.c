@@ -332,7 +332,7 @@ static double pair_max_step(const EvalPoint *at, const Element *element,
     return ELEMENT_LIMIT * first;
 }
 
-/* The tangent t is such that t.(dq, de) is w_t of pair_hessian. */
+/* Writes the tangent t: t.(dq, de) is the slip of the point on the edge. */
 static double pair_friction_limit(const EvalPoint *at, const Element *element,
                                   double t[4], double *speed)
 {

@@ -152,7 +152,7 @@ static int *list_springs_of_direction(const SquareMesh *shape, int first,
     return e;
 }
 
-/* The order is that of the slide: horizontal, vertical, then cell by cell. */
+/* Springs have the order of the slide: horizontal, vertical, cell by cell. */
 void square_mesh_list_springs(const SquareMesh *shape, int *e)
 {
     int each = shape->nodes / shape->bodies, spring[6], c = 0;

@@ -60,7 +60,7 @@ void canvas_free(Canvas *canvas)
     *canvas = (Canvas){0};
 }
 
-/* Sets row [count] to a colour; memset is faster if its bytes are equal. */
+/* Sets row [count] to a colour; memset is faster if all bytes are equal. */
 static void fill_pixels(uint32_t *row, size_t count, uint32_t colour)
 {
     if (colour == (colour & 0xff) * 0x01010101u)

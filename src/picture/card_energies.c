@@ -12,9 +12,9 @@ static const double MAX_AXIS_RATIO = 1000;
  * ends lie within LOG_LOW and LOG_HIGH times the energy at the start. */
 static const double LOG_GROWTH = 1e6, LOG_HIGH = 1e9, LOG_LOW = 1e-12;
 static const double MIN_STEPS = 8; /* least length of the time axis, steps */
-/* Energies that never reach this part of the largest one have no curve. */
+/* Energies always below this fraction of the largest one have no curve. */
 static const double MIN_VISIBLE = 3e-3;
-/* Energies below this part of k side^2 are rounding errors. */
+/* Energies below this fraction of k side^2 are rounding errors. */
 static const double ROUNDING = 1e-20;
 static const double LEGEND_SIZE = 0.85; /* ems, size of the legend's letters */
 static const double LEGEND_GAP = 1;     /* letters, gap between two entries */
@@ -27,7 +27,7 @@ static const double ROW_HEIGHT =
 typedef struct EnergyCurve {
     const Simulation *simulation;
     const History *history;
-    int series;    /* index of the curve's quantity */
+    int series;    /* index of the quantity in the history */
     bool is_total; /* is a total energy */
     Colour colour;
     const char *name;
@@ -219,7 +219,7 @@ bool energies_make_legend_row(const FrameContent *content, int row,
 
 /* Writes the names and present values of the curves, or only measures them.
  * Returns the height in pixels.
- *   named  false: the names are left out, which stand on the panes */
+ *   named  false: leaves the names out, as the panes have them */
 static int write_legend(const Plot *card, const EnergyCurves *all, bool named,
                         bool draw)
 {

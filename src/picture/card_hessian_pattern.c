@@ -92,8 +92,8 @@ static void draw_pattern(const Plot *card, Box square, bool natural,
 }
 
 /* Draws the patterns in the nodes' order and in the order of elimination; while
- * the Hessian is assembled the first alone, with the newest spring's triplets
- * at the right of a high card. */
+ * the Hessian is assembled only the first, with the newest spring's triplets at
+ * the right of a high card. */
 void draw_hessian_pattern_card(const Plot *card)
 {
     Paper *paper = card->paper;

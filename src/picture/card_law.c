@@ -19,7 +19,7 @@ typedef struct LawPoint {
     EvalPoint eval;
     Element element;  /* contact or triangle */
     FlowLaw spring;   /* law of the spring */
-    double axis_unit; /* unit of axis_low and axis_high; of contact: d_hat */
+    double axis_unit; /* unit of axis_low and axis_high, such as d_hat */
     double x;         /* value on the axis; NaN: there is no element */
     double load;      /* the card shows the element with the largest load */
 } LawPoint;

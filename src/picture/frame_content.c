@@ -30,7 +30,7 @@ static CardSets find_start_card_sets(const Simulation *simulation)
     const char *open = simulation->options.open_cards; /* NULL: no page */
     CardSets sets = {.enlarged = -1};
     for (int c = 0; c < picture->count; c++) {
-        /* No card's name is part of another card's name. */
+        /* strstr suffices: no card's name is part of another one. */
         const Card *card = picture->cards[c];
         bool has =
             open ? strstr(open, card->name) != NULL : !card->is_only_in_lecture;

@@ -110,7 +110,7 @@ void draw_highlight(Paper *paper, const FrameContent *content)
     bool plain =
         over == PICK_NODE || (over == PICK_SWITCH && !(layers & LAYER_KINDS));
     if (plain || (colour == COLOUR_X && stage) || layers & LAYER_CURVES)
-        colour = 0; /* no term: a node, a switch, springs, curves of g */
+        colour = 0; /* a node, a switch, springs and curves are no terms */
     if (!colour && trace && frame_has_card(content, "listing"))
         colour = of_line[trace->at_line];
     if (colour)

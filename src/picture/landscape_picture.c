@@ -16,7 +16,7 @@ static const Colour curve_colour[2] = {0xff009e73u, 0xff0072b2u};
 /* ---- the map ------------------------------------------------------------ */
 
 /* Returns the difference between a value and the nearest contour's level. */
-static double distance_to_contour(double value)
+static double difference_to_contour(double value)
 {
     double nearest = INFINITY;
     for (int k = 0; k < MAP_LEVELS; k++)
@@ -54,12 +54,12 @@ static void draw_contours(const Plot *plot, int i, int j, double value,
     double width = fmax(1, (zero ? 1.8 : 0.6) * plot->paper->unit);
     double reach = 0.5 + 0.5 * width;
     double slope = sqrt(right * right + up * up);
-    double away = zero ? fabs(value) : distance_to_contour(value);
+    double away = zero ? fabs(value) : difference_to_contour(value);
     if (away > (reach + 1) * slope)
         return;
     for (int k = 0; k < 4; k++) {
         double at = value + (k % 2 - 0.5) * right - (k / 2 - 0.5) * up;
-        away = zero ? fabs(at) : distance_to_contour(at);
+        away = zero ? fabs(at) : difference_to_contour(at);
         double part = fmin(fmax(reach - away / slope, 0), 1);
         canvas_fill(&plot->paper->canvas, (Box){i + k % 2, j + k / 2, 1, 1},
                     (Colour)(255 * part) << 24 | (colour & 0xffffff));

@@ -198,8 +198,8 @@ static Box place_zones(const FrameContent *content, Layout *layout)
 }
 
 /* Returns the least height of a card, ems, whose content is `wide` ems wide. */
-static double find_height(const FrameContent *content, const Layout *layout,
-                          int card, double wide)
+static double find_min_height(const FrameContent *content, const Layout *layout,
+                              int card, double wide)
 {
     const Card *row = active_picture(content)->cards[card];
     double em = layout->em;
@@ -249,7 +249,7 @@ static int find_card_rows(const FrameContent *content, const Layout *layout,
                                (card->main_place == PLACE_BESIDE && !bar));
         if (sets->hidden_cards >> i & 1 || on_stage)
             continue;
-        double least = bar ? 0 : find_height(content, layout, i, wide);
+        double least = bar ? 0 : find_min_height(content, layout, i, wide);
         if (pairs && half && !bar && before == i - 1) {
             rows[count - 1].card_count = 2;
             rows[count - 1].min_height =
@@ -350,8 +350,8 @@ static void place_panes(int count, Layout *layout)
 
 /* Places the cells of the overview in rows of `columns` squares.  Returns the
  * height of all rows, pixels. */
-static int place_cells(const FrameContent *content, Layout *layout, int columns,
-                       int side)
+static int place_overview_cells(const FrameContent *content, Layout *layout,
+                                int columns, int side)
 {
     int gap = ems_to_pixels(layout, GAP), name = ems_to_pixels(layout, NAME),
         column = 0;
@@ -375,8 +375,8 @@ static void place_overview(const FrameContent *content, Layout *layout)
 {
     int gap = ems_to_pixels(layout, GAP), best = 0, wide = 1;
     for (int columns = 1; columns <= content->sheet.cells; columns++) {
-        int least = place_cells(content, layout, columns, 0);
-        int rows = place_cells(content, layout, columns, 1) - least;
+        int least = place_overview_cells(content, layout, columns, 0);
+        int rows = place_overview_cells(content, layout, columns, 1) - least;
         int side = (layout->stage.width - gap) / columns - gap;
         int high = (layout->stage.height - gap - least) / rows;
         side = side < high ? side : high;
@@ -385,7 +385,7 @@ static void place_overview(const FrameContent *content, Layout *layout)
             wide = columns;
         }
     }
-    place_cells(content, layout, wide, best);
+    place_overview_cells(content, layout, wide, best);
     layout->cells = content->sheet.cells;
 }
 
@@ -396,7 +396,7 @@ static void place_card_below(const FrameContent *content, Layout *layout,
     const Box *stage = &layout->stage;
     double em = layout->em;
     double needs =
-        find_height(content, layout, card, stage->width / em) + 2 * GAP;
+        find_min_height(content, layout, card, stage->width / em) + 2 * GAP;
     Box box = box_cut_off(
         &layout->stage, EDGE_BOTTOM,
         (int)fmin(fmax(needs * em, least), CARD_BELOW * stage->height));
@@ -406,7 +406,7 @@ static void place_card_below(const FrameContent *content, Layout *layout,
 
 /* Places the main card of a page on the stage, and the picture in the card's
  * place in the column.  If the column is too low or shows code, the picture
- * stands below the card.  Cards with below_picture or beside_picture share the
+ * stands below the card.  Cards with PLACE_BELOW or PLACE_BESIDE share the
  * stage with the picture. */
 static void place_main_card(const FrameContent *content, Layout *layout)
 {

@@ -61,8 +61,8 @@ static void add_text_lines(const char *text, bool live, char *out, size_t size)
 }
 
 /* Copies the answer of the page.  If the user has changed options, lines with
- * live values come first.  The other lines, which hold for the page's own
- * options alone, then follow below the heading lecture->own. */
+ * live values come first.  The other lines, which hold only for the page's own
+ * options, follow below lecture->heading. */
 static void build_answer_text(const LecturePage *page, LectureContent *lecture)
 {
     char *look = lecture->answer_text, others[ANSWER_SIZE] = "";

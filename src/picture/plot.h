@@ -18,7 +18,7 @@ typedef struct Axis {
     double low, high; /* high > low; both > 0 on a logarithmic axis */
     /* places of the ticks: any, whole numbers, powers of ten */
     enum { SCALE_LINEAR, SCALE_WHOLE, SCALE_LOG } scale;
-    bool is_milli; /* numbers are those of the ticks times 1000 */
+    bool is_milli; /* numbers at the ticks are 1000 times the values */
     /* Markup; x: below the axis at the right end, y: above the upper end. */
     const char *label;
 } Axis;

@@ -184,8 +184,8 @@ void list_spring_values(const Simulation *simulation, LiveValues *values)
 typedef double SpringFunction(const void *system, double d);
 
 /* Draws a function of P and one of P_root, with dots at length d. */
-static Plot plot_profile(const Plot *card, double d, Axis y,
-                         SpringFunction *of_p, SpringFunction *of_root)
+static Plot plot_over_length(const Plot *card, double d, Axis y,
+                             SpringFunction *of_p, SpringFunction *of_root)
 {
     const System *system = &card->simulation->system;
     double reach = fmax(1.5, 1.1 * fabs(d)) * sqrt(system->l2[0]);
@@ -199,8 +199,8 @@ static Plot plot_profile(const Plot *card, double d, Axis y,
     return plot;
 }
 
-/* Draws the energies, and below them the forces; in a low card the energies
- * alone, on a page the forces alone, for which the page asks. */
+/* Draws the energies, and below them the forces.  A low card has only the
+ * energies, a page only the forces, for which the page asks. */
 void draw_spring_profile_card(const Plot *card)
 {
     const System *system = &card->simulation->system;
@@ -216,14 +216,14 @@ void draw_spring_profile_card(const Plot *card)
         upper.box =
             box_cut_off(&lower.box, EDGE_TOP, (int)(0.55 * card->box.height));
     if (!low || page)
-        plot_profile(&lower, d, (Axis){-most, most, .label = "force in N"},
-                     force_at_length, root_force_at_length);
+        plot_over_length(&lower, d, (Axis){-most, most, .label = "force in N"},
+                         force_at_length, root_force_at_length);
     if (low && page)
         return;
     const Axis y = {0, 1.12 * fmax(tip, energy_at_length(system, d)),
                     .label = NULL};
     Plot plot =
-        plot_profile(&upper, d, y, energy_at_length, root_energy_at_length);
+        plot_over_length(&upper, d, y, energy_at_length, root_energy_at_length);
     if (both) {
         plot_label(&plot, 1, (double[2]){0, root_energy_at_length(system, 0)},
                    COLOUR_GHOST, "P_{r} = 2k (|d| \u2212 l)\u00b2");

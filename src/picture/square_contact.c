@@ -106,7 +106,7 @@ void square_write_friction(const SquarePen *pen)
         end[0] = fmax(end[0], pen->x[2 * (size_t)i]);
         end[1] = fmin(end[1], pen->x[2 * (size_t)i]);
     }
-    for (int k = 0; k < 2; k++) { /* right and left of the body */
+    for (int k = 0; k < 2; k++) { /* first right, then left of the body */
         at[2 * k] = end[k] + (k ? -out : out);
         at[2 * k + 1] = wall->o[1] + slope * (at[2 * k] - wall->o[0]);
         plot_to_pixel(stage, at + 2 * k, p);
@@ -119,7 +119,7 @@ void square_write_friction(const SquarePen *pen)
 }
 
 /* Draws a wall as a half plane or a thin slab, and dashes at the distance
- * `reach` where its force begins, enlarged on a page with its letter. */
+ * `reach` where the force begins, which a page enlarges and labels. */
 static void draw_wall(const Plot *stage, const Obstacle *wall, double reach,
                       bool as_slab)
 {

@@ -30,7 +30,7 @@ static bool scene_sets_view(const Simulation *simulation)
     return view[2] > view[0];
 }
 
-/* A part of the world, m: middle, and half of width and height. */
+/* A rectangle of the world: middle, and half of width and height (m). */
 typedef struct Extent {
     double middle[2], half_size[2];
 } Extent;
@@ -144,8 +144,8 @@ void find_node_bounds(const Pane *pane, int runs, double bounds[4])
 }
 
 /* Moves the view just enough for its inner half to hold the body's middle. */
-static void follow_body(const Simulation *simulation, const double *x,
-                        Extent *view)
+static void move_view_to_body(const Simulation *simulation, const double *x,
+                              Extent *view)
 {
     int nodes = simulation->system.nodes;
     for (int k = 0; k < 2; k++) {
@@ -199,7 +199,7 @@ void find_square_bounds(const Plot *stage, double bounds[4])
     double box[4], tall, grown = 1;
     find_node_bounds(stage->pane, simulation->runs, box);
     if (is_free)
-        follow_body(simulation, pane_positions(stage->pane), &view);
+        move_view_to_body(simulation, pane_positions(stage->pane), &view);
     while (grown < find_view_growth(box, &view, &tall) * (1 - 1e-12) &&
            grown < MAX_GROWTH) {
         Extent larger = view;

@@ -21,7 +21,7 @@ static const double LINE_ASCENT = 0.93, LINE_DESCENT = 0.37;
 static const double LETTER_ASCENT = 0.76, LETTER_DESCENT = 0.24;
 static const double SCRIPT_SIZE = 0.8;
 static const double MARK_SIZE = 1.3;            /* size of a hat or tilde */
-static const double RAISE = 0.36, LOWER = 0.18; /* offsets of scripts */
+static const double RAISE = 0.36, LOWER = 0.18; /* super-, subscripts */
 static const double FRACTION_SIZE = 0.9; /* size of a fraction's letters */
 static const double AXIS_HEIGHT = 0.28;  /* height of a fraction's line */
 static const double SPACE = 0.12; /* space around fractions and in brackets */
@@ -149,14 +149,14 @@ static const char *find_outside_braces(MarkupPart part, const char *word)
     return part.end;
 }
 
-/* Reduces the size of a script or of a fraction's parts, down to min_size. */
+/* Reduces the letters of a superscript or fraction, down to min_size. */
 static void shrink_letters(TextStyle *style, double factor)
 {
     style->size =
         fmin(style->size, fmax(factor * style->size, style->min_size));
 }
 
-/* Sets ^{...} or _{...}, a script. */
+/* Sets a superscript ^{...} or a subscript _{...}. */
 static void typeset_script(Pen *pen, MarkupPart part, int depth)
 {
     Pen inner = *pen;

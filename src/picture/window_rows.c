@@ -90,7 +90,7 @@ static void draw_setting(Paper *paper, Box box, const Setting *setting,
 /* ---- the time line ------------------------------------------------------ */
 
 /* Returns the number of steps that the time line has room for. */
-static long time_line_steps(const FrameContent *content)
+static long count_time_line_steps(const FrameContent *content)
 {
     long steps = content->time_line.steps;
     return steps > MIN_STEPS ? steps : MIN_STEPS;
@@ -101,7 +101,7 @@ long frame_find_bar_step(const FrameContent *content, const Layout *layout,
 {
     const Box *bars = &layout->bars;
     double step =
-        (x - bars->x) / fmax(bars->width, 1) * time_line_steps(content);
+        (x - bars->x) / fmax(bars->width, 1) * count_time_line_steps(content);
     return (long)fmin(fmax(step < 0.25 ? 0 : floor(step) + 1, 0),
                       content->time_line.steps);
 }
@@ -140,7 +140,7 @@ static void draw_time_line(Paper *paper, const Layout *layout,
 {
     Box zone = layout->time_line, bars = layout->bars;
     const TimeLine *line = &content->time_line;
-    double em = paper->em, room = time_line_steps(content);
+    double em = paper->em, room = count_time_line_steps(content);
     bool words = zone.height > 3.5 * em;
     double part = fmax((line->step - 0.5) / room, 0);
     double x = floor(bars.x + part * bars.width) + 0.5;

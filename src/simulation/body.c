@@ -125,7 +125,7 @@ static Status create_body_system(const Options *options, System *system)
     for (int i = 0; i < shape.nodes && numbers; i++) {
         double rest[2];
         square_mesh_rest_position(&shape, i, rest);
-        if (system->pinned[i]) /* pins that a user sets later stand still */
+        if (system->pinned[i]) /* pins set later stand still */
             system->pin_v[2 * i] = copysign(pin_speed, rest[0]);
     }
     return STATUS_OK;
@@ -544,7 +544,7 @@ double simulation_find_free_fraction(const Simulation *simulation,
     if (!check_clearance(simulation, &moved, 0, -1, (Message){0}))
         return 1;
     double step = 0.5, length = math_hypot(to[0] - from[0], to[1] - from[1]);
-    if (number >= options->grounds) /* half a radius crosses no body */
+    if (number >= options->grounds) /* half a radius skips no body */
         step = fmin(fmax(0.5 * at[2] / length, MIN_PART), step);
     for (int i = 0; i < MAX_HALVINGS;) {
         for (int c = 0; c < 2; c++)

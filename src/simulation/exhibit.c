@@ -97,7 +97,7 @@ void exhibit_flip_switch(Simulation *simulation, int number)
             if (exhibit_find_spring_kind(simulation, s) == number)
                 system->k[s] = k;
         system_mark_changed(system, false);
-        simulation->run[0].memory_h = 0; /* forces have changed */
+        simulation->run[0].memory_h = 0; /* a_n is not valid any more */
         simulation->ledger[0].work +=
             simulation_get_energies(simulation, 0).total - before;
         return;

@@ -110,7 +110,7 @@ static void book_energy_gain(Simulation *simulation)
     ledger->gained_energy += gained;
 }
 
-/* Each run steps in turn.  Returns their last status that is not OK. */
+/* Makes the step of each run.  Returns the last status other than OK. */
 Status simulation_advance(Simulation *simulation)
 {
     while (simulation->step_run < simulation->runs) {

@@ -27,7 +27,7 @@ typedef struct TableReader {
     size_t capacity;  /* bytes that line_text has */
     long line_number; /* number of the line in line_text, from 1 */
     int columns;      /* number of columns of the table */
-    int column_index[MAX_COLUMNS]; /* [wanted column]; -1: missing */
+    int column_index[MAX_COLUMNS]; /* [wanted column] or -1: missing */
     bool has_panes;                /* the table has a column "pane" */
     char failure[200];             /* why the table cannot be read, or "" */
 } TableReader;
@@ -56,7 +56,7 @@ static bool read_next_line(TableReader *reader)
 
 /* Cuts the next field out of a line, without the blanks and quotes around the
  * field.  Returns NULL if the line has no more fields. */
-static char *take_field(char **rest)
+static char *take_next_field(char **rest)
 {
     char *field = strsep(rest, ",");
     if (!field)
@@ -80,7 +80,7 @@ static void read_column_names(TableReader *reader)
     for (int k = 0; reader->names[k]; k++)
         reader->column_index[k] = -1;
     char *rest = reader->line_text;
-    for (char *name; (name = take_field(&rest)); reader->columns++) {
+    for (char *name; (name = take_next_field(&rest)); reader->columns++) {
         reader->has_panes = reader->has_panes || !strcmp(name, "pane");
         for (int k = 0; reader->names[k]; k++)
             if (strcmp(name, reader->names[k]) == 0)
@@ -103,7 +103,7 @@ static bool read_next_row(TableReader *reader, TableRow row)
             return false;
     while (reader->line_text[0] == '\0');
     char *rest = reader->line_text, *end;
-    for (char *field; (field = take_field(&rest)); fields++)
+    for (char *field; (field = take_next_field(&rest)); fields++)
         for (int k = 0; reader->names[k]; k++) {
             if (reader->column_index[k] != fields)
                 continue;

@@ -36,7 +36,7 @@ static cholmod_sparse sparse_view(const Sparse *A)
         .p = A->column_start,
         .i = A->row,
         .x = A->value,
-        .stype = -1, /* the lower triangle */
+        .stype = -1, /* A is the lower triangle */
         .itype = CHOLMOD_INT,
         .xtype = CHOLMOD_REAL,
         .dtype = CHOLMOD_DOUBLE,

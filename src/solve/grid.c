@@ -15,7 +15,7 @@ enum { CACHE_LINE = 64, PAGE = 4096, LARGE_PAGE = 2 << 20, GAP_LINES = 5 };
 RowLayout lay_out_rows(int nodes)
 {
     int even = (nodes + 1) / 2;
-    int half = (even + LANES) / LANES * LANES; /* with room for a ghost */
+    int half = (even + LANES) / LANES * LANES; /* with room for a ghost node */
     return (RowLayout){.nodes = nodes,
                        .count = {even, nodes / 2},
                        .odd_offset = half,

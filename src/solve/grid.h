@@ -93,7 +93,7 @@ Status memory_create(ArrayMemory *memory);
 /* Places the arrays for segments x segments cells; sets the rest to 0. */
 void grid_lay_out(int segments, ArrayMemory *memory, Grid *grid);
 
-/* Returns the power of two that makes a number about 1. */
+/* Returns the power of two that scales a to about 1. */
 double power_of_two_scale(double a);
 
 /* Copies pins, stiffnesses and rest lengths of the system, and the masses m

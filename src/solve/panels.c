@@ -249,7 +249,7 @@ static inline void load_column_group(const Panel *panel, int j,
     }
 }
 
-/* Solves for w[j] ... w[j + 3] and takes their share from the rows below. */
+/* Solves for w[j] ... w[j + 3]; subtracts their terms from the rows below. */
 static void solve_forward_group(const Panel *panel, int j, double *w)
 {
     const double *a[GROUP_COLUMNS];

@@ -23,8 +23,8 @@ typedef struct Panel {
                             diagonal have no meaning */
 } Panel;
 
-/* Forward: solves for the panel's columns of L w = b, and subtracts their share
- * from the rows below.  Backward: solves for the panel's columns of L^T w = b
- * from known rows below.  w [rows] in/out. */
+/* Forward: solves for the panel's columns of L w = b, and subtracts their
+ * products from the rows below.  Backward: solves for the panel's columns of
+ * L^T w = b from known rows below.  w [rows] in/out. */
 void panel_forward(const Panel *panel, double *w);
 void panel_backward(const Panel *panel, double *w);

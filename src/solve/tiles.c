@@ -14,7 +14,7 @@ enum { TILE_ROWS = 4 };
 static const float OVER_RELAXED = 1.8f, SHORTER = 0.25f;
 
 /* A node's block of the Hessian is not clamped if its determinant is larger
- * than this share of its trace's square. */
+ * than this fraction of the squared trace. */
 static const float DEFINITE = 0.0025f;
 
 /* A round sweeps the tiles with at least SHARE of the largest activity.  A
@@ -255,7 +255,7 @@ INLINE double find_largest_activity(const Tiles *tiles)
 {
     double low[LANES] = {0}, largest = 0;
     for (int t = 0; t < tiles->rows * tiles->columns; t += LANES)
-        EACH_OF (LANES) { /* zeros follow the last tile */
+        EACH_OF (LANES) { /* 0 after the last tile */
             double activity = tiles->activity[t + e];
             low[e] = activity < low[e] ? activity : low[e];
         }
