@@ -28,7 +28,7 @@ typedef struct SweptBox {
 
 typedef struct Boundary {
     SquareMesh mesh;
-    unsigned system_version;     /* System.version of these springs */
+    unsigned system_version; /* System.version when the boundary was found */
     int point_count, edge_count; /* numbers of points and edges */
     int *point_node;             /* [nodes] node of each point */
     SweptBox *edge_box;          /* [springs] boxes of the edges, sorted */

@@ -77,7 +77,7 @@ typedef struct ObstaclePush {
     double target[2]; /* m, target of the obstacle's point o */
     SquareMesh mesh;  /* mesh of the bodies, whose cells no ball may enter */
     bool is_blocked;  /* the obstacle found no room to move in this step */
-    double moving_fraction; /* fraction of the step with motion */
+    double moving_fraction; /* fraction of the step before the obstacle stops */
 } ObstaclePush;
 
 typedef struct Contact {

@@ -148,7 +148,7 @@ typedef struct DragBounds {
     double bounds[4]; /* left, bottom, right, top (m) */
 } DragBounds;
 
-/* How the user looks at a frame. */
+/* Zoom, pan, mouse and selection with which a frame is drawn. */
 typedef struct FrameView {
     Lens lens;
     Pick hovered;        /* part of the picture under the mouse */

@@ -34,7 +34,7 @@ int paper_write(Paper *paper, Face face, double size, Colour colour, double x,
                 double y, Align align, const char *format, ...);
 
 /* Replaces the last words of a line by an ellipsis if the line is wider than
- * this in pixels.
+ * `width` pixels.
  *   words  [room] in/out, markup */
 void paper_shorten_words(Paper *paper, double size, int width, char *words,
                          size_t room);

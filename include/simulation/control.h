@@ -31,7 +31,7 @@ bool control_is_holding(const UserControl *control);
 void simulation_locate_obstacle(const Simulation *simulation, int run,
                                 int number, double at[2]);
 
-/* Copies an obstacle's place to the options, if all runs have the same. */
+/* Copies an obstacle's place to the options if it is the same in all runs. */
 void control_store_obstacle(UserControl *control, int number,
                             const Simulation *simulation);
 

@@ -23,7 +23,7 @@ typedef enum PictureLayer {
     LAYER_CUTS = 1 << 4,     /* a filled square; springs only after the guess */
     LAYER_DOWNHILL = 1 << 5, /* -grad E, and the half plane where E falls */
     LAYER_CURVES = 1 << 6,   /* curves on which a component of grad E is 0 */
-    LAYER_FIRST_STEP = 1 << 7 /* draws only the first step, and larger */
+    LAYER_FIRST_STEP = 1 << 7 /* draws only the first step, enlarged */
 } PictureLayer;
 
 /* Effect of the key N. */

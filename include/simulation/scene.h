@@ -57,7 +57,7 @@ typedef struct SceneBody {
                         cut, from the centre, divided by the body's height */
     int runs;        /* number of runs with a body each; 0: one run */
     double height_step; /* height of run r over run r + 1, over the side */
-    double friction_factor[3]; /* factor on the friction of each run; 0: 1 */
+    double friction_factor[3]; /* factors on the runs' friction; 0 means 1 */
     /* Returns a further obstacle, at its start; NULL: no obstacle. */
     struct Obstacle (*make_obstacle)(const struct Options *options);
 } SceneBody;

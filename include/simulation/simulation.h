@@ -43,7 +43,7 @@ struct Simulation {
     int status_counts[STATUS_COUNT]; /* unconverged steps by their status */
     Status status;                   /* status of the last step */
     bool is_over;                /* the scene has ended: a step does nothing */
-    NewtonCounters old_counters; /* work of integrators that were replaced */
+    NewtonCounters old_counters; /* counters of replaced integrators */
 };
 
 /* A quantity of energy by its name: "elastic", "friction". */

@@ -105,7 +105,7 @@ typedef struct RoundingChecks {
                                 and shortest_spring; 0: not computed yet */
     double min_mass;         /* kg, the smallest mass */
     double max_curvature;    /* J/m^2, the largest curvature_bound of a term */
-    double shortest_spring;  /* m, length at rest; 1 without springs */
+    double shortest_spring;  /* m, rest length; 1 without springs */
     bool is_stiff; /* w max_curvature > 1e5 min_mass, w: P's weight in E:
                       a decrease of E is checked by a second computation */
     bool factor_is_inexact; /* w max_curvature > 1e10 min_mass: the residual

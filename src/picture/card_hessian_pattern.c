@@ -13,11 +13,11 @@ static int matrix_row(const System *system, int node, bool natural)
     return natural ? node : system->elimination_order[node];
 }
 
-/* Computes the pattern of the first springs' matrix in natural order, else of
- * its factor (George and Liu 1981). Block [j n + i] is row i > j of column j;
- * block [i n + i] is the number of the node's springs.
- * Each column of the factor adds its pattern to its parent's column; the parent
- * is the first non-zero row below the diagonal.  NULL: out of memory. */
+/* Computes the pattern of the matrix of the first `springs` springs in natural
+ * order, else of its factor (George and Liu 1981). Block [j n + i] is row i > j
+ * of column j; block [i n + i] is the number of the node's springs.  Each
+ * column of the factor adds its pattern to its parent's column; the parent is
+ * the first non-zero row below the diagonal.  NULL: out of memory. */
 static unsigned char *compute_matrix_pattern(const System *system, bool natural,
                                              int springs)
 {

@@ -92,8 +92,8 @@ typedef struct NodeContact {
     double d_hat;            /* m, distance at which the force begins */
 } NodeContact;
 
-/* Finds the contact with the largest force.  Returns false if all
- * distances are above d_hat, or the law is of another kind. */
+/* Finds the contact with the largest force.  Returns false if all distances are
+ * above d_hat, or the scene has another law. */
 bool law_find_contact(const Simulation *simulation, NodeContact *gap);
 
 /* Finds how far a body has slid, and how far a rigid body would slide, m.

@@ -21,7 +21,7 @@
 #define COLOUR_NOTE      0xfffffff4u /* behind the note at the mouse */
 #define COLOUR_WARNING   0xffd00000u
 #define COLOUR_VALUE     0xff0044b0u /* numbers that can be changed */
-#define COLOUR_BAR       0xffccd6eau /* a step in the time line */
+#define COLOUR_BAR       0xffccd6eau /* bar of a step in the time line */
 
 /* Colours of the slides' letters and of their pictures. */
 #define COLOUR_X        0xff0000ffu /* positions, springs; as on the slides */

@@ -35,8 +35,9 @@ static const double MIN_SHRINK = 0.7; /* open card over the height it needs */
 /* Width of the settings in a low window over that of the window. */
 static const double SETTINGS_PART = 0.75;
 
-/* Width of the column over that of the window: usually; at most for the texts
- * of a page, in large type, for code and lists above MAX_LIST_ROWS rows. */
+/* Width of the column over that of the window: COLUMN_PART; for a page's texts
+ * up to PAGE_PART, or BIG_PART in large type; for code and long lists up to
+ * WIDE_PART.  Lists of more than MAX_LIST_ROWS rows are long. */
 static const double COLUMN_PART = 0.38, PAGE_PART = 0.50, BIG_PART = 0.57,
                     WIDE_PART = 0.75, COLUMN_GROWTH = 0.01;
 enum { MAX_LIST_ROWS = 30 };

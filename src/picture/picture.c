@@ -6,10 +6,10 @@
 #include "picture/cards.h"
 
 static const double LEGEND_ROOM = 1.8; /* ems, height of a line of the legend */
-/* On a page a pane lower than LOW_PANE keeps room for words above the picture;
- * a pane lower than MIN_TEXT has no words.  Ems. */
+/* Heights in ems.  On a page a pane lower than LOW_PANE keeps room for words
+ * above the picture; a pane lower than MIN_TEXT has no words. */
 static const double LOW_PANE = 20, MIN_TEXT = 11;
-static const double HANDLE_REACH = 14;   /* pixels, reach of the mouse */
+static const double HANDLE_REACH = 14;   /* pixels, from mouse to handle */
 static const double SWITCH_WIDTH = 13;   /* ems */
 static const double SWITCH_HEIGHT = 1.8; /* ems */
 

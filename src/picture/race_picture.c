@@ -7,7 +7,7 @@
 
 enum { HALVED_STEP_COLUMNS = 2 };        /* columns of halved h */
 static const double NAMES_WIDTH = 20;    /* ems; a narrower plot has no names */
-static const double TARGET_ERROR = 0.01; /* m, limit of the error */
+static const double TARGET_ERROR = 0.01; /* m, limit for fast runs */
 
 /* Returns bounds as powers of ten, of h or run time (ms) and of the error (m).
  * Errors below 1e-8 m and above 10 m may be outside. */

@@ -11,7 +11,7 @@ typedef struct SquarePen {
     const Simulation *simulation; /* simulation of the stage */
     const System *system;
     const double *x, *v; /* [2n] m, m/s */
-    double spacing; /* pixels from node to node at rest; more if flown apart */
+    double spacing; /* pixels between nodes at rest; more if nodes flew apart */
     double width;   /* width of a spring */
     double node_radius;     /* radius of a node */
     double shade_strain;    /* strain of the lightest shade of faces */

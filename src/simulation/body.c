@@ -18,8 +18,8 @@
 /* A word of --pin, and where its nodes are. */
 static const struct PinWord {
     const char *word;
-    int needed_sides;  /* each node is on all these sides; 0: any node */
-    int allowed_sides; /* each node is on one of these, too; 0: any node */
+    int needed_sides;  /* sides that each node is on; 0: any node */
+    int allowed_sides; /* sides, one of which each node is on; 0: any node */
 } pin_words[] = {{"top-corners", MESH_TOP, MESH_LEFT | MESH_RIGHT},
                  {"top", MESH_TOP, 0},
                  {"bottom", MESH_BOTTOM, 0},
@@ -76,8 +76,7 @@ SquareMesh body_make_mesh(const Options *options)
                               options->side, (int)fmax(options->bodies, 1));
 }
 
-/* Returns the node at the centre of the scene's ball, the body's last node;
- * without a ball -1. */
+/* Returns the body's last node, the centre of the scene's ball; none: -1. */
 static int find_ball_node(const Options *options)
 {
     return options->scene->body.make_obstacle

@@ -43,7 +43,7 @@ bool control_is_holding(const UserControl *control)
     return control->held_node >= 0 || control->held_obstacle >= 0;
 }
 
-/* Returns the added height of an obstacle of a run (m); 0 for balls. */
+/* Returns the height (m) that a run adds to an obstacle; 0 for balls. */
 static double get_height_offset(const Simulation *simulation, int run,
                                 const Obstacle *obstacle)
 {

@@ -68,7 +68,7 @@ typedef struct Grid {
     float *float_c[KINDS]; /* [plane] c in single precision */
     float *float_l2[KINDS]; /* [plane] l2 in single precision */
     float *float_m;         /* [plane] mass of each node; 0 at pins */
-    float *float_x; /* [2 planes] x - x of the middle node (grid_narrow_x) */
+    float *float_x;         /* [2 planes] x relative to the middle node */
     double *x, *x_tilde, *u_tilde; /* [2 planes] u_tilde is x_tilde - x_n */
     double *from_target; /* [2 planes] x - x_tilde = u - u_tilde; 0 at pins */
 } Grid;

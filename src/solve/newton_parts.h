@@ -64,7 +64,7 @@ Status find_step_length(Newton *newton);
 /* Whether the next direction may turn the nodes by more than the tolerance,
  * although p passes the test.  At x the forces g resist a turn.  At x + p most
  * of these forces are gone, and only the masses resist the remaining torque,
- * which is at most sum |p_i| |g_i|, with the lengths at node i. */
+ * which is at most sum |p_i| |g_i| over the nodes i. */
 bool turns_may_follow(const Newton *newton);
 
 /* Turns all nodes to the angle at which E is lowest, if P stays the same in a

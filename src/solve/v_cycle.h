@@ -24,8 +24,7 @@
 
 enum { MAX_LEVELS = 24 };
 
-/* p is small if |p_x| + |p_y| is at most this fraction of the longest that
- * passes the test. */
+/* p is small if |p_x| + |p_y| is at most this fraction of the test's limit. */
 static const double SMALL_P = 0.2;
 
 typedef struct Level {
