@@ -24,7 +24,7 @@ typedef struct Element {
     int vector_count; /* vectors that W depends on: 1: a, 2: a and b */
     int node[3];      /* [nodes] */
     const double (*node_weight)[3]; /* [vectors] a, b: sums of weight * x_i */
-    int block_index; /* its block's index in the Hessian; -1: none yet */
+    int block_index; /* index of the block in the Hessian; -1: none yet */
     int partner; /* obstacle (contact) or spring of the edge (self-contact) */
     int search_cursor; /* > 0: where get_element(i) continues its search */
     double derivative_factor; /* factor on derivatives: EvalPoint.weight, or 1
