@@ -26,7 +26,7 @@ Status lecture_make_options(const struct LecturePage *page, Options *options,
                             Message message);
 
 /* Sets an option that has a value.  An option that the scene cannot use, or
- * that does not fit the others, is refused with a message as above.
+ * that does not fit the others, is refused with a message.
  *   text   in, value as on the command line; "": take `value`
  *   value  number, or index of a name; NaN is refused like an empty text */
 Status options_set(Options *options, const OptionRow *row, const char *text,

@@ -117,7 +117,7 @@ typedef enum WorkStage {
 typedef struct Past {
     Branch *branch; /* [branches] branches from the bottom of the stack */
     int branches, capacity; /* branches; branches that memory is reserved for */
-    int current; /* index of the present branch; those above are undone */
+    int current; /* index of the present branch; higher ones are undone */
     long step;   /* step that is shown in all panes */
     PastPane pane[OPTIONS_MAX_PANES];
     bool stores_states;    /* states are stored: the user may go back */

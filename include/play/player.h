@@ -197,7 +197,7 @@ Status player_create(const Options *options, char *const *words,
                      Player *player);
 
 /* Shows the next step, made before or new, and records it; with a window may
- * only begin it.  Returns OK also for a step that did not converge. */
+ * only begin the step.  Returns OK also for a step that did not converge. */
 Status player_make_step(Player *player);
 
 /* Obeys a command, then the commands in the queue.  Returns OK, INVALID_INPUT

@@ -467,7 +467,7 @@ static Status release_button(Player *player)
         return player_show_refusal(player, player_obey_queue(player, false));
     }
     if (drag == COMMAND_SET && mouse->has_moved)
-        player_deselect(player); /* only a click leaves it selected */
+        player_deselect(player); /* only a click leaves the number selected */
     if (drag == COMMAND_SET && !mouse->has_moved && mouse->dragged_id >= 0 &&
         player->hands.selected && player->hands.selected->kind == OPTION_NAME)
         return change_number(player, player->hands.selected, 1);

@@ -57,7 +57,7 @@ static Status create_bend_scene(Simulation *simulation)
     if (status)
         return status;
     simulation->system.m[mesh->nodes] = 60;
-    if (!simulation->options.state) /* --state has velocities */
+    if (!simulation->options.state) /* --state has its own velocities */
         simulation->run[0].v[2 * mesh->nodes + 1] = -3;
     return STATUS_OK;
 }

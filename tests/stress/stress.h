@@ -58,14 +58,14 @@ typedef struct RunWatch {
     VerdictTally *tally;  /* counts of all watches */
     bool tests_residuals; /* residuals of converged steps are computed again */
     bool only_springs;    /* the system has no energy but springs and pulls */
-    double *x, *v;        /* [2n] m, m/s, before the step */
-    double *x_n;          /* [2n] m, start of the present minimisation */
-    double *u;            /* [2n] m, last iterate of the minimisation */
+    double *x, *v;        /* [2n] m and m/s, state before the step */
+    double *x_n;          /* [2n] m, x_n of the present minimisation */
+    double *u;            /* [2n] m, x - x_n at the last iterate */
     double *workspace;    /* [2n] */
     long double start_energy; /* J s^2, E at u = 0 */
     long double energy;       /* J s^2, E at u */
     int updates;              /* updates of the present minimisation so far */
-    double tolerance;         /* m/s, tolerance at the start of the step */
+    double tolerance;         /* tolerance at the start of the step, m/s */
     long crossings;     /* number of crossing edges at the start of the step */
     bool is_wrong;      /* the present step has broken a promise */
     bool has_flat_cell; /* a cell was flat when E was last computed */

@@ -126,8 +126,8 @@ static bool residual_passes(const RunWatch *watch, const double *u,
     return false;
 }
 
-/* Tests the residual with all terms; the iterate alone comes from the program.
- * A residual that 19 digits refuse is tested with 34, since rounding can only
+/* Tests the residual with all terms; only the iterate comes from the program. A
+ * residual that 19 digits refuse is tested with 34, since rounding can only
  * raise a small residual. Noise above the tolerance is allowed and counted. */
 static void judge_residual(RunWatch *watch, const double *u, double limit)
 {
@@ -265,8 +265,8 @@ static void check_gaps_and_areas(RunWatch *watch, const double *x)
                    J);
 }
 
-/* Tests that no edges cross but those that crossed at the start of the step:
- * where cells may turn over, a break may have uncovered them. */
+/* Tests that no edges cross but those that crossed at the start of the step,
+ * where a break may have uncovered edges of cells that may turn over. */
 static void check_crossings(RunWatch *watch, const double *x)
 {
     long crossings = edge_crossings(watch->run->system, x);

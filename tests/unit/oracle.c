@@ -353,7 +353,7 @@ static void add_self_friction(Probe *probe, Jet *sum, const SelfContact *self,
              friction_law(y, e));
 }
 
-/* Returns true if a point is further than `most` from an edge, as most of them
+/* Returns true if a point is further than `most` from an edge, as most points
  * are: the pair then has no energy. */
 static bool is_far(const double *x, int p, const int end[2], double most)
 {
@@ -478,7 +478,7 @@ static int count_parts(const Probe *probe, PartKind parts, const void *data)
 /* ---- what clamping adds ------------------------------------------------- */
 
 /* Numbers on which the energy of a part depends. derivative: by the node
- * coordinates; unit_move: displacements that change one number alone, by 1 */
+ * coordinates; unit_move: displacements that change only one number, by 1 */
 typedef struct PartFrame {
     int n, node[3];
     Real derivative[4][6];
@@ -557,7 +557,7 @@ static PartFrame make_part_frame(Probe *probe, PartKind parts, const void *data,
     return frame;
 }
 
-/* Formula of each term, and what it sums over; data: those of the term */
+/* Formula of each term, and the parts over which it sums; data: of the term */
 static const struct {
     const TermKind *kind;
     PartKind part_kind;

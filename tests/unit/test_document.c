@@ -82,7 +82,7 @@ TEST(a_page_keeps_its_answer_until_the_guess)
         check_document_lines();
         assert_int_equal(count_lines("asks"), 0);
         CHECK(count_lines("look") > 0 && count_lines("code") > 0);
-        if (page->try && strstr(page->try, "Set ")) /* a number with a slider */
+        if (page->try && strstr(page->try, "Set ")) /* Try sets a number */
             assert_non_null(strstr(text, "\ttried\n"));
         end_player();
     }

@@ -264,7 +264,7 @@ static double find_dissipation(const TimeIntegrator *it, double *k,
     EvalPoint at = make_eval_point(&whole, x_n, NULL, it->x);
     Probe probe = {.at = &at, .h = it->h, .p = dx};
     sum -= oracle_energy(&probe, NULL).f;
-    at.u = dx; /* with the forces of damping */
+    at.u = dx; /* adds the forces of damping */
     sum += oracle_energy(&probe, NULL).p;
     if (system_find_term(&whole,
                          &friction_energy)) /* damping books its own loss */

@@ -177,8 +177,8 @@ TEST(the_program_follows_the_slides)
 }
 
 /* The fifth program, solved tightly: a ceiling comes down at 0.5 m/s. A stiff
- * spring pulls it in the reference, with an error of 1e-6 m; here it is exact.
- * Only the ground has friction. */
+ * spring pulls it in the reference, with an error of 1e-6 m; here its motion is
+ * exact. Only the ground has friction. */
 TEST(a_ceiling_comes_down_as_in_the_lesson)
 {
     Simulation *scene = simulate(
@@ -304,9 +304,9 @@ static void check_same_updates(const NewtonUpdates *got,
     CHECK(i == got->count && i > 10);
 }
 
-/* The program makes the updates of lecture.c if this tests p after the update:
- * at the slides' tolerance x differs by 1e-5 m in 15 steps, since directions
- * are refined, and at the tolerance 1e-9 m/s by 1e-8 m. */
+/* The program makes the updates of lecture.c with p tested after the update: at
+ * the slides' tolerance x differs by 1e-5 m in 15 steps, since directions are
+ * refined, and at the tolerance 1e-9 m/s by 1e-8 m. */
 TEST(the_program_makes_the_updates_of_lecture)
 {
     static NewtonUpdates got, expected;

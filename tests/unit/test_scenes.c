@@ -136,8 +136,8 @@ TEST(envelope_cells_are_runs)
     CHECK(refused >= 1); /* cells that did not converge are compared, too */
 }
 
-/* Balls where they are now, not at their start, and only whole cells count for
- * the check that obstacles do not overlap the body. */
+/* The check that obstacles do not overlap the body uses the present place of a
+ * ball, not its start, and leaves out torn cells. */
 TEST(obstacles_may_stand_where_cells_were_torn)
 {
     char message[256];

@@ -14,8 +14,8 @@
 
 enum { WINDOW_SIDE = 900, MAX_MARKS = 16, MAX_CHANGES = 80, MAX_STEPS = 80 };
 
-static uint64_t marked_hashes[MAX_MARKS]; /* by letter, a to p */
-static double mouse[2];                   /* pixels, position */
+static uint64_t marked_hashes[MAX_MARKS]; /* hash at each mark, a to p */
+static double mouse[2];                   /* position, pixels */
 static bool player_is_open;
 static double heap_at_start;        /* bytes, at the start of the session */
 static double heap_before_player;   /* bytes, before the session's player */
@@ -697,8 +697,8 @@ static int write_shape_ink(const Layout *layout, char *out)
                                active_picture(content)->cards[c]->name, at);
     if (layout->has_list)
         at += write_ink_amount(&paper->canvas, layout->column, "list", at);
-    for (int i = 0; i < layout->cells; i++)
-        if (strcmp(content->sheet.cell[i].name, "race") != 0) /* run times */
+    for (int i = 0; i < layout->cells; i++) /* run times of the race vary */
+        if (strcmp(content->sheet.cell[i].name, "race") != 0)
             at += write_ink_amount(&paper->canvas, layout->cell[i], "cell", at);
     player.screen.must_redraw = true;
     return (int)(at - out);
@@ -1368,7 +1368,7 @@ static uint64_t hash_all_but_setting(int place)
     return hash;
 }
 
-/* Random keys in an open field change its number alone; after Escape, none. */
+/* Random keys in an open field change only its number; after Escape, none. */
 static void random_keys_stay_in_their_field(void **unused)
 {
     (void)unused;
@@ -1472,7 +1472,7 @@ static void undo_and_redo_all(uint64_t started)
 
 /* Acts at random, with memory for many states or few: each step of each change
  * keeps its bits, the saved script leads to the same bits without a refused
- * line, and the window shows what it showed. */
+ * line, and the window shows the same. */
 static void record_of_random_hands(void **unused)
 {
     (void)unused;

@@ -276,7 +276,7 @@ int __wrap_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
     return __real_text_draw(text, canvas, style, x, y, align, markup);
 }
 
-/* Draws the frame, and returns true if one of its texts begins so. */
+/* Draws the frame, and returns true if a text in it begins like `text`. */
 static bool text_is_drawn(const char *text)
 {
     text_count = 0;
@@ -344,7 +344,7 @@ TEST(maps_of_inertia_label_their_contours)
         CHECK_AT_MOST(near, 4);
     }
     draw_without_words();
-    for (int k = 0; k < 3; k++) { /* the contour itself is there, too */
+    for (int k = 0; k < 3; k++) { /* the contour passes there, too */
         double at[2], far = sqrt(2 * levels[k]);
         int darkest = -9;
         plot_to_pixel(&stage, (double[]){target[0], target[1] - far}, at);
