@@ -168,31 +168,18 @@ escape() {
     timeout $timeout xdotool windowfocus --sync "$1" key Escape
 }
 # Drags the upper right node, 150 and 107 pixels from the middle of the window,
-# upwards from (0.7, 0.5) to (0.7, 0.7933); Space stops it, R puts it back.
+# upwards from (0.7, 0.5) to (0.7, 0.7933).
 lives() {
     timeout $timeout xdotool windowfocus --sync "$1" \
         mousemove --window "$1" 452 191 mousedown 1 \
         mousemove --window "$1" 450 130
     until_true is_led || echo "the node is led to $(tail -n 1 seen.part)"
-    xdotool key space
-    until_true stands || echo 'Space does not stop it'
-    xdotool mouseup 1 key r key space
-    until_true is_back || echo 'R does not put it back'
+    xdotool mouseup 1
     escape "$1"
 }
 is_led() {
     tail -n 1 seen.part | awk -F , '{ off = ($4 - 0.7) ^ 2 + ($5 - 0.7933) ^ 2
         exit !($3 == 24 && off < 1e-4) }'
-}
-stands() {
-    step=$(tail -n 1 seen.part)
-    sleep 0.5
-    [ "$step" = "$(tail -n 1 seen.part)" ]
-}
-is_back() { # in one step, as nothing else moves it
-    awk -F , '$3 == 24 { back = back || last > 0.78 && $4 > 0.65 &&
-            $4 < 0.68 && $5 < 0.52
-        last = $5 } END { exit !back }' seen.part
 }
 
 start_screen 1000x1000

@@ -108,22 +108,6 @@ TEST(zones_tile_every_size)
         }
 }
 
-/* Large windows have all parts, small ones leave parts out. */
-TEST(small_windows_leave_parts_out)
-{
-    fill_content();
-    for (int s = 0; s < 4; s++) {
-        Layout l = layout_create(&content, sizes[s][0], sizes[s][1]);
-        CHECK(l.cards > SHOWN_CARDS && l.settings == 9);
-        CHECK(l.chips - l.chips_left_out >= 7);
-        CHECK(l.em >= 12 && l.stage.width >= 0.5 * l.width);
-    }
-    Layout small = layout_create(&content, 400, 300);
-    CHECK(small.cards == 0 && small.settings == 0);
-    CHECK(small.chips_left_out > 0 && small.chip[small.chips - 1].width > 0);
-    CHECK(small.stage.width == 400 && small.stage.height > 200);
-}
-
 static bool click_hits_zone(const Layout *layout, double x, double y,
                             WindowZone zone, int index)
 {

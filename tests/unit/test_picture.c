@@ -145,24 +145,6 @@ TEST(plots_keep_to_their_axes)
     paper_free(&paper);
 }
 
-/* Numbers have three digits, and a power of ten only instead of many zeros. */
-TEST(numbers_have_three_digits)
-{
-    const struct {
-        double value;
-        const char *text;
-    } rows[] = {{0, "0"},
-                {0.1 + 0.2, "0.3"},
-                {0.00012, "1.2\u00b710^{\u22124}"},
-                {999.7, "1000"},
-                {1e5, "10^{5}"},
-                {999999, "10^{6}"},
-                {-INFINITY, "\u2212\u221e"},
-                {-NAN, "no number"}};
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
-        assert_string_equal(format_number(rows[i].value).text, rows[i].text);
-}
-
 /* Counts the pixels of a colour; left: x of the leftmost one. */
 static int count_pixels(const Canvas *canvas, Colour colour, int *left)
 {

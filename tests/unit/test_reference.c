@@ -243,6 +243,60 @@ TEST(lecture_follows_the_slides)
     }
 }
 
+/* Sends an event with one or two numbers to lecture.c; false: it quits. */
+static bool send_event(Screen *screen, Solid *solid, Uint32 type, int a, int b)
+{
+    SDL_Event event = {.type = type};
+    if (type == SDL_KEYDOWN)
+        event.key.keysym.sym = a;
+    else if (type == SDL_MOUSEMOTION)
+        event.motion = (SDL_MouseMotionEvent){.type = type, .x = a, .y = b};
+    else if (type == SDL_WINDOWEVENT)
+        event.window.event = (Uint8)a;
+    return handle_event(screen, solid, &event);
+}
+
+/* The mouse holds the nearest node, which comes a third of the way to it in a
+ * step, until the button is up or the window has lost the focus. Space pauses,
+ * R restarts, Esc ends. The window has 600 x 600 pixels, here 150 in a metre.
+ */
+TEST(hands_act_on_lecture)
+{
+    Solid solid = square(1, 4, 1000, 1e5);
+    Vec2 start[25];
+    memcpy(start, solid.x, sizeof start);
+    Screen screen = {.scale = 150, .pulled = -1, .x_start = start};
+    for (int end = 0; end < 2; end++) {
+        double m = solid.m[24];
+        CHECK(send_event(&screen, &solid, SDL_MOUSEMOTION, 390, 240));
+        CHECK(send_event(&screen, &solid, SDL_MOUSEBUTTONDOWN, 0, 0));
+        CHECK(screen.pulled == 24 && solid.m[24] >= 1000 * m);
+        CHECK(send_event(&screen, &solid, SDL_MOUSEMOTION, 150, 450));
+        CHECK(send_event(&screen, &solid, SDL_MOUSEBUTTONDOWN, 0, 0));
+        CHECK(send_event(&screen, &solid, SDL_WINDOWEVENT, 1, 0));
+        CHECK(screen.pulled == 24 && show(&screen, &solid, 0.01, 1));
+        CHECK_NEAR(solid.v[24].x, (-1 - 0.5) / 0.03, 1e-9);
+        CHECK_NEAR(solid.v[24].y, (-1 - 0.5) / 0.03, 1e-9);
+        CHECK(send_event(&screen, &solid,
+                         end ? SDL_MOUSEBUTTONUP : SDL_WINDOWEVENT,
+                         SDL_WINDOWEVENT_FOCUS_LOST, 0));
+        CHECK(screen.pulled == -1);
+        CHECK_NEAR(solid.m[24], m, 1e-9 * m);
+    }
+    solid.x[7].x += 1;
+    CHECK(send_event(&screen, &solid, SDL_KEYDOWN, SDLK_r, 0));
+    for (int i = 0; i < 25; i++)
+        CHECK(distance(solid.x[i], start[i]) + dot(solid.v[i], solid.v[i]) ==
+              0);
+    for (int i = 0; i < 4; i++) {
+        CHECK(screen.paused == (i % 2 == 1));
+        CHECK(send_event(&screen, &solid, SDL_KEYDOWN, SDLK_SPACE, 0));
+    }
+    CHECK(!send_event(&screen, &solid, SDL_KEYDOWN, SDLK_ESCAPE, 0));
+    CHECK(!send_event(&screen, &solid, SDL_QUIT, 0, 0));
+    free_solid(&solid);
+}
+
 /* Makes a step of lecture.c that updates x and then tests p. All of p is used
  * if it is so short that rounding of E hides its effect. */
 static void make_step_tested_last(Solid *solid, double h, double tol, int step,
