@@ -352,7 +352,7 @@ int main(int argc, char **argv)
                     t + 1 < TABLES ? "," : "\n");
         return 2;
     }
-    setvbuf(stdout, NULL, _IOLBF, 0); /* print each line at once */
+    setvbuf(stdout, NULL, _IOLBF, 0); /* each line is written at once */
     printf("# elasto %s; SuiteSparse %d.%d.%d; SDL %d.%d.%d; compiler %s; "
            "flags %s; one thread; %s run\n%s\n",
            ELASTO_VERSION, SUITESPARSE_MAIN_VERSION, SUITESPARSE_SUB_VERSION,

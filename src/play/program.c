@@ -25,8 +25,8 @@ static bool stdout_is_closed(void)
     return poll(&out, 1, 0) == 1 && out.revents & (POLLERR | POLLHUP);
 }
 
-/* Checks that all prints have arrived; errno was 0 before.  Prints a failure,
- * unless the reader is gone.  Returns the exit code. */
+/* Checks that all output was written; errno must have been 0 before.  Prints a
+ * failure, unless the reader is gone.  Returns the exit code. */
 static int check_standard_output(void)
 {
     if (!ferror(stdout) && fflush(stdout) == 0)

@@ -142,8 +142,8 @@ static Status save_journal(Player *player, const char *name, const char *line)
 }
 
 /* Reports the hash of the state and the command line that leads to it, and
- * saves the script of this line if there were commands.  A step that is being
- * made ends before, since its panes have states of two steps. */
+ * saves the script of this line if there were commands.  The command waits
+ * for the end of a step being made, during which panes are at two steps. */
 Status obey_report_hash(Player *player, const Command *command)
 {
     if (past_is_working(&player->past)) {

@@ -115,8 +115,8 @@ static double *copy_array(const StepTrace *trace, const double *from)
 }
 
 /* Stores x, u and p of the newest iterate, if there is memory.  After an update
- * x_trial and u_trial are the iterate before it.  Multigrid's update is not a
- * step along p: p becomes the whole update, and alpha is 1. */
+ * newton->x_trial is the iterate before the update.  Multigrid's update is not
+ * a step along p: p becomes the whole update, and alpha is 1. */
 static void store_iteration(StepTrace *trace, const Newton *newton)
 {
     TraceIterate *iterate = &trace->iterate[trace->records.count];

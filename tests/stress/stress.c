@@ -121,9 +121,9 @@ static int run_command_line(const char *line)
     return verdict == VERDICT_WRONG;
 }
 
-/* Maps where the default square converges in three steps: h from 1e-9 to 1e3 s
- * by half decades, k from 1e-6 to 1e15 J/m^2, and eight stretches. With a
- * stretch of 0.1 or more 99 % of the cells must, and each needs an update. */
+/* Makes three steps of the default square with each h from 1e-9 to 1e3 s by
+ * half decades, k from 1e-6 to 1e15 J/m^2, and eight stretches. With a stretch
+ * of 0.1 or more 99 % of the runs must converge, each with an update. */
 static void run_envelope(Solver solver, VerdictTally *sum)
 {
     static const double stretch[] = {1e-6, 1e-3, 0.1, 0.5, 1.4, 10, 1e3, 1e6};

@@ -1,9 +1,9 @@
 /* stress_exact.c - the energy of a step a second time, with its rounding error.
  *
  * The residuals of large squares are tested with conjugate gradients in
- * extended precision, whose error is known: M is a lower bound of the clamped
- * Hessian, so |p - exact|_M <= |r|_(M^-1), and the residual is at most
- * sqrt(2/m)/h |r|_(M^-1) away from that of p. */
+ * extended precision, whose error is known: the mass matrix M is a lower bound
+ * of the clamped Hessian, so |p - exact|_M <= |r|_(M^-1), and the residual is
+ * at most sqrt(2/m)/h |r|_(M^-1) away from that of p. */
 #include "stress.h"
 
 #include <float.h>
@@ -60,7 +60,7 @@ static const Real judge_margin = 1e-6L;
 typedef struct HessianBlocks {
     Real *g, *entry;
     int (*node)[3], *node_counts;
-    int count, entries, capacity;
+    int count, entries, capacity; /* blocks; numbers in entry; most blocks */
 } HessianBlocks;
 
 static void store_block(void *blocks, const EnergyPart *block)

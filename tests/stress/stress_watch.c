@@ -96,7 +96,7 @@ typedef double (*ResidualFunction)(const IncrementalPotential *E,
                                    double moved, int lifts, double *noise);
 
 /* Returns true if the residual at u is at most the limit with a Hessian that
- * the program may have used; a projection on demand has two.
+ * the program may have used: one of two for a projection on demand.
  *   noise  out, m/s, allowed error by rounding; NULL: none
  *   least  out, m/s, smallest residual */
 static bool residual_passes(const RunWatch *watch, const double *u,

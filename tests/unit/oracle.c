@@ -295,8 +295,8 @@ static Outline find_outline(const System *system)
     return it;
 }
 
-/* Returns d^2/d_hat^2 of point p and an edge. r: place of the nearest point on
- * the edge, 0 to 1; n: unit vector from there to p */
+/* Returns d^2/d_hat^2 of point p and an edge. r: position of the nearest point
+ * along the edge, 0 to 1; n: unit vector from there to p */
 static Jet point_edge_gap(Probe *probe, const SelfContact *self, int p,
                           const int end[2], Real *r, Real n[2])
 {
@@ -590,8 +590,8 @@ static void add_unit_move(const PartFrame *frame, int k, double sign, double *p)
 }
 
 /* Finds the negative eigenvalues of the block of one part, in the numbers of
- * its frame. Returns the number of lifts. p, q [2n] are 0 before and after.
- *   lift  [4] out, what cutting adds to each eigenvalue
+ * its frame. Returns their number. p, q [2n] are 0 before and after.
+ *   lift  [4] out, the change that makes each of these eigenvalues 0
  *   rows  [4][6] out, eigenvectors over the coordinates of the frame's nodes */
 static int find_clamping(const Probe *probe, int row, const void *data,
                          int part, double *p, double *q, PartFrame *frame,
@@ -974,7 +974,7 @@ static double find_residual_on_flow_side(const IncrementalPotential *E,
 }
 
 /* Springs that have just flowed may be evaluated on either side of their limit:
- * the smaller residual counts. */
+ * returns the smaller residual. */
 double exact_residual(const IncrementalPotential *E, const double *u,
                       const double *x, double h, double moved, int lifts,
                       double *noise)

@@ -566,8 +566,8 @@ TEST(momentum_is_kept)
 }
 
 /* The forces of triangles have no torque on a body that is turned, far away or
- * strained: rounding of the torque is in proportion to the forces between
- * triangles, which vanish with the strain, not to the modulus. */
+ * strained: the torque by rounding is in proportion to the forces between
+ * triangles, which vanish with the strain, and not to the modulus. */
 TEST(triangles_have_no_torque)
 {
     static const double away[] = {0, 1, 1e3, 1e6};

@@ -208,7 +208,7 @@ TEST(bits_depend_on_the_step_alone)
 
 /* Smooth steps take about as many directions at any size, with one cycle each.
  * Pins, broken springs and random masses take more cycles, at most as many as
- * when this was written.  A tight tolerance needs no factor. */
+ * were counted once.  A tight tolerance needs no factor. */
 TEST(steps_take_no_more_work)
 {
     static const struct {

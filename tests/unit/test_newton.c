@@ -114,7 +114,7 @@ static Status minimise_pair(const double *x, double weight)
 
 /* With both nodes in one point and h = 1 the Hessian is [[m0 - 2, 2], [2, m1 -
  * 2]], which is indefinite where 1/m0 + 1/m1 > 1/2. The gradient is 0, so the
- * loop ends; without projection the maximum is counted. */
+ * loop ends; without projection a maximum is counted as such. */
 TEST(a_maximum_is_counted_without_projection)
 {
     static const struct {

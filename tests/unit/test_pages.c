@@ -399,7 +399,7 @@ TEST(pages_are_legible_from_the_back_row)
     CHECK(layout_create(&content, 1280, 800).em > 800 / 40);
 }
 
-/* In all scenes and window sizes each word stays in place, over no other. */
+/* In all scenes and window sizes no word leaves its box or covers another. */
 TEST(scenes_keep_their_words_in_place)
 {
     static const int sizes[][2] = {{900, 900}, {800, 600}, {1280, 800}};

@@ -704,8 +704,8 @@ static int write_shape_ink(const Layout *layout, char *out)
     return (int)(at - out);
 }
 
-/* Writes what the mouse hits in each of 144 parts of the window: zone and index
- * of the part, and of the scene's part kind and index, or the list's row. */
+/* Writes what the mouse hits in each of 144 parts of the window: zone and
+ * index, then kind and index of the scene's object or the list's row. */
 static void write_hits(const Layout *layout, char *out)
 {
     enum { COLUMNS = 16, ROWS = 9 };
