@@ -12,8 +12,8 @@ static inline double clock_now(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-/* Processor time that this program has used, s, so other programs do not count.
- * A system without such a clock gives the elapsed time. */
+/* Processor time (s) that this program has used, not that of other programs.  A
+ * system without such a clock gives the elapsed time. */
 static inline double clock_processor_time(void)
 {
     struct timespec now;

@@ -30,8 +30,8 @@
     F(INVALID_INPUT, invalid_input, "the input is out of range")               \
     F(TOO_LARGE, too_large, "the matrix is too large for 32-bit indices")      \
     F(OUT_OF_MEMORY, out_of_memory, "not enough memory")                       \
-    F(FILE_FAILED, file_failed, "a file could not be written") /* see errno */ \
-    F(SCREEN_FAILED, screen_failed, "drawing failed")          /* see Window */
+    F(FILE_FAILED, file_failed, "a file could not be written") /* errno */     \
+    F(SCREEN_FAILED, screen_failed, "drawing failed")          /* Window */
 
 #define STATUS_CONSTANT(name, lower, text) STATUS_##name,
 typedef enum Status { STATUSES(STATUS_CONSTANT) STATUS_COUNT } Status;

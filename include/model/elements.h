@@ -70,7 +70,7 @@ struct ElementKind {
     int (*count_elements)(const EvalPoint *at);
 
     /* Computes element i at x.  Returns false if i has no element, or if W is 0
-     * for all changes of a and of b by less than `way`, m. */
+     * for all changes of a and of b by less than `way` (m). */
     bool (*get_element)(const EvalPoint *at, int i, double way,
                         Element *element);
 
@@ -141,7 +141,7 @@ double elements_line_remainder(const EvalPoint *at, const double *p,
                                double alpha);
 
 /* Returns an alpha > 0 up to which the gaps and areas of all elements stay
- * positive along p; infinite if it is above 1. */
+ * positive along p; infinite if above 1. */
 double elements_max_step(const EvalPoint *at, const double *p);
 
 /* Whether the energy P exists at x: Element.s of each element is positive.

@@ -24,7 +24,7 @@ static inline void spring_add_force(const int e[2], double factor,
 
 /* Adds the block B = [[H, -H], [-H, H]] of a spring with the nodes e[0], e[1]:
  *   q = NULL   triplets ii: xx xy yy, jj: xx xy yy, ij: xx xy yx yy of B to
- *              out[(*slot)[0 ... 9]]; *slot then leads to the next spring's
+ *              out[(*slot)[0 ... 9]]; *slot is advanced by 10
  *   otherwise  out += B q; q, out [2n] */
 static inline void mass_spring_add_block(const double H[3], const int e[2],
                                          const int **slot, const double *q,

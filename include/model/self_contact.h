@@ -45,7 +45,7 @@ typedef struct SelfContact {
 extern const TermKind self_contact_energy;
 
 /* Adds the term or changes its numbers.
- *   barrier   of a node and an obstacle; c of this term is an eighth of its c
+ *   barrier   of a node and an obstacle; the term's c is an eighth
  *   friction  coefficient of friction mu
  * Returns OK or OUT_OF_MEMORY. */
 Status self_contact_configure(System *system, const SquareMesh *mesh,

@@ -34,8 +34,8 @@ struct System {
     int *elimination_order; /* [n] position of each node in this order */
     unsigned char *pinned;  /* [n] 1: pinned, 0: free */
     double *pin_v;          /* [2n] m/s, velocity of pinned nodes; NULL: 0 */
-    int segments;     /* number of segments a side of one square; else 0 */
-    unsigned version; /* rises with every change of numbers or terms */
+    int segments;           /* segments a side if there is one square, else 0 */
+    unsigned version;       /* rises with every change of numbers or terms */
     unsigned pattern_version; /* rises when the Hessian's pattern changes */
     int term_count;           /* number of terms */
     EnergyTerm term[SYSTEM_MAX_TERMS]; /* terms in the order of TermKind.rank */
@@ -97,10 +97,9 @@ bool system_path_is_free(const System *system, const double *x,
 /* Returns P(x) in joules, the sum of the terms.  x [2n] m, in. */
 double system_potential(const System *system, const double *x);
 
-/* Whether gravity is not 0. */
 bool system_has_gravity(const System *system);
 
-/* Returns -sum m g.x in joules, or 0 if only rounding.  x [2n] m, in. */
+/* Returns -sum m g.x in joules; 0 if only rounding is left.  x [2n] m, in. */
 double system_gravity_potential(const System *system, const double *x);
 
 /* Sets g to 0 at pinned nodes.  g [2n] in/out. */

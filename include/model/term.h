@@ -76,8 +76,8 @@ struct TermKind {
 
     /* Kind of the elements, if the term is a sum over elements (elements.h).
      * The functions from value to line_remainder, without extend_pattern and
-     * line_polynomial, are then those of elements.c.  Only such a term may not
-     * exist at some x (elements_are_feasible). */
+     * line_polynomial, are then those of elements.c.  Only such a term can be
+     * undefined at an x (elements_are_feasible). */
     const ElementKind *element;
 
     /* Returns P(x) >= 0 in joules, not multiplied by weight.  NULL: the term

@@ -38,15 +38,15 @@ typedef struct NewtonTrace {
     StepLine at_line;           /* present line of Algorithm 3 */
     double h, tolerance;        /* time step (s), tolerance (m/s) */
     int record_count;           /* number of records */
-    const NewtonRecord *record; /* [records] records of the iterations */
+    const NewtonRecord *record; /* [record_count] of the iterations */
     int iteration;              /* number of the present update, from 0 */
     const double *x;            /* [2n] m, present iterate x^i */
-    const double *p;            /* [2n] m, NULL before LINE_SOLVE */
-    double residual;            /* |p|/h, m/s */
-    bool has_failed;            /* the step has ended without convergence */
-    double slope;               /* grad E . p (J s^2) */
-    int projected;              /* number of projected blocks; < 0: unknown */
-    const double *x_n;          /* [2n] x^n (m); or NULL */
+    const double *p;       /* [2n] direction p (m); NULL before LINE_SOLVE */
+    double residual;       /* |p|/h, m/s */
+    bool has_failed;       /* the step has ended without convergence */
+    double slope;          /* grad E . p (J s^2) */
+    int projected;         /* number of projected blocks; < 0: unknown */
+    const double *x_n;     /* [2n] x^n (m); or NULL */
     const double *x_tilde; /* [2n] x_tilde (m), drawn as a ghost; or NULL */
     EnergyDifference energy_difference; /* change of E along p; or NULL */
     const void *difference_data; /* first argument of energy_difference */
@@ -173,7 +173,7 @@ typedef struct TitleBar {
 typedef struct Setting {
     const char *name;       /* name of the option: "h", "stretch" */
     char value[VALUE_SIZE]; /* as shown: "0.02 s", "backward Euler" */
-    int min_letters;        /* least number of letters that have room */
+    int min_letters;        /* least width of the value, in letters */
     bool is_changed;        /* differs from the scene's default */
     bool is_off;            /* the method of the setting is switched off */
     bool is_selected;       /* selected by a click or by Tab */

@@ -31,7 +31,7 @@ typedef struct Card {
     bool fits_half_page;    /* may stand in one half on a page */
     bool starts_closed;     /* shows only its title at first */
     bool needs_line_energy; /* draws E along p (cards_need_line_energy) */
-    /* place of a main card: that of the picture, below it, or beside it */
+    /* place of a main card: the picture's, or below or beside the picture */
     enum { PLACE_SWAPPED, PLACE_BELOW, PLACE_BESIDE } main_place;
     bool is_only_in_lecture; /* is hidden outside of the lecture */
     const char *words; /* text (live_values.h); unknown lines are left out */

@@ -143,7 +143,7 @@ int names_count(NameTable names);
 typedef enum ChangeEffect {
     EFFECT_NEW_RUN,   /* takes effect in a new run */
     EFFECT_NEXT_STEP, /* takes effect in the next step */
-    EFFECT_REPEAT     /* takes effect in the present step, made again */
+    EFFECT_REPEAT     /* takes effect in the present step, which is repeated */
 } ChangeEffect;
 
 /* How the window shows an option and changes it by mouse, wheel and keys. */

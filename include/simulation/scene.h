@@ -51,12 +51,12 @@ typedef struct SceneSwitch {
 /* Properties of a scene's body for which there is no option. */
 typedef struct SceneBody {
     double aspect;         /* height over width; 0: a square */
-    double cell_stiffness; /* k_c over k; 0: one half */
+    double cell_stiffness; /* stiffness of cells, k_c, over k; 0: one half */
     double pin_speed; /* speed of pinned nodes to the left and right, sides/s */
     double notch[2]; /* heights between which springs across the middle line are
                         cut, from the centre, divided by the body's height */
     int runs;        /* number of runs with a body each; 0: one run */
-    double height_step; /* height of run r over run r + 1, over the side */
+    double height_step;        /* height of run r above run r + 1, in sides */
     double friction_factor[3]; /* factors on the runs' friction; 0 means 1 */
     /* Returns a further obstacle, at its start; NULL: no obstacle. */
     struct Obstacle (*make_obstacle)(const struct Options *options);

@@ -87,7 +87,7 @@ void simulation_free(Simulation *simulation);
 void options_fill_newton_settings(const Options *options,
                                   NewtonSettings *settings);
 
-/* Creates a run of a scene at x, v; functions Scene.create call it. */
+/* Creates a run of a scene at x, v, for functions Scene.create. */
 Status simulation_start_run(Simulation *simulation, int run,
                             const IntegratorMethod *method, System *system,
                             const double *x, const double *v);

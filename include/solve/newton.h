@@ -106,8 +106,8 @@ typedef struct RoundingChecks {
     double min_mass;         /* kg, the smallest mass */
     double max_curvature;    /* J/m^2, the largest curvature_bound of a term */
     double shortest_spring;  /* m, rest length; 1 without springs */
-    bool is_stiff; /* w max_curvature > 1e5 min_mass, w: P's weight in E:
-                      a decrease of E is checked by a second computation */
+    bool is_stiff; /* w max_curvature > 1e5 min_mass, w being P's weight in E; a
+                      decrease of E is then computed twice */
     bool factor_is_inexact; /* w max_curvature > 1e10 min_mass: the residual
                                is only an estimate */
     double start_energy;    /* J s^2, E at the start; NAN: not needed */

@@ -2,9 +2,9 @@
  *
  * A method (methods.c) reads x and v of t_n and fills new_x and new_v of
  * t_n + h, which become x and v if they are finite.  An implicit method
- * minimises E in each of its stages: set_target writes u_tilde, finish
- * reads the minimiser.  Newton's observer may pause a step, and
- * time_integrator_advance continues it. */
+ * minimises E in its stages: set_target writes u_tilde, set_state reads the
+ * minimiser.  Newton's observer may pause a step, and time_integrator_advance
+ * continues it. */
 #pragma once
 
 #include "solve/newton.h"

@@ -66,7 +66,7 @@ void fill_triangle_element(const EvalPoint *at, int t, Element *element);
 /* A Hessian H by its eigenvectors.  H is on_plus and on_minus times the
  * projections on the spaces of f+ and f- (area_split_edges), plus second
  * (unit K f)(unit K f)^T.  Q is H in the plane of a = f+/|f+| and b = f-/|f-|.
- * The others are across_a in the space of f+ and across_b in that of f-. */
+ * The eigenvectors across_a and across_b are in the spaces of f+ and f-. */
 typedef struct AreaHessian {
     double a[4], b[4], across_a[4], across_b[4]; /* unit vectors */
     double Q[3];                                 /* Q_aa, Q_ab, Q_bb */
@@ -78,7 +78,7 @@ bool area_project_hessian(const double f[4], double unit, double on_plus,
                           double on_minus, double second, Projection projection,
                           AreaHessian *area);
 
-/* Writes the numbers of H.  H [4][4] out. */
+/* Writes the entries of H.  H [4][4] out. */
 void area_assemble_hessian(const AreaHessian *area, double H[4][4]);
 
 /* Writes Hv = H v, computed from eigenvectors.  Where H v is small, as for a

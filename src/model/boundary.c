@@ -151,7 +151,7 @@ static int find_first_edge(const Boundary *boundary, double left)
     return low;
 }
 
-/* Does boundary_next_edge's work by a search through the boxes. */
+/* Finds boundary_next_edge's result by a search through the boxes. */
 static int search_next_edge(const Boundary *boundary, const System *system,
                             int i, int *cursor)
 {

@@ -130,8 +130,8 @@ static int count_slips(const EvalPoint *at)
     return friction_data(at)->contact_count;
 }
 
-/* Element i is contact i; Element.s is the slip y, m.  Returns false
- * outside a step (EvalPoint.u is NULL), where friction has no energy. */
+/* Element i is contact i; Element.s is the slip y (m).  Returns false outside a
+ * step (EvalPoint.u is NULL), where friction has no energy. */
 static bool slip_get_element(const EvalPoint *at, int i, double way,
                              Element *element)
 {

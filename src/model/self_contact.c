@@ -209,7 +209,7 @@ static double pair_energy(const EvalPoint *at, const Element *element)
     return self_contact_data(at)->c * barrier_value(element->s);
 }
 
-/* Returns the force -dW/dd >= 0, N. */
+/* Returns the force -dW/dd >= 0 (N). */
 static double pair_force(const SelfContact *self, double S)
 {
     return -self->c * barrier_slope(S) * 2 * sqrt(S) / self->d_hat;

@@ -170,7 +170,7 @@ void square_mesh_list_springs(const SquareMesh *shape, int *e)
 
 /* Columns begin[0] ... end[0]-1 and rows begin[1] ... end[1]-1 of the nodes. */
 typedef struct GridRegion {
-    int begin[2], end[2]; /* first column and row, past the last */
+    int begin[2], end[2]; /* first column and row; one past the last */
 } GridRegion;
 
 /* Dissection stops at parts of at most this many nodes. */

@@ -10,7 +10,7 @@ enum { LINE_POINTS = 161 };
  * MAX_ABOVE times the depth of the curves; MAX_UPHILL times if p is uphill. */
 static const double AXIS_END = 1.42, PAGE_END = 1.1, MAX_ABOVE = 2.2,
                     MAX_UPHILL = 4;
-static const double WORD_SIZE = 0.88;  /* ems, size of the words above */
+static const double WORD_SIZE = 0.88;  /* ems, size of words above the plot */
 static const double ROW_HEIGHT = 1.25; /* ems, height of a row of words */
 static const double WORDS_WIDTH = 28;  /* ems, room for all words in a row */
 

@@ -35,7 +35,7 @@ static Box draw_card_frame(Paper *paper, Box box, const char *words,
 
 /* The columns of a list. */
 typedef struct ListGrid {
-    int rows, columns; /* rows of each column, number of columns */
+    int rows, columns; /* number of rows in a column, and of columns */
     double row_height; /* pixels, height of a row */
 } ListGrid;
 

@@ -9,7 +9,7 @@
 #include "picture/cards.h"
 
 static const double HIGHLIGHT_RADIUS = 4; /* units of paper around each pixel */
-static const double MOUSE_REACH = 0.5;    /* ems, largest distance of a term */
+static const double MOUSE_REACH = 0.5;    /* ems, from mouse to term at most */
 static const double MIN_COVERAGE = 0.5;   /* least part of a term's colour */
 
 static int get_channel(Colour colour, int k)

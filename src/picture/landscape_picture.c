@@ -433,7 +433,7 @@ void draw_dial_picture(Plot *stage)
     plot_disc(&plot, simulation->run[0].x, 9, COLOUR_TEXT);
     plot_label(&plot, 1, simulation->exhibit.x_tilde, COLOUR_X_TILDE, "{xt}");
     for (int i = points - 11; i > 10 && plot.has_text; i -= 10) {
-        bool last = i == points - 11; /* the label stands above */
+        bool last = i == points - 11; /* the last label stands above its disc */
         double at[2];
         plot_to_pixel(&plot, dial->point[i], at);
         paper_write_on_panel(

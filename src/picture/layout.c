@@ -7,8 +7,8 @@
 
 /* Heights of the zones, ems. */
 static const double STRIP = 3.1, SETTINGS = 2.6, TIME_LINE = 4.9, CHIPS = 3.0;
-/* Least height of a graph on a page: GRAPH_PART of the window's height, and ems
- * for title and axes and for a legend. */
+/* Least height of a graph on a page: GRAPH_PART of the window's height, and in
+ * ems GRAPH_AXES for title and axes and GRAPH_LEGEND for a legend. */
 static const double GRAPH_PART = 0.17, GRAPH_AXES = 4.4, GRAPH_LEGEND = 1.5;
 /* Further sizes, ems. */
 static const double GAP = 0.9;     /* margins of the zones, gap between cards */
@@ -31,7 +31,7 @@ static const double MIN_BESIDE = 17, PICTURE_BELOW = 0.53;
 /* Largest height of a card below the picture over that of the stage; least
  * height of a main card over its min_height. */
 static const double CARD_BELOW = 0.65, MAIN_CARD_GROWTH = 1.3;
-static const double MIN_SHRINK = 0.7; /* open card over the height it needs */
+static const double MIN_SHRINK = 0.7; /* least height over the height needed */
 /* Width of the settings in a low window over that of the window. */
 static const double SETTINGS_PART = 0.75;
 

@@ -46,7 +46,7 @@ static void list_formula_letters(FrameContent *content)
     content->list.row_count = (int)(row - content->list.row);
 }
 
-/* Adds the lines of a text with live values, or those without. */
+/* Adds the lines of a text that have live values or, if not `live`, none. */
 static void add_text_lines(const char *text, bool live, char *out, size_t size)
 {
     while (*text) {

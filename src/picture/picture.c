@@ -91,7 +91,7 @@ Plot stage_create(Paper *paper, const FrameContent *content,
     stage.camera = camera_create(room, bounds, stretched, lens);
     if (list_switches(&stage, switches) == 0)
         return stage;
-    /* The picture moves left of the switches if its size stays. */
+    /* The picture moves left of the switches if the picture keeps its size. */
     box_cut_off(&room, EDGE_RIGHT, (int)(SWITCH_WIDTH * layout->em));
     const Camera left = camera_create(room, bounds, stretched, lens);
     if (room.width > 0 && left.scale[0] >= stage.camera.scale[0])

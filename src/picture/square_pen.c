@@ -12,7 +12,7 @@
 
 enum { MAX_GHOST_SPRINGS = 700 }; /* most springs that a ghost shows */
 
-static const double FLOWN_VIEW = 30; /* sides; a wider view: nodes far apart */
+static const double FLOWN_VIEW = 30; /* sides, width of the widest usual view */
 static const double NODE_RADIUS = 0.1; /* radius of a node over the spacing */
 static const double MIN_FACE = 4;      /* pixels, least side of a face */
 

@@ -15,7 +15,7 @@ static const double LINE_HEIGHT = 1.3; /* ems, height of a label */
  * from its point, and for each place that is tried before this one. */
 static const double COST_INK = 60, COST_OUTSIDE = 30, COST_FAR = 2.5,
                     COST_LATER = 0.04;
-static const double LABEL_MARGIN = 0.2; /* ems, around a label, no ink */
+static const double LABEL_MARGIN = 0.2; /* ems, free of ink around a label */
 /* Ems, from point to label: near and far. */
 static const double LABEL_DISTANCE[] = {0.8, 2};
 static const Colour INK = 190; /* a pixel with a channel below this is ink */

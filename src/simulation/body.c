@@ -535,7 +535,7 @@ double simulation_find_free_fraction(const Simulation *simulation,
 {
     enum { MAX_HALVINGS = 20 };
     static const double MIN_GAP = 0.999;     /* gap to a body over d_hat */
-    static const double MIN_PART = 1.0 / 64; /* least step over the way */
+    static const double MIN_PART = 1.0 / 64; /* least step over the whole way */
     Options moved = *options;
     double *at = options_obstacle_at(&moved, number), free = 0, from[2];
     memcpy(from, at, sizeof from);

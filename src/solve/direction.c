@@ -382,7 +382,7 @@ double negligible_direction_size(const Newton *newton)
 
 /* The projected Hessian is M plus something positive semi-definite, so
  * |p|_M <= |g|_(M^-1): the gradient alone bounds p.  With projection on demand
- * this bounds the p of the clamped Hessian. */
+ * the bound is that of p with the clamped Hessian. */
 bool next_direction_is_negligible(Newton *newton)
 {
     if (newton->settings.projection == PROJECTION_NONE)

@@ -134,5 +134,5 @@ double grid_correct_momentum(const Grid *grid);
 /* Adds a p to x. */
 void grid_add_step(const Grid *grid, double a, const double *p);
 
-/* Computes float_x. */
+/* Computes float_x from x. */
 void grid_narrow_x(const Grid *grid);

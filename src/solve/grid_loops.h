@@ -30,9 +30,8 @@ typedef struct NodeRun {
     ptrdiff_t first, end; /* index of the first node, and past the last one */
     ptrdiff_t next;       /* distance from a node to the next row */
     ptrdiff_t before, after; /* distances to the columns before and after */
-    ptrdiff_t own, below;    /* Grid.spring_shift of the row, and of
-                                the row before */
-    ptrdiff_t mass_shift;    /* mass index of a node minus node index */
+    ptrdiff_t shift, shift_below; /* spring_shift of the row, the row before */
+    ptrdiff_t mass_shift;         /* mass index of a node minus node index */
 } NodeRun;
 
 INLINE NodeRun nodes_in_row(const RowLayout *rows, int i, int odd)
@@ -126,28 +125,30 @@ INLINE void narrow_array(const double *from, double factor, double middle,
  * and the distance to the spring's numbers.  Two springs are in the node's row,
  * six lead to the next rows; four of all start at the node (OWN_SPRINGS). */
 #define ROW_SPRINGS(F, at)                                                     \
-    F(UP, (at).after, (at).own)                                                \
-    F(UP, (at).before, (at).own + (at).before)
+    F(UP, (at).after, (at).shift)                                              \
+    F(UP, (at).before, (at).shift + (at).before)
 #define CROSS_SPRINGS(F, at)                                                   \
-    F(RIGHT, (at).next, (at).own)                                              \
-    F(RIGHT, -(at).next, (at).below - (at).next)                               \
-    F(DIAGONAL, (at).next + (at).after, (at).own)                              \
-    F(DIAGONAL, (at).before - (at).next, (at).below + (at).before - (at).next) \
-    F(ANTIDIAGONAL, (at).next + (at).before, (at).own)                         \
-    F(ANTIDIAGONAL, (at).after - (at).next, (at).below + (at).after - (at).next)
+    F(RIGHT, (at).next, (at).shift)                                            \
+    F(RIGHT, -(at).next, (at).shift_below - (at).next)                         \
+    F(DIAGONAL, (at).next + (at).after, (at).shift)                            \
+    F(DIAGONAL, (at).before - (at).next,                                       \
+      (at).shift_below + (at).before - (at).next)                              \
+    F(ANTIDIAGONAL, (at).next + (at).before, (at).shift)                       \
+    F(ANTIDIAGONAL, (at).after - (at).next,                                    \
+      (at).shift_below + (at).after - (at).next)
 #define ALL_SPRINGS(F, at) ROW_SPRINGS(F, at) CROSS_SPRINGS(F, at)
 #define OWN_SPRINGS(F, at)                                                     \
-    F(RIGHT, (at).next, (at).own)                                              \
-    F(UP, (at).after, (at).own)                                                \
-    F(DIAGONAL, (at).next + (at).after, (at).own)                              \
-    F(ANTIDIAGONAL, (at).next + (at).before, (at).own)
+    F(RIGHT, (at).next, (at).shift)                                            \
+    F(UP, (at).after, (at).shift)                                              \
+    F(DIAGONAL, (at).next + (at).after, (at).shift)                            \
+    F(ANTIDIAGONAL, (at).next + (at).before, (at).shift)
 
 /* Returns the nodes in even or odd columns of row i, with the row's shifts. */
 INLINE NodeRun grid_nodes(const Grid *grid, int i, int odd)
 {
     NodeRun at = nodes_in_row(&grid->rows, i, odd);
-    at.own = grid->spring_shift[i + 1];
-    at.below = grid->spring_shift[i];
+    at.shift = grid->spring_shift[i + 1];
+    at.shift_below = grid->spring_shift[i];
     at.mass_shift = grid->mass_shift[i];
     return at;
 }

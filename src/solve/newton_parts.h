@@ -8,9 +8,9 @@
  * of multigrid their copy on the grid. */
 typedef struct NewtonPhases {
     /* Computes g and p at x, and the residual of p.  Sets newton->passes_test
-     * if the residual, with a bound of its error, is at most the tolerance.
-     * (Newton's phase does not if a turn may follow that turn_free_body cannot
-     * make.)  Returns OK, or why there is no p. */
+     * if the residual, with a bound of its error, is at most the tolerance;
+     * Newton's phase only if no turn may follow that turn_free_body cannot
+     * make.  Returns OK, or why there is no p. */
     Status (*find_direction)(Newton *newton);
     /* Computes alpha, trials, slope and change; Newton's phase also the end of
      * the step in u_trial and x_trial.  Returns OK, or why no step lowers E:
