@@ -385,7 +385,7 @@ static Status press_left_button(Player *player, const MouseTarget *target,
         return obey(player, COMMAND_CARD, index);
     case ZONE_CARD:
         return obey(player, COMMAND_ENLARGE, index);
-    case ZONE_TIME: /* a click without a movement goes to its step, too */
+    case ZONE_TIME: /* a click goes to the step under the mouse, too */
         player->hands.mouse.drag_command = COMMAND_GOTO;
         player->hands.mouse.has_moved = true;
         return continue_drag(player);

@@ -5,8 +5,8 @@
 
 #include "play/window.h"
 
-/* Empty functions: the browser has a title and keys for the full screen. */
 /* clang-format off */
+/* Empty functions: the browser closes, titles and enlarges its own window. */
 EM_JS(bool, page_open, (const int *size, bool full), { return true; });
 EM_JS(void, page_close, (void), {});
 EM_JS(void, page_set_title, (const char *title), {});

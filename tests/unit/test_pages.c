@@ -217,9 +217,10 @@ TEST(questions_have_answers)
 
 /* ---- frames -------------------------------------------------------------- */
 
-/* Findings in a frame: smallest letters, pixels, also of scripts; numbers of
- * dots, of texts that are cut or overlap, and of points outside their axes */
 enum { MAX_WORDS = 512 };
+
+/* Findings in a frame: heights of the smallest letters, pixels; numbers of
+ * ellipses, of cut texts, of overlapping words, of points outside their axes */
 static struct {
     int min_letter, min_code_letter, ellipsis_count, cut_text_count, overlaps;
     int outside_point_count, word_count;

@@ -209,7 +209,7 @@ static void press_key(const char *name)
     send_input(input);
 }
 
-/* Presses the key of a letter by its name in the window. */
+/* Presses the key that types a letter: "Shift+N" for N, "Space" for a blank. */
 static void press_letter(char letter)
 {
     char name[16];
