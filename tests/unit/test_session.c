@@ -760,7 +760,7 @@ static void add_window_to_record(const char *unused)
     add_new_lines(before, recorded_texts);
 }
 
-/* Adds a file to the record, without the run times of the log. */
+/* Adds a file to the record; of the log, l, without the run times. */
 static void add_file_to_record(const char *name)
 {
     char line[1024];
@@ -768,10 +768,11 @@ static void add_file_to_record(const char *name)
     FILE *file = fopen(name, "r");
     assert_non_null(file);
     while (fgets(line, sizeof line, file)) {
-        char *end = line;
-        for (int commas = 0; *end != '\n' && (commas += *end == ',') < 11;)
-            end++;
-        strcpy(end, "\n");
+        char *seconds = line, *next;
+        for (int commas = 0; *seconds && (commas += *seconds == ',') < 11;)
+            seconds++;
+        if (strcmp(name, "l") == 0 && (next = strchr(seconds + 1, ',')))
+            memmove(seconds, next, strlen(next) + 1);
         add_new_lines("", line);
     }
     fclose(file);
