@@ -85,7 +85,8 @@ EMSCRIPTEN_KEEPALIVE const char *web_get_address(void)
                now->page ? now->page->name : now->scene->name);
     for (const OptionRow *row = option_rows; row->name && words[0]; row++) {
         char value[64];
-        if (!row->label || panes > 1 || option_is_equal(row, base, now))
+        if (!row->label || panes > 1 || now->page ||
+            option_is_equal(row, base, now))
             continue;
         option_write(row, now->number[row->slot], value, sizeof value);
         append(words, sizeof words, "\n--%s\n%s", row->name, value);

@@ -2,7 +2,7 @@
 // formulas become MathML.
 //
 //   parse    markup -> parts: {text}, {colour, of}, {up}, {down}, {above, below},
-//            {rows}; `of`, `up`, ... are lists of parts
+//            {rows}, {under} a root; `of`, `up`, ... are lists of parts
 //   row      parts -> MathML; blanks of the text are the spaces around signs
 //   prose    parts -> text, spans, and a <math> for each word with a formula
 //   formula  parts -> a <math> for each side of =, so that lines can break there
@@ -21,7 +21,7 @@ const math = (name, children, attributes) =>
 
 const LETTERS = { x: 'x', xt: 'x\u0303', p: 'p', alpha: 'α' };
 const SLIDES = /(?<![\^_]|frac|matrix|#[\w-]*)\{(x|xt|p|alpha)\}/g;
-const OPENS = /(\^|_|frac|matrix|#[a-z0-9-]*)\{/;
+const OPENS = /(\^|_|frac|matrix|#[a-z0-9-]*)\{|√\(/;
 
 // Returns the index of a word outside of all braces, or the length of the text.
 const find = (text, word, from = 0) => {
@@ -43,9 +43,10 @@ const parse = (text) => {
   const parts = found.index ? [{ text: text.slice(0, found.index) }] : [];
   const from = found.index + found[0].length;
   const word = found[1];
-  const end = find(text, '}', from);
+  const end = find(text, word ? '}' : ')', from);
   const inside = text.slice(from, end);
-  if (word === '^') parts.push({ up: parse(inside) });
+  if (!word) parts.push({ under: parse(inside) });
+  else if (word === '^') parts.push({ up: parse(inside) });
   else if (word === '_') parts.push({ down: parse(inside) });
   else if (word === 'frac') {
     const [above, below = ''] = split(inside, ' over ');
@@ -61,7 +62,7 @@ const parse = (text) => {
 
 const TOKEN = /[ \u00a0]+|\d+(?:[.,]\d+)*|(?:[A-Za-zα-ωΑ-Ω][\u0300-\u036f]*|_)+|./gsu;
 const LETTER = /[A-Za-zα-ωΑ-Ω][\u0300-\u036f]*/gu;
-const RAISED = { '²': '2', '³': '3', ᵀ: 'T', ⁿ: 'n', '⁻': '−', '¹': '1' };
+const RAISED = { '²': '2', '³': '3', ᵀ: 'T', ⁿ: 'n', '⁻': '−', '⁺': '+', '¹': '1' };
 const SHORT = /^(kg|mm|ms|ln|if|of|so|at|in|to|by|up|on|or|no|as|is|it)$/; // words
 const UNIT = /^(m|N|s|J|kg|mm|ms)$/;
 const PLAIN = /[∇∂∞½¼°…⋯⋮⋱%]/; // signs without space around
@@ -90,7 +91,7 @@ const hang = (out, up, body) => {
 const spellOut = (part) => {
   const raise = (signs) => `^{${signs.replace(/./g, (sign) => RAISED[sign])}}`;
   const letters = part.text?.replace(/[\u00c0-\u017f]/g, (letter) => letter.normalize('NFD'));
-  return letters ? parse(letters.replace(/[²³ᵀⁿ⁻¹]+/g, raise)) : part;
+  return letters ? parse(letters.replace(/[²³ᵀⁿ⁻⁺¹]+/g, raise)) : part;
 };
 
 const row = (parts) => {
@@ -115,7 +116,7 @@ const row = (parts) => {
     else {
       // "hω" is a product, "kg" and "tanh" are words; "2 m" and "J/m" have units.
       const letters = text.match(LETTER);
-      const counts = blank && !sign && /^(mn|msup|mo)$/.test(last?.localName);
+      const counts = blank && !sign && /^(mn|msup|mo|mtable)$/.test(last?.localName);
       if (text !== '/')
         unit = UNIT.test(text) && (unit ? blank > 0 || last?.textContent === '/' : counts);
       if (unit && text !== '/') return upright();
@@ -133,11 +134,12 @@ const row = (parts) => {
       sign = !CLOSE.test(text) || /[,;:]/.test(text);
     }
   };
-  for (const { text, up, down, above, below, rows, of, colour } of parts.flatMap(spellOut)) {
+  for (const { text, up, down, above, below, rows, under, of, colour } of parts.flatMap(spellOut)) {
     if (text) for (const [one] of text.matchAll(TOKEN)) token(one);
     else if (up) hang(out, true, math('mrow', row(up)));
     else if (down) hang(out, false, math('mrow', row(down)));
     else if (above) put(math('mfrac', [math('mrow', row(above)), math('mrow', row(below))]));
+    else if (under) put(math('msqrt', [math('mrow', row(under))]));
     else if (rows) {
       const line = (cells) => cells.map((cell) => math('mtd', row(cell)));
       const lines = rows.map((cells) => math('mtr', line(cells)));
@@ -155,8 +157,7 @@ const coloured = (element, name) => {
 };
 const isLetter = ({ colour, of }) =>
   colour && of.length === 1 && /^.[\u0300-\u036f]?$/u.test(of[0].text || '');
-const isSet = (part) =>
-  part.up || part.down || part.above || part.rows || isLetter(part) || /[|‖∇∂√]/.test(part.text);
+const isSet = (part) => !(part.text || part.of) || isLetter(part) || /[|‖∇∂√]/.test(part.text);
 
 const prose = (parts) => {
   const out = [];
