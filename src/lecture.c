@@ -369,7 +369,7 @@ static void explicit_euler(Solid *solid, double h, bool symplectic)
 
 /* ==== Drawing (simulator.py) ============================================== */
 #define FOLDER "lecture_pictures"
-enum { PIXELS = 600, PICTURES = 100, HEAVY = 1 << 20 };
+enum { PIXELS = 600, MAX_PICTURES = 100, HEAVY_FACTOR = 1 << 20 };
 typedef struct Screen {
     SDL_Surface *picture; /* drawn on if there is no window, or NULL */
     SDL_Renderer *renderer;
@@ -441,7 +441,7 @@ static Screen open_screen(const Solid *solid)
     SDL_SetWindowTitle(
         window, "lecture: pull at a node; Space pauses, R restarts, Esc ends");
     if (!window) {
-        printf("no screen: %d pictures go to %s/\n", PICTURES, FOLDER);
+        printf("no screen: %d pictures go to %s/\n", MAX_PICTURES, FOLDER);
         mkdir(FOLDER, 0777); /* a failure shows when a picture is saved */
         screen.picture = SDL_CreateRGBSurfaceWithFormat(0, PIXELS, PIXELS, 24,
                                                         SDL_PIXELFORMAT_RGB24);
@@ -473,12 +473,12 @@ static bool handle_event(Screen *screen, Solid *solid, const SDL_Event *event)
             if (distance(solid->x[i], screen->mouse) <
                 distance(solid->x[screen->pulled], screen->mouse))
                 screen->pulled = i;
-        solid->m[screen->pulled] *= HEAVY;
+        solid->m[screen->pulled] *= HEAVY_FACTOR;
     }
     bool leaves = event->type == SDL_WINDOWEVENT &&
                   event->window.event == SDL_WINDOWEVENT_FOCUS_LOST;
     if ((leaves || event->type == SDL_MOUSEBUTTONUP) && screen->pulled >= 0) {
-        solid->m[screen->pulled] /= HEAVY;
+        solid->m[screen->pulled] /= HEAVY_FACTOR;
         screen->pulled = -1;
     }
     return event->type != SDL_QUIT && key != SDLK_ESCAPE;
@@ -495,7 +495,7 @@ static bool show(Screen *screen, Solid *solid, double h, int step)
             remove(name); /* the picture is incomplete */
             FAIL(1, "cannot write %s: %s\n", name, SDL_GetError());
         }
-        return step < PICTURES;
+        return step < MAX_PICTURES;
     }
     SDL_Event event; /* 40 ms a step: real time would be too fast */
     Uint32 end = SDL_GetTicks() + (step == 0 ? 1000 : 40);

@@ -59,7 +59,7 @@ void grid_lay_out(int segments, ArrayMemory *memory, Grid *grid)
                           &grid->from_target};
     for (int i = 0; i < 4; i++)
         *vectors[i] = memory_take_piece(memory, 2 * plane);
-    for (int kind = 0; kind < KINDS; kind++) {
+    for (int kind = 0; kind < SPRING_KINDS; kind++) {
         grid->c[kind] = memory_take_piece(memory, plane);
         grid->l2[kind] = memory_take_piece(memory, plane);
         grid->float_c[kind] = memory_take_piece(memory, plane / 2);
@@ -102,7 +102,7 @@ void grid_copy_system(Grid *grid, const Iterate *at, const double *m)
     const EvalPoint point = make_eval_point(system, at->E.x_n, at->u, at->x);
     const RowLayout *rows = &grid->rows;
     double *const masses[] = {grid->m, grid->inverse_m};
-    double unit, *springs[2 * KINDS];
+    double unit, *springs[2 * SPRING_KINDS];
     grid->min_mass = INFINITY;
     grid->max_stiffness = 0;
     for (int k = 0; k < rows->nodes * rows->nodes; k++)
@@ -118,9 +118,9 @@ void grid_copy_system(Grid *grid, const Iterate *at, const double *m)
             grid->float_m[q] = system->pinned[node] ? 0 : (float)grid->m[q];
         }
     remove_equal_rows(rows, masses, 2, grid->mass_shift);
-    for (int kind = 0; kind < KINDS; kind++) {
+    for (int kind = 0; kind < SPRING_KINDS; kind++) {
         springs[kind] = grid->c[kind];
-        springs[KINDS + kind] = grid->l2[kind];
+        springs[SPRING_KINDS + kind] = grid->l2[kind];
     }
     grid->length_unit = power_of_two_scale(sqrt(point.l2[system->springs - 1]));
     unit = grid->length_unit * grid->length_unit;
@@ -138,8 +138,8 @@ void grid_copy_system(Grid *grid, const Iterate *at, const double *m)
         grid->c[kind][q] = grid->mass_unit / unit * c;
         grid->l2[kind][q] = unit * point.l2[s];
     }
-    remove_equal_rows(rows, springs, 2 * KINDS, grid->spring_shift + 1);
-    for (int kind = 0; kind < KINDS; kind++)
+    remove_equal_rows(rows, springs, 2 * SPRING_KINDS, grid->spring_shift + 1);
+    for (int kind = 0; kind < SPRING_KINDS; kind++)
         for (int q = 0; q < rows->plane; q++) {
             double c = grid->c[kind][q], l2 = grid->l2[kind][q];
             grid->max_stiffness = fmax(grid->max_stiffness, 8 * c * l2);

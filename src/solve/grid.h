@@ -26,7 +26,7 @@
 
 /* Kinds of springs, which lead from node (i, j) to (i+1, j), (i, j+1),
  * (i+1, j+1), (i+1, j-1). */
-enum { RIGHT, UP, DIAGONAL, ANTIDIAGONAL, KINDS };
+enum { RIGHT, UP, DIAGONAL, ANTIDIAGONAL, SPRING_KINDS };
 
 /* Nodes that a loop handles at once. */
 enum { LANES = 8 };
@@ -60,15 +60,15 @@ typedef struct Grid {
      * Node q in row i has the mass m[q + mass_shift[i]]; the springs that start
      * there have the index q + spring_shift[i + 1]; [0] is for row -1. */
     int *mass_shift, *spring_shift; /* [nodes + 1] added to q, by row */
-    double *c[KINDS];  /* [plane] 2 w k/l2, w: weight of P in E; 0: no spring */
-    double *l2[KINDS]; /* [plane] squared rest length */
+    double *c[SPRING_KINDS]; /* [plane] 2 w k/l2, w weight of P; 0: no spring */
+    double *l2[SPRING_KINDS]; /* [plane] squared rest length */
     double *m, *inverse_m; /* [plane] mass and 1/mass; inverse_m is 0 at pins */
     double min_mass;       /* smallest mass of a node that moves */
     double max_stiffness;  /* largest 8 c l2 of a spring, bound for a node */
-    float *float_c[KINDS]; /* [plane] c in single precision */
-    float *float_l2[KINDS]; /* [plane] l2 in single precision */
-    float *float_m;         /* [plane] mass of each node; 0 at pins */
-    float *float_x;         /* [2 planes] x relative to the middle node */
+    float *float_c[SPRING_KINDS];  /* [plane] c in single precision */
+    float *float_l2[SPRING_KINDS]; /* [plane] l2 in single precision */
+    float *float_m;                /* [plane] mass of each node; 0 at pins */
+    float *float_x; /* [2 planes] x relative to the middle node */
     double *x, *x_tilde, *u_tilde; /* [2 planes] u_tilde is x_tilde - x_n */
     double *from_target; /* [2 planes] x - x_tilde = u - u_tilde; 0 at pins */
 } Grid;

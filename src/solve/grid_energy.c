@@ -23,7 +23,7 @@ FAST double grid_gradient(const Grid *grid, double *g)
             Doubles fx = mass * DOUBLES(ax, q), fy = mass * DOUBLES(ay, q);
 #define ADD(kind, to, numbers)                                                 \
     {                                                                          \
-        Spring s = evaluate_grid_spring(&local, kind, q, to, numbers);         \
+        GridSpring s = evaluate_grid_spring(&local, kind, q, to, numbers);     \
         fx += s.f * s.dx;                                                      \
         fy += s.f * s.dy;                                                      \
         IN_ORDER(fx, fy);                                                      \
@@ -61,7 +61,7 @@ FAST double grid_linear_residual(const Grid *grid, const double *g,
             Doubles fx = mass * hx, fy = mass * hy;
 #define ADD(kind, to, numbers)                                                 \
     {                                                                          \
-        Spring s = evaluate_grid_spring(&local, kind, q, to, numbers);         \
+        GridSpring s = evaluate_grid_spring(&local, kind, q, to, numbers);     \
         P_DIFFERENCE(to);                                                      \
         CLAMPED_TENSOR(s.s, s.d2 + 1e-300, iso, along);                        \
         along *= s.dx * ux + s.dy * uy;                                        \
@@ -98,7 +98,7 @@ FAST void grid_energy_quartic(const Grid *grid, const double *p,
             Doubles mass = DOUBLES(local.m, q + at.mass_shift);
 #define ADD(kind, to, numbers)                                                 \
     {                                                                          \
-        Spring s = evaluate_grid_spring(&local, kind, q, to, numbers);         \
+        GridSpring s = evaluate_grid_spring(&local, kind, q, to, numbers);     \
         P_DIFFERENCE(to);                                                      \
         spring_line_polynomial(s, ux, uy, &q0, &q1, &q2, &q3);                 \
         IN_ORDER(q0, q1);                                                      \

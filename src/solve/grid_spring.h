@@ -9,23 +9,23 @@
 
 /* The numbers of a spring in a loop: d = x_i - x_j, d2 = |d|^2, s = d2 - l^2,
  * its force factor c, and f = c s. */
-typedef struct Spring {
+typedef struct GridSpring {
     Doubles dx, dy, d2, s, c, f;
-} Spring;
+} GridSpring;
 
 /* Evaluates the spring from node q to q + to, with its numbers at q + at. */
-INLINE Spring evaluate_grid_spring(const Grid *grid, int kind, ptrdiff_t q,
-                                   ptrdiff_t to, ptrdiff_t at)
+INLINE GridSpring evaluate_grid_spring(const Grid *grid, int kind, ptrdiff_t q,
+                                       ptrdiff_t to, ptrdiff_t at)
 {
     const double *x = grid->x, *y = x + grid->rows.plane;
     Doubles dx = DOUBLES(x, q) - DOUBLES(x, q + to);
     Doubles dy = DOUBLES(y, q) - DOUBLES(y, q + to);
     Doubles d2 = dx * dx + dy * dy, c = DOUBLES(grid->c[kind], q + at);
     Doubles s = d2 - DOUBLES(grid->l2[kind], q + at);
-    return (Spring){dx, dy, d2, s, c, c * s};
+    return (GridSpring){dx, dy, d2, s, c, c * s};
 }
 
-/* A Spring in single precision, from Grid.float_x. */
+/* A GridSpring in single precision, from Grid.float_x. */
 typedef struct FloatSpring {
     Floats dx, dy, d2, s, c;
 } FloatSpring;
@@ -54,7 +54,7 @@ INLINE FloatSpring evaluate_float_spring(const Grid *grid, int kind,
 /* Adds a spring to the coefficients of the change of E along p:
  * E(x + a p) - E(x) = q0 a + q1 a^2 + q2 a^3 + 1/4 q3 a^4.
  *   ux, uy  difference p_i - p_j of the spring's ends */
-INLINE void spring_line_polynomial(Spring s, Doubles ux, Doubles uy,
+INLINE void spring_line_polynomial(GridSpring s, Doubles ux, Doubles uy,
                                    Doubles *q0, Doubles *q1, Doubles *q2,
                                    Doubles *q3)
 {

@@ -62,11 +62,11 @@ INLINE float find_lowering_step(const float q[4], float *lower)
     return go;
 }
 
-/* Sums over a node's springs (see Spring): gradient of E (GX, GY), Hessian, not
+/* Sums over a node's springs (GridSpring): gradient of E (GX, GY), Hessian, not
  * clamped (HXX, HXY, HYY), c d (CDX, CDY), c (SUM_C), f below 0 (NEGATIVE). */
-enum { GX, GY, HXX, HXY, HYY, CDX, CDY, SUM_C, NEGATIVE, SUMS };
+enum { GX, GY, HXX, HXY, HYY, CDX, CDY, SUM_C, NEGATIVE, SUM_COUNT };
 
-typedef float NodeSums[SUMS][LANES];
+typedef float NodeSums[SUM_COUNT][LANES];
 
 /* Computes the sums of LANES nodes of a row, in a loop of its own, since steps
  * that do not wait for each other are faster.

@@ -19,7 +19,7 @@ void v_cycle_lay_out(const Grid *grid, ArrayMemory *memory, VCycle *cycle)
         level->rows = lay_out_rows(nodes);
         nodes = nodes / 2 + 1;
         size_t bytes = (size_t)level->rows.plane * sizeof(float);
-        for (int i = 0; i < 3 * KINDS; i++)
+        for (int i = 0; i < 3 * SPRING_KINDS; i++)
             level->K[i / 3][i % 3] = memory_take_piece(memory, bytes);
         for (int i = 0; i < 3; i++)
             level->D[i] = memory_take_piece(memory, bytes);

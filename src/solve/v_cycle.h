@@ -32,7 +32,7 @@ typedef struct Level {
     struct Level *coarse; /* next coarser level; NULL: there is none */
     /* [plane] blocks of A that join two nodes, by kind of spring: parts xx, xy,
      * yy, stored at the spring's first node */
-    float *K[KINDS][3];
+    float *K[SPRING_KINDS][3];
     float *D[3]; /* [plane] inverse of the node's block of A: xx, xy, yy; 0 at
                     held nodes and outside */
     float *m;    /* [plane] mass; 0 at held nodes */
