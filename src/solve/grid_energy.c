@@ -24,8 +24,9 @@ FAST double grid_gradient(const Grid *grid, double *g)
 #define ADD(kind, to, numbers)                                                 \
     {                                                                          \
         GridSpring s = evaluate_grid_spring(&local, kind, q, to, numbers);     \
-        fx += s.f * s.dx;                                                      \
-        fy += s.f * s.dy;                                                      \
+        Doubles f = s.c * s.s;                                                 \
+        fx += f * s.dx;                                                        \
+        fy += f * s.dy;                                                        \
         IN_ORDER(fx, fy);                                                      \
     }
             ALL_SPRINGS(ADD, at)
@@ -63,10 +64,7 @@ FAST double grid_linear_residual(const Grid *grid, const double *g,
     {                                                                          \
         GridSpring s = evaluate_grid_spring(&local, kind, q, to, numbers);     \
         P_DIFFERENCE(to);                                                      \
-        CLAMPED_TENSOR(s.s, s.d2 + 1e-300, iso, along);                        \
-        along *= s.dx * ux + s.dy * uy;                                        \
-        fx += s.c * (iso * ux + along * s.dx);                                 \
-        fy += s.c * (iso * uy + along * s.dy);                                 \
+        add_hessian_product(s, ux, uy, &fx, &fy);                              \
         IN_ORDER(fx, fy);                                                      \
     }
             ALL_SPRINGS(ADD, at)

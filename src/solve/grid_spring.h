@@ -5,51 +5,61 @@
  * c s d, the Hessian c (iso I + along d d^T) with iso = s and along = 2. */
 #pragma once
 
+#include <stdbool.h>
+
 #include "solve/grid_loops.h"
 
 /* The numbers of a spring in a loop: d = x_i - x_j, d2 = |d|^2, s = d2 - l^2,
- * its force factor c, and f = c s. */
-typedef struct GridSpring {
-    Doubles dx, dy, d2, s, c, f;
-} GridSpring;
+ * and its force factor c.  The function evaluates the spring from node q to q +
+ * to, with its numbers at q + at, in double or in single precision. */
+#define DEFINE_SPRING(Type, evaluate, Numbers, AT, of_x, of_c, of_l2)          \
+    typedef struct Type {                                                      \
+        Numbers dx, dy, d2, s, c;                                              \
+    } Type;                                                                    \
+    INLINE Type evaluate(const Grid *grid, int kind, ptrdiff_t q,              \
+                         ptrdiff_t to, ptrdiff_t at)                           \
+    {                                                                          \
+        const __typeof__(*grid->of_x) *x = grid->of_x;                         \
+        const __typeof__(*x) *y = x + grid->rows.plane;                        \
+        Numbers dx = AT(x, q) - AT(x, q + to), dy = AT(y, q) - AT(y, q + to);  \
+        Numbers d2 = dx * dx + dy * dy, c = AT(grid->of_c[kind], q + at);      \
+        return (Type){dx, dy, d2, d2 - AT(grid->of_l2[kind], q + at), c};      \
+    }
+DEFINE_SPRING(GridSpring, evaluate_grid_spring, Doubles, DOUBLES, x, c, l2)
+DEFINE_SPRING(FloatSpring, evaluate_float_spring, Floats, FLOATS, float_x,
+              float_c, float_l2)
 
-/* Evaluates the spring from node q to q + to, with its numbers at q + at. */
-INLINE GridSpring evaluate_grid_spring(const Grid *grid, int kind, ptrdiff_t q,
-                                       ptrdiff_t to, ptrdiff_t at)
+/* Declares iso and along of a spring's tensor.  The eigenvalue of the Hessian
+ * across d is c iso, the one along d is c (iso + along |d|^2).  In a clamped
+ * tensor negative eigenvalues are 0.  1e-35 keeps |d|^2 above 0. */
+#define SPRING_TENSOR(spring, is_clamped, iso, along)                          \
+    __typeof__((spring).s) iso = (spring).s, along = {0};                      \
+    along += 2;                                                                \
+    if (is_clamped) {                                                          \
+        iso = WHERE(iso > 0, iso);                                             \
+        along = 2 + ((spring).s - iso) / ((spring).d2 + 1e-35f);               \
+        along = WHERE(along > 0, along);                                       \
+    }
+
+/* Adds the product of the clamped Hessian with u to h.
+ *   ux, uy  difference p_i - p_j of the spring's ends */
+INLINE void add_hessian_product(GridSpring s, Doubles ux, Doubles uy,
+                                Doubles *hx, Doubles *hy)
 {
-    const double *x = grid->x, *y = x + grid->rows.plane;
-    Doubles dx = DOUBLES(x, q) - DOUBLES(x, q + to);
-    Doubles dy = DOUBLES(y, q) - DOUBLES(y, q + to);
-    Doubles d2 = dx * dx + dy * dy, c = DOUBLES(grid->c[kind], q + at);
-    Doubles s = d2 - DOUBLES(grid->l2[kind], q + at);
-    return (GridSpring){dx, dy, d2, s, c, c * s};
+    SPRING_TENSOR(s, true, iso, along);
+    along *= s.dx * ux + s.dy * uy;
+    *hx += s.c * (iso * ux + along * s.dx);
+    *hy += s.c * (iso * uy + along * s.dy);
 }
 
-/* A GridSpring in single precision, from Grid.float_x. */
-typedef struct FloatSpring {
-    Floats dx, dy, d2, s, c;
-} FloatSpring;
-
-INLINE FloatSpring evaluate_float_spring(const Grid *grid, int kind,
-                                         ptrdiff_t q, ptrdiff_t to,
-                                         ptrdiff_t at)
+/* Writes the Hessian's parts xx, xy, yy. */
+INLINE void float_spring_hessian(FloatSpring s, bool is_clamped, Floats H[3])
 {
-    const float *x = grid->float_x, *y = x + grid->rows.plane;
-    Floats dx = FLOATS(x, q) - FLOATS(x, q + to);
-    Floats dy = FLOATS(y, q) - FLOATS(y, q + to);
-    Floats d2 = dx * dx + dy * dy, c = FLOATS(grid->float_c[kind], q + at);
-    return (FloatSpring){dx, dy, d2, d2 - FLOATS(grid->float_l2[kind], q + at),
-                         c};
+    SPRING_TENSOR(s, is_clamped, iso, along);
+    H[0] = s.c * (iso + along * s.dx * s.dx);
+    H[1] = s.c * along * s.dx * s.dy;
+    H[2] = s.c * (iso + along * s.dy * s.dy);
 }
-
-/* Declares iso and along of the clamped Hessian c (iso I + along d d^T), in
- * which negative eigenvalues are 0.  The eigenvalue across d is c iso, the one
- * along d is c (iso + along |d|^2).
- *   d2  |d|^2 plus a tiny number, so that it is above 0 */
-#define CLAMPED_TENSOR(s, d2, iso, along)                                      \
-    __typeof__(d2) iso = WHERE((s) > 0, s);                                    \
-    __typeof__(d2) along = 2 + ((s)-iso) / (d2);                               \
-    along = WHERE(along > 0, along)
 
 /* Adds a spring to the coefficients of the change of E along p:
  * E(x + a p) - E(x) = q0 a + q1 a^2 + q2 a^3 + 1/4 q3 a^4.
@@ -64,4 +74,80 @@ INLINE void spring_line_polynomial(GridSpring s, Doubles ux, Doubles uy,
     *q1 += cB * B + 0.5 * s.s * cC;
     *q2 += cB * C;
     *q3 += cC * C;
+}
+
+/* ---- a node that moves alone ---- */
+
+/* Sums over a node's springs: gradient of E (GX, GY), Hessian, not clamped
+ * (HXX, HXY, HYY), c d (CDX, CDY), c (SUM_C), f = c s below 0 (NEGATIVE).  The
+ * Hessian is the mass and all f (SUM_F) times I, plus 2 c d d^T. */
+enum {
+    GX,
+    GY,
+    HXX,
+    HXY,
+    HYY,
+    CDX,
+    CDY,
+    SUM_C,
+    NEGATIVE,
+    SUM_COUNT,
+    SUM_F = SUM_COUNT
+};
+
+typedef float NodeSums[SUM_COUNT][LANES];
+
+/* Adds a spring to the sums.
+ *   w  in, way of the ends apart since the start, d = d0 + w: the force has
+ *      changed by c (s d - s0 d0) = c (s w + (s - s0) d0); NULL: it is c s d */
+INLINE void add_spring(FloatSpring s, const Floats w[2],
+                       Floats sum[SUM_COUNT + 1])
+{
+    Floats wx = w ? w[0] : s.dx, wy = w ? w[1] : s.dy;
+    if (w) {
+        Floats more = (2 * s.dx + wx) * wx + (2 * s.dy + wy) * wy;
+        sum[GX] += s.c * more * s.dx;
+        sum[GY] += s.c * more * s.dy;
+        s.dx += wx;
+        s.dy += wy;
+        s.s += more;
+    }
+    Floats fx = s.c * s.dx, fy = s.c * s.dy, f = s.c * s.s;
+    sum[GX] += f * wx;
+    sum[GY] += f * wy;
+    IN_ORDER(sum[GX], sum[GY]);
+    sum[SUM_F] += f;
+    sum[NEGATIVE] += WHERE(f < 0, f);
+    IN_ORDER(sum[SUM_F], sum[NEGATIVE]);
+    sum[HXX] += fx * s.dx;
+    sum[HXY] += fx * s.dy;
+    sum[CDX] += fx;
+    IN_ORDER(sum[HXX], sum[HXY]);
+    sum[HYY] += fy * s.dy;
+    sum[CDY] += fy;
+    IN_ORDER(sum[HYY], sum[CDY]);
+    sum[SUM_C] += s.c;
+    IN_ORDER(sum[SUM_C], sum[CDX]);
+}
+
+INLINE void store_spring_sums(Floats sum[SUM_COUNT + 1], int e, NodeSums of)
+{
+    sum[HXX] = sum[SUM_F] + 2 * sum[HXX];
+    sum[HXY] = 2 * sum[HXY];
+    sum[HYY] = sum[SUM_F] + 2 * sum[HYY];
+    for (int s = 0; s < SUM_COUNT; s++)
+        FLOATS(of[s], e) = sum[s];
+}
+
+/* Writes the coefficients q of the change of E, q[0] a + ... + q[3] a^4, when
+ * the node moves by a p. */
+INLINE void node_line_polynomial(const NodeSums of, int e, float px, float py,
+                                 float q[4])
+{
+    float A = of[HXX][e], B = of[HXY][e], C = of[HYY][e],
+          p2 = px * px + py * py;
+    q[0] = of[GX][e] * px + of[GY][e] * py;
+    q[1] = 0.5f * (A * px * px + 2 * B * px * py + C * py * py);
+    q[2] = p2 * (of[CDX][e] * px + of[CDY][e] * py);
+    q[3] = 0.25f * of[SUM_C][e] * p2 * p2;
 }

@@ -62,16 +62,9 @@ INLINE float find_lowering_step(const float q[4], float *lower)
     return go;
 }
 
-/* Sums over a node's springs (GridSpring): gradient of E (GX, GY), Hessian, not
- * clamped (HXX, HXY, HYY), c d (CDX, CDY), c (SUM_C), f below 0 (NEGATIVE). */
-enum { GX, GY, HXX, HXY, HYY, CDX, CDY, SUM_C, NEGATIVE, SUM_COUNT };
-
-typedef float NodeSums[SUM_COUNT][LANES];
-
 /* Computes the sums of LANES nodes of a row, in a loop of its own, since steps
  * that do not wait for each other are faster.
- *   has_tiny_moves  Tiles.has_tiny_moves: a spring's force has changed since
- * the start by c (s d - s0 d0) = c (s w + (s - s0) d0), d = d0 + w */
+ *   has_tiny_moves  Tiles.has_tiny_moves */
 INLINE void compute_spring_sums(const Tiles *tiles, NodeRun at,
                                 bool has_tiny_moves, NodeSums of)
 {
@@ -80,67 +73,22 @@ INLINE void compute_spring_sums(const Tiles *tiles, NodeRun at,
     const float *const ux = tiles->u, *const uy = ux + plane;
     EACH_FLOATS (NEXT(at, LANES)) {
         const ptrdiff_t q = at.first + e;
-        Floats mass = FLOATS(grid->float_m, q), iso = mass;
-        Floats gx = FLOATS(tiles->start_g, q) + mass * FLOATS(ux, q);
-        Floats gy = FLOATS(tiles->start_g, q + plane) + mass * FLOATS(uy, q);
-        Floats xx = {0}, xy = {0}, yy = {0};
-        Floats cx = {0}, cy = {0}, c = {0}, negative = {0};
+        Floats mass = FLOATS(grid->float_m, q);
+        Floats sum[SUM_COUNT + 1] = {
+            [GX] = FLOATS(tiles->start_g, q) + mass * FLOATS(ux, q),
+            [GY] = FLOATS(tiles->start_g, q + plane) + mass * FLOATS(uy, q),
+            [SUM_F] = mass};
 #define ADD(kind, to, numbers)                                                 \
     {                                                                          \
         FloatSpring s = evaluate_float_spring(grid, kind, q, to, numbers);     \
-        Floats wx = s.dx, wy = s.dy;                                           \
-        if (has_tiny_moves) {                                                  \
-            wx = FLOATS(ux, q) - FLOATS(ux, q + (to));                         \
-            wy = FLOATS(uy, q) - FLOATS(uy, q + (to));                         \
-            Floats more = (2 * s.dx + wx) * wx + (2 * s.dy + wy) * wy;         \
-            gx += s.c * more * s.dx;                                           \
-            gy += s.c * more * s.dy;                                           \
-            s.dx += wx;                                                        \
-            s.dy += wy;                                                        \
-            s.s += more;                                                       \
-        }                                                                      \
-        Floats fx = s.c * s.dx, fy = s.c * s.dy, f = s.c * s.s;                \
-        gx += f * wx;                                                          \
-        gy += f * wy;                                                          \
-        IN_ORDER(gx, gy);                                                      \
-        iso += f;                                                              \
-        negative += WHERE(f < 0, f);                                           \
-        IN_ORDER(iso, negative);                                               \
-        xx += fx * s.dx;                                                       \
-        xy += fx * s.dy;                                                       \
-        cx += fx;                                                              \
-        IN_ORDER(xx, xy);                                                      \
-        yy += fy * s.dy;                                                       \
-        cy += fy;                                                              \
-        IN_ORDER(yy, cy);                                                      \
-        c += s.c;                                                              \
-        IN_ORDER(c, cx);                                                       \
+        const Floats w[2] = {FLOATS(ux, q) - FLOATS(ux, q + (to)),             \
+                             FLOATS(uy, q) - FLOATS(uy, q + (to))};            \
+        add_spring(s, has_tiny_moves ? w : NULL, sum);                         \
     }
         ALL_SPRINGS(ADD, at)
 #undef ADD
-        FLOATS(of[GX], e) = gx;
-        FLOATS(of[GY], e) = gy;
-        FLOATS(of[HXX], e) = iso + 2 * xx;
-        FLOATS(of[HXY], e) = 2 * xy;
-        FLOATS(of[HYY], e) = iso + 2 * yy;
-        FLOATS(of[CDX], e) = cx;
-        FLOATS(of[CDY], e) = cy;
-        FLOATS(of[SUM_C], e) = c;
-        FLOATS(of[NEGATIVE], e) = negative;
+        store_spring_sums(sum, e, of);
     }
-}
-
-/* Writes the coefficients q of the change of E, q[0] a + ... + q[3] a^4, when
- * the node moves by a p. */
-INLINE void node_line_polynomial(const NodeSums of, int e, float px, float py,
-                                 float q[4])
-{
-    float A = of[HXX][e], B = of[HXY][e], C = of[HYY][e],
-          p2 = px * px + py * py;
-    q[0] = of[GX][e] * px + of[GY][e] * py;
-    q[1] = 0.5f * (A * px * px + 2 * B * px * py + C * py * py);
-    q[2] = p2 * (of[CDX][e] * px + of[CDY][e] * py);
-    q[3] = 0.25f * of[SUM_C][e] * p2 * p2;
 }
 
 /* Moves LANES nodes of a row that share no spring; adds E's changes to sum. */

@@ -56,8 +56,7 @@ INLINE int rows_to_coarsen(const Level *level)
 
 /* ---- tensors ---- */
 
-/* Computes the tensors of the springs that start in row i.  A clamped Hessian
- * has 0 in place of negative eigenvalues, as that across a short spring. */
+/* Computes the tensors of the springs that start in row i. */
 INLINE void compute_tensor_row(const VCycle *cycle, int i, bool is_clamped)
 {
     const Grid grid = *cycle->grid;
@@ -69,14 +68,11 @@ INLINE void compute_tensor_row(const VCycle *cycle, int i, bool is_clamped)
     EACH_FLOATS (NEXT(at, LANES)) {                                            \
         const ptrdiff_t q = at.first + e;                                      \
         FloatSpring s = evaluate_float_spring(&grid, kind, q, to, numbers);    \
-        CLAMPED_TENSOR(s.s, s.d2 + 1e-35f, iso, along);                        \
-        if (!is_clamped) {                                                     \
-            along = (Floats){0} + 2;                                           \
-            iso = s.s;                                                         \
-        }                                                                      \
-        FLOATS(level.K[kind][0], q) = s.c * (iso + along * s.dx * s.dx);       \
-        FLOATS(level.K[kind][1], q) = s.c * along * s.dx * s.dy;               \
-        FLOATS(level.K[kind][2], q) = s.c * (iso + along * s.dy * s.dy);       \
+        Floats H[3];                                                           \
+        float_spring_hessian(s, is_clamped, H);                                \
+        FLOATS(level.K[kind][0], q) = H[0];                                    \
+        FLOATS(level.K[kind][1], q) = H[1];                                    \
+        FLOATS(level.K[kind][2], q) = H[2];                                    \
     }
             OWN_SPRINGS(ADD, at)
 #undef ADD
