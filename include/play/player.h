@@ -4,11 +4,11 @@
  *   keys, mouse, chips, scripts, pages -> Command    (input.c, command.h)
  *   player_obey: calls the command's function        (obey.c)
  *   that function: edits the past, or chooses the step to be shown
- *   player_do_work: past_do_work until that step is shown (steps.c)
+ *   do_work: past_do_work until that step is shown   (obey.c)
  *
- * From key to Newton: player_obey_input, player_obey, player_do_work,
- * past_do_work, pane_iterate, simulation_advance, time_integrator_advance,
- * newton_minimise. */
+ * From key to Newton: player_obey_input, player_obey, do_work, past_do_work,
+ * pane_iterate, simulation_advance, time_integrator_advance, newton_minimise.
+ */
 #pragma once
 
 #include <signal.h>
@@ -196,8 +196,9 @@ Status player_create(const Options *options, char *const *words,
                      const Window *window, const volatile sig_atomic_t *stop,
                      Player *player);
 
-/* Shows the next step, made before or new, and records it; with a window may
- * only begin the step.  Returns OK also for a step that did not converge. */
+/* Continues the work, or else shows the next step, made before or new, records
+ * the step, and obeys the queue; with a window may only do a part of the work.
+ * Returns OK also for a step that did not converge. */
 Status player_make_step(Player *player);
 
 /* Obeys a command, then the commands in the queue.  Returns OK, INVALID_INPUT

@@ -89,9 +89,6 @@ Status recording_write_iteration(Recording *recording,
 /* Closes all files.  If one has failed, all keep their ".part". */
 Status recording_close(Recording *recording, CloseAction keep);
 
-/* Frees a recording; files that were not closed are removed. */
-void recording_free(Recording *recording);
-
 /* Writes a picture as a PNG file, whole or not at all (output.h).
  *   message  as of output_open
  * Returns OK, OUT_OF_MEMORY, FILE_FAILED (errno says why). */

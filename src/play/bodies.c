@@ -30,10 +30,9 @@ Status obey_take_hold(Player *player, const Command *command)
         memcpy(place, simulation->run[0].x + 2 * command->number, sizeof place);
     else
         simulation_locate_obstacle(simulation, 0, (int)command->number, place);
-    const Command change = {.kind = command->kind,
-                            .number = command->number,
-                            .x = place[0],
-                            .y = place[1]};
+    Command change = *command;
+    change.x = place[0];
+    change.y = place[1];
     Status status = player_edit_step(player, &change, ALL_PANES, false);
     player->hands.is_holding = player->hands.is_holding || !status;
     if (!status && player_is_stopped(player))
@@ -93,7 +92,7 @@ Status obey_drag_handle(Player *player, const Command *command)
         !(needs & HAS_TIME)) {
         player_pause(player);
         status = player_seek(player, 0, AFTER_NOTHING);
-        status = status ? status : player_do_work(player);
+        status = status ? status : past_finish_work(past);
     }
     if (!status)
         status = player_edit_step(player, command, ALL_PANES, false);

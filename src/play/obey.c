@@ -1,7 +1,9 @@
-/* obey.c - obeys a command and those in the queue; writes the journal. */
+/* obey.c - obeys a command and those in the queue, and does the work that they
+ * ask for; writes the journal. */
 #include <limits.h>
 #include <string.h>
 
+#include "base/clock.h"
 #include "picture/picture.h"
 #include "play/playing.h"
 
@@ -182,6 +184,35 @@ static bool command_waits_for_step(Player *player, const Command *command)
     return true;
 }
 
+/* Iterates until the chosen step is shown; in a window at most for SLICE. */
+static Status do_work(Player *player)
+{
+    Past *past = &player->past;
+    double begin = clock_now();
+    if (player->play.work_start == 0)
+        player->play.work_start = begin;
+    player_sample_line_energy(player);
+    while (past_is_working(past) && !player->is_quitting) {
+        long before = past->step;
+        bool made = past_makes_step(past);
+        Status status = past_do_work(past);
+        if (!past_is_working(past) || (status && status != STATUS_RUNNING)) {
+            status = player_finish_work(player, status, before, made);
+            if (status)
+                return status;
+            player_sample_line_energy(player);
+        }
+        player->is_quitting = player->is_quitting || *player->setup.stop_signal;
+        bool begins = past_makes_step(past) && !made && player_is_slow(player);
+        if (player->screen.window && (begins || clock_now() - begin > SLICE))
+            break;
+    }
+    player->screen.must_redraw = true;
+    if (!past_is_working(past))
+        player->play.work_start = 0;
+    return STATUS_OK;
+}
+
 Status player_obey(Player *player, const Command *command)
 {
     Past *past = &player->past;
@@ -216,7 +247,7 @@ Status player_obey(Player *player, const Command *command)
     bool worked = past_is_working(past);
     player_sample_line_energy(player); /* a card may draw E along p now */
     if (past_is_working(past) && (!worked || !(flags & KEEPS_STEP))) {
-        Status shown = player_do_work(player);
+        Status shown = do_work(player);
         status = status ? status : shown;
     }
     if (past->current > now && meant.kind != COMMAND_REDO &&
@@ -228,16 +259,14 @@ Status player_obey(Player *player, const Command *command)
     return status ? status : player_obey_queue(player, false);
 }
 
-Status player_continue_work(Player *player)
+Status player_make_step(Player *player)
 {
-    Status status = player_do_work(player);
+    const Past *past = &player->past;
+    Status status = past_is_working(past)
+                        ? STATUS_OK
+                        : player_seek(player, past->step + 1, AFTER_NOTHING);
+    status = status ? status : do_work(player);
     return status
                ? status
                : player_show_refusal(player, player_obey_queue(player, false));
-}
-
-Status player_make_step(Player *player)
-{
-    Status status = player_seek(player, player->past.step + 1, AFTER_NOTHING);
-    return status ? status : player_continue_work(player);
 }

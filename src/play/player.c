@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/clock.h"
@@ -98,8 +99,7 @@ static Status make_due_steps(Player *player)
             break;
         if (player_is_stopped(player) && !past_is_working(past))
             break;
-        status = past_is_working(past) ? player_continue_work(player)
-                                       : player_make_step(player);
+        status = player_make_step(player);
         if (past_is_working(past))
             break;
         if (!status)
@@ -278,7 +278,8 @@ Status player_finish(Player *player, Status status)
 void player_free(Player *player)
 {
     close_window(player);
-    recording_free(&player->recording);
+    recording_close(&player->recording, KEEP_NOTHING);
+    free(player->recording.is_old_frame);
     past_free(&player->past);
     player_reset_view(player);
     sheet_close(player);

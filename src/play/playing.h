@@ -53,7 +53,7 @@ bool player_is_stopped(const Player *player);
 bool player_is_slow(const Player *player);
 
 /* Lets E along p be sampled from now on if a card draws the curve.  Prepares to
- * make the shown step once more (player_do_work) if its samples are missing. */
+ * make the shown step once more (player_obey) if its samples are missing. */
 void player_sample_line_energy(Player *player);
 
 /* Returns log_speed for the start of a run: from the options; from the scene if
@@ -84,7 +84,8 @@ void player_pause(Player *player);
 /* Pauses an attended run after a failure.  Returns OK, or what ends the run. */
 Status player_pause_after_failure(Player *player, Status status);
 
-/* Returns the command that sets an option as a part of the present gesture. */
+/* Returns the command that sets an option as a part of the present gesture.  A
+ * name of -1 stands for name 0. */
 Command make_set_command(const OptionRow *row, double value);
 
 /* Queues a command if there is room.  A drag's new place replaces its old. */
@@ -113,14 +114,17 @@ Status player_begin_runs(Player *player, const Options *options, int count,
 Status player_edit_step(Player *player, const Command *change, int pane,
                         bool again);
 
-/* Iterates until the chosen step is shown; in a window at most for SLICE. */
-Status player_do_work(Player *player);
+/* Records the step to which the work has led, then does what after_work asks.
+ *   before  in, step that was shown before
+ *   made    in, the step is a new one */
+Status player_finish_work(Player *player, Status status, long before,
+                          bool made);
 
-/* Sets the step to show, cut to 0 ... newest + 1.  player_do_work makes it;
- * player_obey calls it unless KEEPS_STEP keeps a step that is being made. */
+/* Sets the step to show, cut to 0 ... newest + 1.  player_obey then makes it
+ * unless KEEPS_STEP keeps a step that is being made. */
 Status player_seek(Player *player, long step, ActionAfterWork after);
 
-/* Edits a pane, or each one.  player_do_work then makes the shown step, or the
+/* Edits a pane, or each one.  player_obey then makes the shown step, or the
  * step that failed, once more.  The active pane keeps the shown step as a
  * ghost, unless the step failed or the edit begins a new run. */
 Status player_repeat_step(Player *player, const Command *change, int pane);
@@ -194,6 +198,3 @@ long player_count_targets(const Player *player, int pane, CommandKind kind);
  * the step being made, a release also for one step after the hand's last move.
  *   now  obeys all commands at once */
 Status player_obey_queue(Player *player, bool now);
-
-/* Continues the work that leads to a step, and obeys the queue. */
-Status player_continue_work(Player *player);

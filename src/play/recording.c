@@ -268,9 +268,3 @@ Status recording_close(Recording *recording, CloseAction keep)
     }
     return failed ? STATUS_FILE_FAILED : STATUS_OK;
 }
-
-void recording_free(Recording *recording)
-{
-    recording_close(recording, KEEP_NOTHING);
-    free(recording->is_old_frame);
-}

@@ -4,7 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/clock.h"
 #include "play/playing.h"
 
 /* ---- tables -------------------------------------------------------------- */
@@ -379,10 +378,7 @@ Status player_repeat_step(Player *player, const Command *change, int pane)
 
 /* ---- work ---------------------------------------------------------------- */
 
-/* Records the step to which the work has led, then does what after_work asks.
- *   before  in, step that was shown before
- *   made    in, the step is a new one */
-static Status finish_work(Player *player, Status status, long before, bool made)
+Status player_finish_work(Player *player, Status status, long before, bool made)
 {
     const Past *past = &player->past;
     ActionAfterWork after = player->play.after_work;
@@ -413,34 +409,6 @@ static Status finish_work(Player *player, Status status, long before, bool made)
     else if (!status && after != AFTER_NOTHING)
         begin_line_walk(player, after);
     return status;
-}
-
-Status player_do_work(Player *player)
-{
-    Past *past = &player->past;
-    double begin = clock_now();
-    if (player->play.work_start == 0)
-        player->play.work_start = begin;
-    player_sample_line_energy(player);
-    while (past_is_working(past) && !player->is_quitting) {
-        long before = past->step;
-        bool made = past_makes_step(past);
-        Status status = past_do_work(past);
-        if (!past_is_working(past) || (status && status != STATUS_RUNNING)) {
-            status = finish_work(player, status, before, made);
-            if (status)
-                return status;
-            player_sample_line_energy(player);
-        }
-        player->is_quitting = player->is_quitting || *player->setup.stop_signal;
-        bool begins = past_makes_step(past) && !made && player_is_slow(player);
-        if (player->screen.window && (begins || clock_now() - begin > SLICE))
-            break;
-    }
-    player->screen.must_redraw = true;
-    if (!past_is_working(past))
-        player->play.work_start = 0;
-    return STATUS_OK;
 }
 
 /* Releases what the hand held in an old step, if the user holds nothing now.

@@ -1177,7 +1177,8 @@ static void run_session_line(const char *line)
     else if (strcmp(verb, "half") == 0)
         stop_within_step();
     else if (strcmp(verb, "whole") == 0)
-        show_refusal(player_continue_work(&player));
+        show_refusal(past_is_working(&player.past) ? player_make_step(&player)
+                                                   : STATUS_OK);
     else if (strcmp(verb, "asks") == 0)
         player.setup.asks_guess = player.screen.must_redraw = true;
     else if (strstr("reads lacks list", verb))
