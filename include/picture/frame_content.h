@@ -234,7 +234,7 @@ typedef struct ListRow {
     char key[VALUE_SIZE], text[SENTENCE_SIZE];
     /* ROW_GREY: a number without effect now, or a page that is extra */
     enum { ROW_PLAIN, ROW_GREY, ROW_HEADING } style;
-    const char *name; /* page or option that a click opens or adds; or NULL */
+    int target; /* index of the page or option that a click opens; -1: none */
 } ListRow;
 
 typedef struct RowList {

@@ -165,21 +165,24 @@ Status options_set(Options *options, const OptionRow *row, const char *text,
 {
     const ArgLine line = {.options = options, .message = message};
     char number[32] = "";
-    if (check_needed_parts(options, row, message))
-        return STATUS_INVALID_INPUT;
+    Status status = check_needed_parts(options, row, message);
     if (!text[0] && !isnan(value))
         option_write(row, value, number, sizeof number);
     const ArgWord word = {row, text[0] ? text : number, NULL, ""};
-    if (!text[0] && row->count <= 1 && option_allows(row, value))
+    if (!status && text[0])
+        status = apply_option_word(&line, &word);
+    else if (!status && (row->count > 1 || !option_allows(row, value)))
+        status = refuse_value(&line, &word, row->count);
+    else if (!status)
         options->number[row->slot] = value;
-    else if (apply_option_word(&line, &word))
-        return STATUS_INVALID_INPUT;
+    if (status)
+        return status;
     /* The integrator must allow the new value.  An option that begins a new run
      * must describe a valid body. */
     bool is_start = row->effect == EFFECT_NEW_RUN &&
                     (row->needed_parts & HAS_SQUARE) &&
                     (options->scene->parts & HAS_BODY);
-    Status status = body_check_method(options, message);
+    status = body_check_method(options, message);
     return status || !is_start ? status : body_check(options, message);
 }
 

@@ -22,13 +22,13 @@ static void list_pages(const LecturePage *marked, FrameContent *content)
     ListRow *row = content->list.row;
     for (const LecturePage *page = lecture_pages; page->name; page++) {
         if (page->section) {
-            *row = (ListRow){.style = ROW_HEADING};
+            *row = (ListRow){.style = ROW_HEADING, .target = -1};
             snprintf((row++)->text, SENTENCE_SIZE, "%s", page->section);
         }
-        *row = (ListRow){.name = page->name,
+        *row = (ListRow){.target = (int)(page - lecture_pages),
                          .style = page->is_extra ? ROW_GREY : ROW_PLAIN};
         snprintf(row->key, VALUE_SIZE, "%s%d", page == marked ? ">" : "",
-                 (int)(page - lecture_pages) + 1);
+                 row->target + 1);
         snprintf((row++)->text, SENTENCE_SIZE, "%s%s", page->topic,
                  page->is_extra ? " (extra)" : "");
     }

@@ -13,9 +13,8 @@ static const double MASS_REACH = 1.9;    /* m, least half side of the view */
 static const double CIRCLE_REACH = 1.75; /* m, least half side of the view */
 static const double CIRCLE_MAX = 4;      /* m, largest radius that is shown */
 static const double TWO_PI = 6.283185307179586;
-static const double EIGEN_REACH =
-    1.35; /* least half side of the view of eigenvalues */
-static const double EIGEN_MAX = 5; /* largest eigenvalue that is shown */
+static const double EIGEN_REACH = 1.35; /* least half side of the plane */
+static const double EIGEN_MAX = 5;      /* largest eigenvalue that is shown */
 /* Room for the eigenvalues as numbers, ems. */
 static const double NUMBERS_WIDE = 16.4, NUMBERS_HIGH = 9;
 static const double origin[2] = {0, 0};
@@ -394,12 +393,6 @@ void draw_mass_picture(Plot *stage)
 
 /* ---- live values -------------------------------------------------------- */
 
-/* Returns the invariant of symplectic Euler: |x|^2 + |v|^2 - h x.v. */
-static double symplectic_invariant(const double *x, const double *v, double h)
-{
-    return 2 * compute_energy(x, v) - h * (x[0] * v[0] + x[1] * v[1]);
-}
-
 void list_mass_values(const Simulation *simulation, LiveValues *values)
 {
     MassStep step;
@@ -433,9 +426,11 @@ void list_mass_values(const Simulation *simulation, LiveValues *values)
                      step.moves_by_old_v ? step.v : step.new_v);
     double h = simulation->run[0].h;
     if (!step.moves_by_old_v && !backward) {
+        /* |x|^2 + |v|^2 - h x.v; growth for h > 2 makes the sum inexact */
+        double kept = 2 * compute_energy(step.x, step.v) -
+                      h * (step.x[0] * step.v[0] + step.x[1] * step.v[1]);
         values_add_flag(values, "ellipse", h < 2);
-        if (h < 2) /* a larger h makes the invariant inexact */
-            values_add(values, "kept", symplectic_invariant(step.x, step.v, h));
+        values_add(values, "kept", h < 2 ? kept : NAN);
     }
     values_add(values, "miss",
                point_distance(step.new_x, find_exact_position(&step, h).xy));

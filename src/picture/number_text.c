@@ -1,7 +1,6 @@
 /* number_text.c - numbers as markup. */
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "picture/plot.h"
@@ -12,21 +11,18 @@ NumberText format_digits(double value, int digits)
     size_t size = sizeof out.text;
     char plain[26];
     const char *sign = value < 0 ? "\u2212" : "";
-    double most = fabs(value), large = fmax(1e5, pow(10, digits) - 0.5);
-    snprintf(plain, sizeof plain, "%.*e", digits - 1, most);
-    if (!isfinite(value)) {
+    double most = fabs(value), longer = pow(10, digits) - 0.5;
+    snprintf(plain, sizeof plain, "%.*e", digits - 1, value);
+    if (!isfinite(value))
         snprintf(out.text, size, "%s%s", sign,
                  isnan(value) ? "no number" : "\u221e");
-    } else if (most == 0 || (most >= 1e-3 && most < large)) {
-        snprintf(out.text, size, "%s%.15g", sign, strtod(plain, NULL));
-    } else {
-        char *power = strchr(plain, 'e');
-        int exponent = (int)strtol(power + 1, NULL, 10);
-        *power = '\0';
-        double part = strtod(plain, NULL);
-        snprintf(plain, sizeof plain, "%.15g\u00b7", part);
-        snprintf(out.text, size, "%s%s10^{%s%d}", sign, part == 1 ? "" : plain,
-                 exponent < 0 ? "\u2212" : "", abs(exponent));
+    else if (most != 0 && (most < 1e-3 || most >= fmax(1e5, longer)))
+        out = format_power(plain);
+    else if (most < longer)
+        snprintf(out.text, size, "%s%.*g", sign, digits, most);
+    else { /* zeros take the place of the digits that are left out */
+        double unit = pow(10, floor(log10(most)) + 1 - digits);
+        snprintf(out.text, size, "%s%.0f", sign, rint(most / unit) * unit);
     }
     return out;
 }
@@ -38,14 +34,25 @@ NumberText format_number(double value)
 
 NumberText format_power(const char *value)
 {
-    char *rest;
-    double number = strtod(value, &rest);
-    const char *power = strchr(value, 'e');
     NumberText out;
-    if (power && power < rest && *rest != '_')
-        snprintf(out.text, sizeof out.text, "%.30s%.16s",
-                 format_digits(number, 6).text, rest);
-    else
+    const char *digit = value + (value[0] == '-');
+    int length = (int)strspn(digit, "0123456789."), digits = length;
+    const char *power = digit + length, *rest = power;
+    bool point = memchr(digit, '.', (size_t)length);
+    if (length > 0 && *power == 'e') {
+        power += 1 + strspn(power + 1, "+-0");
+        rest = power + strspn(power, "0123456789");
+    }
+    if (rest == power || *rest == '_') {
         snprintf(out.text, sizeof out.text, "%.47s", value);
+        return out;
+    }
+    while (point && digits > 1 && strchr("0.", digit[digits - 1]))
+        point = digit[--digits] != '.';
+    bool one = digits == 1 && *digit == '1'; /* 10^{6}, not 1 times it */
+    snprintf(out.text, sizeof out.text, "%s%.*s%s10^{%s%.*s}%.16s",
+             digit > value ? "\u2212" : "", one ? 0 : digits, digit,
+             one ? "" : "\u00b7", digit[length + 1] == '-' ? "\u2212" : "",
+             (int)(rest - power), power, rest);
     return out;
 }

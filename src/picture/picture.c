@@ -1,5 +1,4 @@
 /* picture.c - draws a frame; cameras of panes, and picking on the stage. */
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 

@@ -102,11 +102,6 @@ static Colour choose_spring_colour(const SquarePen *pen, double plastic,
     return pen->shows_projected && shorter ? COLOUR_PROJECT : 0;
 }
 
-static const double *get_node_position(const SquarePen *pen, int node)
-{
-    return pen->x + 2 * (size_t)node;
-}
-
 void square_draw_spring(const SquarePen *pen, int s, double width,
                         Colour colour)
 {
@@ -115,8 +110,8 @@ void square_draw_spring(const SquarePen *pen, int s, double width,
     bool fixed = node_is_fixed(pen, e[0]);
     if (spring_is_broken(pen->system, s))
         return;
-    camera_to_pixel(&pen->stage->camera, get_node_position(pen, e[0]), p);
-    camera_to_pixel(&pen->stage->camera, get_node_position(pen, e[1]), q);
+    camera_to_pixel(&pen->stage->camera, pen->x + 2 * e[0], p);
+    camera_to_pixel(&pen->stage->camera, pen->x + 2 * e[1], q);
     canvas_line(&pen->stage->paper->canvas, p[0], p[1], q[0], q[1],
                 (fixed ? 0.7 : 1) * width * unit, fixed ? COLOUR_EDGE : colour);
 }
@@ -171,7 +166,7 @@ static void fill_face(const SquarePen *pen, const int node[4], Colour colour)
 {
     const double *corner[4];
     for (int k = 0; k < 4; k++)
-        corner[k] = get_node_position(pen, node[k]);
+        corner[k] = pen->x + 2 * node[k];
     plot_quad(pen->stage, corner, colour);
 }
 
@@ -260,17 +255,17 @@ void square_draw_nodes(const SquarePen *pen)
         radius *= 0.75;
     for (int i = 0; i < system->nodes; i++) {
         if (radius >= 0.5 * pen->width && !node_is_fixed(pen, i))
-            plot_disc(pen->stage, get_node_position(pen, i), radius, colour);
+            plot_disc(pen->stage, pen->x + 2 * i, radius, colour);
         if (system->pinned[i] && !node_is_fixed(pen, i))
-            plot_draw_pin(pen->stage, get_node_position(pen, i), radius);
+            plot_draw_pin(pen->stage, pen->x + 2 * i, radius);
     }
     for (int k = 0;
          pen->fixed_bodies && k < pen->simulation->mesh.outline_edges; k++) {
         int node[2];
         square_mesh_get_outline_edge(&pen->simulation->mesh, k, node);
         if (node_is_fixed(pen, node[0]))
-            plot_line(pen->stage, get_node_position(pen, node[0]),
-                      get_node_position(pen, node[1]), 1.5, COLOUR_EDGE);
+            plot_line(pen->stage, pen->x + 2 * node[0], pen->x + 2 * node[1],
+                      1.5, COLOUR_EDGE);
     }
 }
 

@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 /* Options of ffmpeg for pixels that all players can show.  Width and height
  * become even, as this format of pixels needs. */

@@ -110,7 +110,7 @@ static void list_shown_options(const Player *player, FrameContent *content)
         const char *idle = player_find_idle_reason(player, all[i]);
         player_format_value(all[i], &options, player_simulation(player), value,
                             sizeof value);
-        row->name = all[i]->name;
+        row->target = (int)(all[i] - option_rows);
         snprintf(row->key, VALUE_SIZE, "%d", i + 1);
         snprintf(row->text, SENTENCE_SIZE, "%s %s%s%s", all[i]->name, value,
                  idle || all[i]->help[0] ? ": " : "",

@@ -6,6 +6,7 @@
 
 #include "base/mathematics.h"
 #include "play/playing.h"
+#include "lesson/pages.h"
 
 enum {
     CLICK_TOLERANCE = 4, /* pixels that the mouse may move during a click */
@@ -84,22 +85,25 @@ static KeyScope find_key_scope(const Player *player)
 }
 
 /* Opens the page, or adds the number, of a line of the open list.
- *   line  in, number of the line, or its name */
-static Status open_list_line(Player *player, const char *line)
+ *   index  index of the page or option; -1: the typed number or name */
+static Status open_list_line(Player *player, long index)
 {
-    const OptionRow *all[OPTIONS_MAX_ROWS], *row = option_find(line);
+    const char *typed = player->hands.typed;
+    const OptionRow *all[OPTIONS_MAX_ROWS], *row = option_find(typed);
     Command page = {.kind = COMMAND_PAGE, .joins_gesture = true};
     char *end;
-    long number = strtol(line, &end, 10);
+    long number = strtol(typed, &end, 10);
     if (player->screen.column != COLUMN_OPTIONS || player->screen.sheet) {
-        snprintf(page.text, sizeof page.text, "%s", line);
+        snprintf(page.text, sizeof page.text, "%s",
+                 index < 0 ? typed : lecture_pages[index].name);
         return player_obey(player, &page);
     }
     int rows = player_list_options(player, true, all);
-    if (!row && (*end || number < 1 || number > rows))
+    if (index < 0 && !row && (*end || number < 1 || number > rows))
         return player_refuse(player, "there is no such number in the list");
-    row = row ? row : all[number - 1];
-    return obey(player, COMMAND_ADD, row - option_rows);
+    if (index < 0)
+        index = (row ? row : all[number - 1]) - option_rows;
+    return obey(player, COMMAND_ADD, index);
 }
 
 /* Acts on the typed text: opens the page, adds or sets the number, or checks
@@ -109,7 +113,7 @@ static Status accept_typed_text(Player *player)
     const OptionRow *row = player->hands.selected;
     Status status;
     if (!row && player_shows_list(player)) {
-        status = open_list_line(player, player->hands.typed);
+        status = open_list_line(player, -1);
         player->hands.is_typing = player->hands.is_typing && status;
         return status;
     }
@@ -373,7 +377,7 @@ static Status press_left_button(Player *player, const MouseTarget *target,
     int index = target->hit.index;
     bool ground =
         target->pick.kind == PICK_NONE || target->pick.kind == PICK_SPRING;
-    const char *name;
+    const ListRow *row = player->screen.frame.content.list.row;
     const Scene *scene = player_simulation(player)->scene;
     bool body = (scene->parts & HAS_BODY) && !scene->step;
     Status status = STATUS_OK;
@@ -396,10 +400,10 @@ static Status press_left_button(Player *player, const MouseTarget *target,
     case ZONE_LIST:
         index = frame_find_row(&player->screen.frame.content, &target->layout,
                                player->hands.mouse.x, player->hands.mouse.y);
-        if (find_key_scope(player) != SCOPE_LIST || index < 0)
+        if (find_key_scope(player) != SCOPE_LIST || index < 0 ||
+            row[index].target < 0)
             return STATUS_OK;
-        name = player->screen.frame.content.list.row[index].name;
-        return name ? open_list_line(player, name) : STATUS_OK;
+        return open_list_line(player, row[index].target);
     case ZONE_CELL:
         player->screen.view.selected_cell = index;
         return obey(player, COMMAND_OPEN, 0);

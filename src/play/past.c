@@ -68,15 +68,10 @@ const UserControl *past_start_control(const Past *past, int pane)
     return branch->entry[pane].control;
 }
 
-static bool entry_is_failure(const PastEntry *entry)
-{
-    return status_is_failure(entry->outcome.status);
-}
-
 /* Whether a failure has ended the pane before the step of this entry. */
 static bool entry_ends_pane(const PastEntry *entry)
 {
-    return entry->substeps == 0 && entry_is_failure(entry);
+    return entry->substeps == 0 && status_is_failure(entry->outcome.status);
 }
 
 long past_find_made_step(const Past *past, int pane, long step)
@@ -594,7 +589,7 @@ static Status pane_iterate(Past *past, int p)
         pane->outcome = from->outcome;
         return pane_finish_step(past, p);
     }
-    if (to && entry_is_failure(to))
+    if (to && status_is_failure(to->outcome.status))
         return end_pane_by_failure(past, p, to->outcome.status);
     if (past->stores_states)
         step_trace_begin(&pane->trace, &pane->simulation, past->samples_energy,

@@ -261,7 +261,7 @@ Command make_set_command(const OptionRow *row, double value)
 {
     return (Command){.kind = COMMAND_SET,
                      .number = row - option_rows,
-                     .x = value,
+                     .x = row->kind == OPTION_NAME ? fmax(value, 0) : value,
                      .joins_gesture = true};
 }
 

@@ -1,8 +1,6 @@
 /* scene.c - the table of scenes; a user's guess where the next step ends. */
 #include "scenes/scenes.h"
 
-#include <math.h>
-
 #include "simulation/body.h"
 #include "scenes/small_scenes.h"
 

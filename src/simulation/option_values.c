@@ -162,8 +162,7 @@ static double find_round_number(double index)
 double option_find_value_after_wheel(const OptionRow *row,
                                      const Options *options, double notches)
 {
-    static const double FIRST =
-        0.01; /* value after a notch of the wheel from 0 */
+    static const double FIRST = 0.01; /* value after a notch from 0 */
     double value = options->number[row->slot];
     double increment = row->display.notch_increment;
     char text[32];

@@ -81,8 +81,7 @@ static Status finish_simulation_step(Simulation *simulation, Status status)
     if (status_is_failure(status))
         return status;
     simulation->steps++;
-    if (simulation->steps >
-        guess->guess_step + 1) /* a guess is valid for one step */
+    if (simulation->steps > guess->guess_step + 1) /* a guess is for one step */
         *guess = (Prediction){0};
     if (status) {
         simulation->unconverged_steps++;
