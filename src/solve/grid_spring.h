@@ -81,19 +81,8 @@ INLINE void spring_line_polynomial(GridSpring s, Doubles ux, Doubles uy,
 /* Sums over a node's springs: gradient of E (GX, GY), Hessian, not clamped
  * (HXX, HXY, HYY), c d (CDX, CDY), c (SUM_C), f = c s below 0 (NEGATIVE).  The
  * Hessian is the mass and all f (SUM_F) times I, plus 2 c d d^T. */
-enum {
-    GX,
-    GY,
-    HXX,
-    HXY,
-    HYY,
-    CDX,
-    CDY,
-    SUM_C,
-    NEGATIVE,
-    SUM_COUNT,
-    SUM_F = SUM_COUNT
-};
+enum { GX, GY, HXX, HXY, HYY, CDX, CDY, SUM_C, NEGATIVE, SUM_COUNT };
+enum { SUM_F = SUM_COUNT }; /* needed only while springs are added */
 
 typedef float NodeSums[SUM_COUNT][LANES];
 

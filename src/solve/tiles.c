@@ -63,8 +63,7 @@ INLINE float find_lowering_step(const float q[4], float *lower)
 }
 
 /* Computes the sums of LANES nodes of a row, in a loop of its own, since steps
- * that do not wait for each other are faster.
- *   has_tiny_moves  Tiles.has_tiny_moves */
+ * that do not wait for each other are faster. */
 INLINE void compute_spring_sums(const Tiles *tiles, NodeRun at,
                                 bool has_tiny_moves, NodeSums of)
 {
