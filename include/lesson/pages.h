@@ -8,7 +8,7 @@
 #include "simulation/options.h"
 
 /* Length of line_highlight: lines 1 to 8 of Algorithm 3; [0] is unused. */
-enum { PAGE_HIGHLIGHT_LINES = 9 };
+enum { PAGE_HIGHLIGHT_LENGTH = 9 };
 
 /* A page: a field for each word of pages.txt.  Texts: see live_values.h. */
 typedef struct LecturePage {
@@ -33,7 +33,7 @@ typedef struct LecturePage {
     const char *functions;   /* functions shown by K, separated by ',' */
     const char *const *code; /* code lines of `functions`, then NULL */
     const char *lit_code;    /* code lines with this text are highlighted */
-    /* [PAGE_HIGHLIGHT_LINES] text of the code lines that are highlighted at
+    /* [PAGE_HIGHLIGHT_LENGTH] text of the code lines that are highlighted at
      * each line of Algorithm 3; NULL: `lit_code` */
     const char *const *line_highlight;
     const char *claim;     /* statement that a test checks */

@@ -44,7 +44,7 @@ typedef struct Boundary {
     double mean_p[2];  /* m, mean of p over the points; a motion that all points
                           share brings none closer to an edge */
     double box_margin; /* each box is wider by this on all sides (m) */
-    double widest_edge; /* m, largest extent of an edge's box, coordinate 0 */
+    double widest_edge; /* largest width of an edge's box, coordinate 0 (m) */
     bool sorts_by_y;    /* coordinate 0 of the boxes is y, not x */
     bool has_all_near_edges; /* near_edge had room for all near edges */
     int *near_edge;          /* [8 nodes] near edges, point by point */

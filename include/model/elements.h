@@ -74,8 +74,8 @@ struct ElementKind {
     bool (*get_element)(const EvalPoint *at, int i, double way,
                         Element *element);
 
-    /* Number of blocks of the matrix.  A block has all entries of 1 to 3 nodes.
-     * Blocks do not depend on x, which may be NULL. */
+    /* Number of dense blocks of the Hessian, each for 1 to 3 nodes.  The number
+     * does not depend on x, which may be NULL. */
     int (*count_blocks)(const EvalPoint *at);
 
     /* Writes the nodes of a block of the Hessian, returns their number. */

@@ -25,8 +25,8 @@ double friction_slope(double y, double e);
 
 /* A contact with a normal force in this step. */
 typedef struct SlidingContact {
-    Element element; /* element of the contact term, with v = t for its vectors
-                        a and b, and r = mu lambda, N */
+    Element element; /* the contact's element with the tangent t in place of the
+                        normal n, and r = mu lambda, the largest friction (N) */
     double obstacle_travel; /* h t.v_wall (m), travel of the obstacle along t */
 } SlidingContact;
 

@@ -33,7 +33,7 @@ typedef struct SelfContact {
     double c;        /* J, factor on the barrier of a point and an edge */
     double friction; /* coefficient of friction mu */
     Boundary boundary;
-    int pair_count;       /* number of blocks in this step */
+    int pair_count;       /* number of pairs in this step */
     int pair_capacity;    /* number of pairs for which `pair` has room */
     int start_pair_count; /* number of pairs at the start of this step */
     PointEdgePair *pair;  /* [pair_capacity] start pairs by node, then edge */

@@ -19,7 +19,7 @@ enum { SYSTEM_MAX_TERMS = 12 };
 
 /* Energy that a system lost for good, for one column of the ledger. */
 typedef struct EnergyLoss {
-    const char *name; /* TermKind.loss_name */
+    const char *name; /* name of the column */
     double energy;    /* J */
 } EnergyLoss;
 

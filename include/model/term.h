@@ -138,7 +138,7 @@ struct TermKind {
     bool is_diagonal;      /* P is a sum of c/2 |x_i - o|^2 over nodes i, c > 0,
                               so its Hessian is a diagonal matrix */
     bool is_external;      /* has forces that move the centre of mass */
-    bool depends_on_start; /* P depends on x_n too, and a turn changes P */
+    bool depends_on_start; /* P depends on x_n too; rotating a body changes P */
     bool supports_all_integrators; /* works with every integrator; other terms
                                       only with backward Euler */
 };

@@ -186,7 +186,7 @@ Status past_finish_work(Past *past);
  * Returns the edit that was undone or redone, or NULL. */
 const Command *past_undo(Past *past, int way);
 
-int past_panes(const Past *past);
+int past_pane_count(const Past *past);
 
 /* Returns the newest step; a step that is being made does not count. */
 long past_newest(const Past *past);

@@ -66,8 +66,8 @@ typedef struct SpringValues {
     double force[2];          /* -grad P, on the free end, N */
     double eigenvalue_along;  /* eigenvalue of P's Hessian along d, J/m^2 */
     double eigenvalue_across; /* eigenvalue of P's Hessian across d, J/m^2 */
-    double root_energy;       /* P_root, the energy in |d| - l instead, J */
-    /* J/m^2, eigenvalues of P_root's Hessian; the second is -inf at d = 0 */
+    double root_energy;       /* J, P_root = 2 k (|d| - l)^2 */
+    /* Eigenvalues of P_root's Hessian (J/m^2); the second is -inf at d = 0 */
     double root_eigenvalue_along, root_eigenvalue_across;
 } SpringValues;
 

@@ -16,13 +16,13 @@ struct LecturePage;
 
 /* Layers of a picture that can be added to its scene, as bits. */
 typedef enum PictureLayer {
-    LAYER_NUMBERS = 1 << 0,  /* number of each node */
-    LAYER_FORCES = 1 << 1,   /* force on each node, as an arrow */
-    LAYER_MODES = 1 << 2,    /* fastest oscillation; a spring's eigenvectors */
-    LAYER_KINDS = 1 << 3,    /* a colour and a switch for each kind of spring */
-    LAYER_CUTS = 1 << 4,     /* a filled square; springs only after the guess */
-    LAYER_DOWNHILL = 1 << 5, /* -grad E, and the half plane where E falls */
-    LAYER_CURVES = 1 << 6,   /* curves on which a component of grad E is 0 */
+    LAYER_NUMBERS = 1 << 0, /* number of each node */
+    LAYER_FORCES = 1 << 1,  /* force on each node, as an arrow */
+    LAYER_MODES = 1 << 2,   /* fastest oscillation; a spring's eigenvectors */
+    LAYER_KINDS = 1 << 3,   /* a colour and a switch for each kind of spring */
+    LAYER_CUTS = 1 << 4,    /* fills the square; its springs after the answer */
+    LAYER_DOWNHILL = 1 << 5,  /* -grad E, and the half plane where E falls */
+    LAYER_CURVES = 1 << 6,    /* curves on which a component of grad E is 0 */
     LAYER_FIRST_STEP = 1 << 7 /* draws only the first step, enlarged */
 } PictureLayer;
 
@@ -175,7 +175,7 @@ typedef struct OptionRow {
     double low, high;      /* range, both ends included */
     const char *unit;      /* unit of the numbers, or "" if they have none */
     NameTable names;       /* OPTION_NAME: the values */
-    unsigned needed_parts; /* bits of ScenePart, one of which a scene needs */
+    unsigned needs_any_of; /* bits of ScenePart: the scene needs one of them */
     /* Returns why the option has no effect beside the others; NULL: it has one.
      * The function is NULL for options that always have one. */
     const char *(*idle_reason)(const Options *options);
@@ -248,7 +248,7 @@ double option_find_value_after_wheel(const OptionRow *row,
 
 /* Returns the place of an obstacle in the options, [2] m.
  *   number  of the obstacle: grounds first, then balls */
-double *options_obstacle_at(Options *options, int number);
+double *options_obstacle_point(Options *options, int number);
 
 /* Returns the chosen integrator, or the first of the table. */
 const IntegratorMethod *options_method(const Options *options);

@@ -38,7 +38,7 @@ typedef struct NewtonRecord {
     int trials;                 /* step lengths that the line search tried */
     double slope;        /* J s^2, grad E . p; below 0: p leads downhill */
     double change;       /* J s^2, change of E by the update */
-    int projected;       /* blocks of the Hessian that were projected */
+    int projected;       /* number of blocks that were projected */
     int negative_pivots; /* negative pivots of the Hessian from which p came,
                             without projection */
     bool has_new_factor; /* has a new factor of the Hessian */
@@ -68,10 +68,10 @@ typedef struct NewtonSettings {
 typedef struct NewtonCounters {
     long updates;          /* number of updates of x */
     long factorisations;   /* number of factorisations of the Hessian */
-    long solves;           /* linear solves with a factor of H */
-    long projected;        /* blocks projected, summed over factorisations */
-    long cycles;           /* V-cycles of multigrid */
-    long tile_sweeps;      /* sweeps of multigrid's tiles (tiles.h) */
+    long solves;           /* number of linear solves with a factor of H */
+    long projected;        /* projected blocks, summed over factorisations */
+    long cycles;           /* number of V-cycles of multigrid */
+    long tile_sweeps;      /* number of sweeps of multigrid's tiles (tiles.h) */
     long indefinite_ends;  /* minimisations that converged with a last p from a
                               Hessian with negative pivots: perhaps a maximum */
     long handed_to_newton; /* minimisations that multigrid passed to Newton */

@@ -88,8 +88,8 @@ typedef struct FastestRun {
 } FastestRun;
 
 /* Creates a simulation: run 0 is the start of the motion, run 1 its end. */
-static Status create_timed_motion(const TimedMotion *motion, int segments,
-                                  Simulation *simulation)
+static Status create_motion_simulation(const TimedMotion *motion, int segments,
+                                       Simulation *simulation)
 {
     Options options = make_slides_options(segments);
     options.stiffness = motion->stiffness;
@@ -186,7 +186,7 @@ static Status measure_errors(bool quick)
             Simulation simulation;
             if (quick && i > 0)
                 break;
-            status = create_timed_motion(
+            status = create_motion_simulation(
                 motion, quick ? 4 : motion->segments[i], &simulation);
             if (!status)
                 status = measure_motion(quick, motion, &simulation);

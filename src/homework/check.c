@@ -115,8 +115,8 @@ typedef struct TaskCase {
     double h, tol;
 } TaskCase;
 
-/* Makes a square, or in case 1 a single short spring, out of shape.  Each node
- * and each spring has different numbers. */
+/* Makes a deformed square, in case 1 a single deformed short spring.  Masses
+ * and stiffness differ from node to node and from spring to spring. */
 static void make_random_solid(int case_number, Solid *solid)
 {
     *solid = square(1.2, case_number == 2 ? 1 : 2, 300, 2e3);

@@ -84,7 +84,7 @@ static Status apply_option_numbers(const ArgLine *line, const ArgWord *word)
     double number[BODY_OPTION_NUMBERS] = {0};
     double *times = &options->number[row->count_slot];
     int most = row->count ? row->count : 1, used = 0;
-    bool x_alone = row->needed_parts == HAS_START &&
+    bool x_alone = row->needs_any_of == HAS_START &&
                    (options->scene->parts & HAS_ONE_COORDINATE);
     int count = x_alone ? 1 : most;
     if ((x_alone && strchr(word->text, ',')) ||
@@ -146,15 +146,15 @@ static Status check_needed_parts(const Options *options, const OptionRow *row,
                                  Message message)
 {
     const Scene *scene = options->scene;
-    const char *missing = row->needed_parts & HAS_MESH   ? "square"
-                          : row->needed_parts & HAS_TIME ? "time steps"
-                          : row->needed_parts & HAS_TIMESTEP
+    const char *missing = row->needs_any_of & HAS_MESH   ? "square"
+                          : row->needs_any_of & HAS_TIME ? "time steps"
+                          : row->needs_any_of & HAS_TIMESTEP
                               ? "time step to choose"
-                          : row->needed_parts & HAS_SPRINGS ? "springs"
-                          : row->needed_parts & HAS_START   ? "start to choose"
-                          : row->needed_parts & HAS_BODY    ? "body"
+                          : row->needs_any_of & HAS_SPRINGS ? "springs"
+                          : row->needs_any_of & HAS_START   ? "start to choose"
+                          : row->needs_any_of & HAS_BODY    ? "body"
                                                             : "minimum to find";
-    return !row->needed_parts || (row->needed_parts & scene->parts)
+    return !row->needs_any_of || (row->needs_any_of & scene->parts)
                ? STATUS_OK
                : refuse(message, "--%s: the scene '%s' has no %s", row->name,
                         scene->name, missing);
@@ -180,7 +180,7 @@ Status options_set(Options *options, const OptionRow *row, const char *text,
     /* The integrator must allow the new value.  An option that begins a new run
      * must describe a valid body. */
     bool is_start = row->effect == EFFECT_NEW_RUN &&
-                    (row->needed_parts & HAS_SQUARE) &&
+                    (row->needs_any_of & HAS_SQUARE) &&
                     (options->scene->parts & HAS_BODY);
     status = body_check_method(options, message);
     return status || !is_start ? status : body_check(options, message);
@@ -445,7 +445,7 @@ static Status apply_argument_line(ArgLine *line, int pane)
         return STATUS_INVALID_INPUT;
     for (int i = 0; i < line->words; i++) {
         const OptionRow *row = line->word[i].row;
-        if (row && options->page && row->needed_parts)
+        if (row && options->page && row->needs_any_of)
             return refuse(line->message,
                           "--%s: a page of --lecture has its own value; change "
                           "it in the window, or leave --lecture out",

@@ -64,7 +64,7 @@ function put_word(    part)
               ", .lit_code = " quoted(substr(text, length(part[1] part[2]) + 3)) \
               ", .code = (const char *const[]){" \
               code_of(part[1], part[2]) "NULL}," \
-              (part[2] in walk ? ".line_highlight = (const char *const[PAGE_HIGHLIGHT_LINES]){" \
+              (part[2] in walk ? ".line_highlight = (const char *const[PAGE_HIGHLIGHT_LENGTH]){" \
                                  walk[part[2]] "}," : "")
     else if (word != "" && word != "minutes") # minutes are for readers only
         fail(begins, "'" word " " text "' is nothing that a page has")

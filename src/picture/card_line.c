@@ -55,7 +55,8 @@ static void compute_line_curves(const NewtonTrace *trace,
             : fmin(fmax(high, 0.25 * depth), MAX_ABOVE * depth);
 }
 
-/* Draws a trial of the line search; above the plot, an arrow and its value. */
+/* Draws a trial of the line search as a dot; if its value lies above the plot,
+ * as an arrow upwards with the value in figures. */
 static void draw_trial_step(const Plot *plot, double alpha, double value,
                             bool accepted)
 {

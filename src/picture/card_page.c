@@ -95,7 +95,7 @@ static int measure_page(Paper *paper, Box inside, double size,
     lecture->hides_answer = false;
     lecture->heading[0] = '\0';
     if (lecture->page->answer && !lecture->verdict)
-        lecture->verdict = "0"; /* place of the verdict's line */
+        lecture->verdict = "0"; /* any text: the verdict's line gets room */
     values_add_flag(values, "told", true);
     int after = lay_out_page(paper, inside, size, &other, keeps_text, false);
     lecture->hides_answer = true;

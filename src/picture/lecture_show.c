@@ -4,7 +4,7 @@
 
 #include "picture/cards.h"
 
-_Static_assert((int)LINE_COUNT == PAGE_HIGHLIGHT_LINES,
+_Static_assert((int)LINE_COUNT == PAGE_HIGHLIGHT_LENGTH,
                "walk has a text for each line");
 
 const char *lecture_find_highlight(const FrameContent *content)

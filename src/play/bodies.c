@@ -46,7 +46,7 @@ Status obey_place_node(Player *player, const Command *command)
 {
     if (!simulation_is_draggable(player_simulation(player)))
         return player_refuse(player, "nothing to be placed here");
-    for (int p = 0; p < past_panes(&player->past); p++) {
+    for (int p = 0; p < past_pane_count(&player->past); p++) {
         Simulation *simulation = &player->past.pane[p].simulation;
         if (simulation_place_node(simulation, (int)command->number, command->x,
                                   command->y, false))
@@ -60,11 +60,11 @@ Status obey_place_node(Player *player, const Command *command)
 Status obey_place_obstacle(Player *player, const Command *command)
 {
     Options moved = *player_active_options(player);
-    double *at = options_obstacle_at(&moved, (int)command->number);
+    double *at = options_obstacle_point(&moved, (int)command->number);
     at[0] = command->x;
     at[1] = command->y;
     Status status = STATUS_OK;
-    for (int p = 0; p < past_panes(&player->past) && !status; p++)
+    for (int p = 0; p < past_pane_count(&player->past) && !status; p++)
         status = simulation_check_clearance(&player->past.pane[p].simulation,
                                             &moved, MESSAGE(player->message));
     return status ? status

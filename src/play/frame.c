@@ -202,7 +202,7 @@ static void format_pane_value(const Player *player, int pane,
 static bool most_panes_have_value(const Player *player, const OptionRow *row,
                                   const char *value)
 {
-    int panes = past_panes(&player->past), equal = 0;
+    int panes = past_pane_count(&player->past), equal = 0;
     char other[VALUE_SIZE];
     for (int p = 0; p < panes && panes > 2; p++) {
         format_pane_value(player, p, row, other);
@@ -251,7 +251,7 @@ static void build_pane_content(const Player *player, int p, WindowFrame *frame)
                    .ghost_x = view->ghost_x,
                    .ghost_label = view->ghost_label,
                    .failure = shown->outcome.status};
-    if (past_panes(&player->past) > 1)
+    if (past_pane_count(&player->past) > 1)
         pane->label = frame->label[p];
     if (shown->has_trace && simulation_has_updates(simulation)) {
         pane->trace = &frame->trace[p];
@@ -278,7 +278,7 @@ static void build_time_line(const Player *player, FrameContent *content)
     char *text = content->time_line.label;
     double time = 0, longest = -1; /* time of the pane with the longest h, s */
     bool shared = true;            /* true if panes share one h */
-    for (int p = 0; p < past_panes(past); p++) {
+    for (int p = 0; p < past_pane_count(past); p++) {
         const Simulation *now = &past->pane[p].simulation;
         bool goes = past_find_made_step(past, p, past->step) == past->step;
         double h = goes ? now->options.timestep : 0;
@@ -357,7 +357,7 @@ static void build_frame_content(const Player *player, WindowFrame *frame)
                                                     : 0;
     content->is_stage_only = window && window->has_document;
     content->has_document = content->is_stage_only && window->has_document();
-    content->panes = past_panes(past);
+    content->panes = past_pane_count(past);
     if (content->panes > LAYOUT_MAX_PANES) /* a script can open more panes */
         content->panes = LAYOUT_MAX_PANES;
     content->active_pane = active < content->panes ? active : 0;

@@ -40,7 +40,7 @@ static MouseTarget find_mouse_target(Player *player)
     int pane = held->is_dragging               ? held->pane_index
                : target.hit.zone == ZONE_STAGE ? target.hit.index
                                                : target.pane;
-    if (pane < past_panes(&player->past)) /* the pane of a drag may be closed */
+    if (pane < past_pane_count(&player->past)) /* a dragged pane may close */
         target.pane = pane;
     held->mouse_has_left = false;
     Camera camera = make_pane_camera(content, &target.layout, target.pane);
@@ -265,7 +265,7 @@ static Status drag_obstacle(Player *player, const double at[2])
             status = obey(player, COMMAND_PUSH, number);
         return status ? status : obey_at(player, COMMAND_DRAG, 0, at);
     }
-    for (int p = 0; p < past_panes(past); p++) {
+    for (int p = 0; p < past_pane_count(past); p++) {
         const Options *options = &past_control(past, p)->options;
         part = fmin(part, simulation_find_free_fraction(
                               &past->pane[p].simulation, options, number, at));

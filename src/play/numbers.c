@@ -15,7 +15,7 @@ const char *player_find_idle_reason(const Player *player, const OptionRow *row)
     const Simulation *simulation = player_simulation(player);
     bool minimises = simulation->scene->step;
     int slot = row->slot;
-    for (int p = 0; p < past_panes(&player->past); p++)
+    for (int p = 0; p < past_pane_count(&player->past); p++)
         minimises = minimises || player->past.pane[p].simulation.run[0].newton;
     if (slot == OPTION_SLOT(projection) &&
         !simulation_has_projection(simulation))

@@ -33,7 +33,7 @@ long player_count_targets(const Player *player, int pane, CommandKind kind)
     case COMMAND_PUSH:
         return (long)(simulation->options.grounds + simulation->options.balls);
     case COMMAND_PANE:
-        return past_panes(&player->past);
+        return past_pane_count(&player->past);
     case COMMAND_CARD:
     case COMMAND_ENLARGE:
         return picture_of_scene(scene)->count;
@@ -47,7 +47,7 @@ long player_count_targets(const Player *player, int pane, CommandKind kind)
 /* Refuses a number if a pane has no such node, obstacle, ... */
 static Status check_command_target(Player *player, const Command *command)
 {
-    for (int p = 0; p < past_panes(&player->past); p++) {
+    for (int p = 0; p < past_pane_count(&player->past); p++) {
         long count = player_count_targets(player, p, command->kind);
         if (command->number >= count)
             return player_refuse(

@@ -12,7 +12,7 @@ static const IntegratorMethod *find_next_method(Player *player, int pane)
         next = next[1].name ? next + 1 : &integrator_methods[0];
         taken = next->only_by_name ||
                 integrator_method_refuses_system(next, &simulation->system);
-        for (int p = 0; p < past_panes(&player->past); p++)
+        for (int p = 0; p < past_pane_count(&player->past); p++)
             taken =
                 taken || player->past.pane[p].simulation.run[0].method == next;
     } while (next != own && taken);
@@ -40,7 +40,7 @@ Status obey_next_method(Player *player, const Command *command)
  * the method, since further commands of the page set what differs. */
 Status obey_add_pane(Player *player, const Command *command)
 {
-    int panes = past_panes(&player->past);
+    int panes = past_pane_count(&player->past);
     if (panes >= OPTIONS_MAX_DRAWN_PANES)
         return player_refuse(player, "six are side by side: no room for more");
     if (player_simulation(player)->runs > 1)
@@ -65,7 +65,7 @@ Status obey_add_pane(Player *player, const Command *command)
 
 Status obey_close_pane(Player *player, const Command *command)
 {
-    if (past_panes(&player->past) < 2)
+    if (past_pane_count(&player->past) < 2)
         return player_refuse(player, "there is only one");
     return player_edit_step(player, command, ALL_PANES, false);
 }

@@ -15,7 +15,7 @@ static Branch *present_branch(const Past *past)
     return &past->branch[past->current];
 }
 
-int past_panes(const Past *past)
+int past_pane_count(const Past *past)
 {
     return past->branches > 0 ? present_branch(past)->panes : 0;
 }
@@ -240,7 +240,7 @@ static void pane_leave_step(Past *past, int p)
 
 static void leave_steps_of_panes(Past *past)
 {
-    for (int p = 0; p < past_panes(past); p++)
+    for (int p = 0; p < past_pane_count(past); p++)
         pane_leave_step(past, p);
 }
 
@@ -265,7 +265,7 @@ static Branch *push_new_branch(Past *past, Branch wanted, const Command *edit)
     if (reserve_entry(past, branch))
         return NULL;
     branch->entries = 1;
-    for (int p = 0; p < past_panes(past); p++)
+    for (int p = 0; p < past_pane_count(past); p++)
         if (branch->from_options || p >= branch->panes ||
             past->pane[p].step > branch->first_step)
             pane_leave_step(past, p);
@@ -444,7 +444,7 @@ static void abandon_past_work(Past *past)
     if (past->work_stage == WORK_DONE)
         return;
     long new = past_newest(past) + 1;
-    for (int p = 0; p < past_panes(past); p++) {
+    for (int p = 0; p < past_pane_count(past); p++) {
         PastPane *pane = &past->pane[p];
         if (pane->is_iterating || pane->substeps > 0 || pane->step >= new)
             pane->has_state = false;
@@ -494,7 +494,7 @@ static Status pane_record_failure(Past *past, int p, Status status)
 {
     PastPane *pane = &past->pane[p];
     if (past_makes_step(past) && past->panes_fail_alone &&
-        past_panes(past) > 1 && !is_out_of_memory(status)) {
+        past_pane_count(past) > 1 && !is_out_of_memory(status)) {
         status = end_pane_by_failure(past, p, status);
         if (status == STATUS_RUNNING)
             return status;
@@ -606,7 +606,7 @@ static Status pane_iterate(Past *past, int p)
 static Status begin_new_step(Past *past)
 {
     double longest = -1;
-    for (int p = 0; p < past_panes(past); p++) {
+    for (int p = 0; p < past_pane_count(past); p++) {
         const PastPane *pane = &past->pane[p];
         double pace = find_pane_timestep(pane);
         if (pace <= longest || entry_ends_pane(past_entry(past, p, pane->step)))
@@ -630,7 +630,7 @@ static Status end_past_work(Past *past)
         present_branch(past)->entries++;
     } else if (past->work_stage == WORK_MAKING) {
         past->goal_step = past_newest(past);
-        for (int p = 0; p < past_panes(past); p++)
+        for (int p = 0; p < past_pane_count(past); p++)
             past->pane[p].step = past->goal_step;
         abandon_past_work(past);
     }
@@ -643,7 +643,7 @@ Status past_do_work(Past *past)
 {
     if (past->work_stage == WORK_DONE)
         return STATUS_OK;
-    int panes = past_panes(past), pane = 0;
+    int panes = past_pane_count(past), pane = 0;
     for (; past->work_stage == WORK_LOADING && pane < panes; pane++) {
         Status status = pane_seek(past, pane, past->step_to_load);
         if (status)
@@ -674,7 +674,7 @@ static bool can_trace_goal(const Past *past)
 {
     enum { SHORT_STEP_WORK = 400000 }; /* limit of nodes times updates */
     long work = 0;
-    for (int p = 0; p < past_panes(past); p++) {
+    for (int p = 0; p < past_pane_count(past); p++) {
         const PastPane *pane = &past->pane[p];
         const Simulation *simulation = &pane->simulation;
         const PastEntry *entry = past_entry(past, p, past->goal_step);
@@ -700,7 +700,7 @@ void past_set_goal(Past *past, long step, bool again)
         !past->stores_states || !(again || can_trace_goal(past)))
         return;
     past->step_to_load = past->goal_step - 1;
-    for (int p = 0; p < past_panes(past); p++)
+    for (int p = 0; p < past_pane_count(past); p++)
         step_trace_clear(&past->pane[p].trace);
     leave_steps_of_panes(past);
 }
@@ -793,7 +793,8 @@ static const UserControl *make_edited_control(const UserControl *from,
         options_set(&control->options, &option_rows[edit->number], edit->text,
                     edit->x, MESSAGE(message));
     if (edit->kind == COMMAND_OBSTACLE) {
-        double *at = options_obstacle_at(&control->options, (int)edit->number);
+        double *at =
+            options_obstacle_point(&control->options, (int)edit->number);
         at[0] = edit->x;
         at[1] = edit->y;
     }

@@ -75,7 +75,7 @@ static int report_failure(const Player *player, Status status)
 {
     int code = status == STATUS_INVALID_INPUT ? EXIT_MISUSED : EXIT_FAILED;
     const char *message = player->message;
-    int panes = past_panes(&player->past), p = 0;
+    int panes = past_pane_count(&player->past), p = 0;
     char pane[32] = "";
     if (status == STATUS_FILE_FAILED && player->recording.uses_stdout &&
         stdout_is_closed())
@@ -154,7 +154,7 @@ static void print_energy_gain(FILE *file, const Simulation *simulation)
 static void print_summary(FILE *file, const Player *player)
 {
     const Recording *recording = &player->recording;
-    int panes = past_panes(&player->past);
+    int panes = past_pane_count(&player->past);
     for (int p = 0; p < panes; p++) {
         const Simulation *simulation = &player->past.pane[p].simulation;
         bool in_time = simulation->scene->parts & HAS_TIME;
@@ -229,7 +229,8 @@ int program_end(Player *player, Status status)
     int code = check_standard_output();
     if (code == EXIT_FINE && player->commands.has_refused_line)
         return EXIT_MISUSED;
-    for (int i = 0; i < past_panes(&player->past) && code == EXIT_FINE; i++) {
+    for (int i = 0; i < past_pane_count(&player->past) && code == EXIT_FINE;
+         i++) {
         const Simulation *simulation = &player->past.pane[i].simulation;
         if (simulation->unconverged_steps > 0 ||
             (simulation->is_over && simulation->status))

@@ -37,16 +37,16 @@ int player_copy_options(const Player *player,
                         Options options[OPTIONS_MAX_PANES])
 {
     const Past *past = &player->past;
-    for (int p = 0; p < past_panes(past); p++) {
+    for (int p = 0; p < past_pane_count(past); p++) {
         options[p] = past_control(past, p)->options;
         options[p].flips = exhibit_get_flip_bits(&past->pane[p].simulation);
     }
-    return past_panes(past);
+    return past_pane_count(past);
 }
 
 bool player_shows_number(const Player *player, const OptionRow *row)
 {
-    return (row->needed_parts & player_active_options(player)->scene->parts) &&
+    return (row->needs_any_of & player_active_options(player)->scene->parts) &&
            row->kind != OPTION_SWITCH && row->kind != OPTION_TEXT;
 }
 
@@ -71,7 +71,7 @@ const Options *player_find_page_options(const Player *player,
 {
     const Past *past = &player->past;
     const Options *own = player->tour.page_options;
-    for (int p = 0; p < past_panes(past); p++)
+    for (int p = 0; p < past_pane_count(past); p++)
         if (!option_is_equal(row, &own[p], &past_control(past, p)->options))
             return &own[p];
     return NULL;
@@ -118,7 +118,7 @@ bool player_panes_differ(const Player *player, const OptionRow *row)
 {
     const Past *past = &player->past;
     bool differ = false;
-    for (int i = 1; row->label && i < past_panes(past); i++)
+    for (int i = 1; row->label && i < past_pane_count(past); i++)
         differ = differ || past_control(past, i)->options.number[row->slot] !=
                                past_control(past, 0)->options.number[row->slot];
     return differ;
@@ -132,7 +132,7 @@ bool player_is_stopped(const Player *player)
 uint64_t player_hash(const Player *player)
 {
     uint64_t hash = STATE_HASH_SEED;
-    for (int i = 0; i < past_panes(&player->past); i++)
+    for (int i = 0; i < past_pane_count(&player->past); i++)
         hash = state_hash(&player->past.pane[i].simulation, hash);
     return hash;
 }
@@ -159,7 +159,7 @@ void player_sample_line_energy(Player *player)
         is_drawn && pane->has_trace && !past_is_working(past) &&
         step_trace_lacks_samples(
             &pane->trace, player->view_of_pane[player->active].trace_index);
-    for (int p = 0; p < past_panes(past); p++)
+    for (int p = 0; p < past_pane_count(past); p++)
         lacks = lacks && !past->pane[p].has_failed;
     if (lacks)
         past_set_goal(past, past->step, true);

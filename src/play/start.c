@@ -46,13 +46,13 @@ static Status clear_obstacles_at_start(Player *player, int pane,
     if (began.grounds != options->grounds || began.balls != options->balls)
         return STATUS_INVALID_INPUT;
     for (int k = 0; k < count; k++)
-        memcpy(options_obstacle_at(&kept, k), options_obstacle_at(&began, k),
-               sizeof began.at);
+        memcpy(options_obstacle_point(&kept, k),
+               options_obstacle_point(&began, k), sizeof began.at);
     for (int k = 0; k < count; k++) {
-        double *at = options_obstacle_at(&kept, k);
-        memcpy(at, options_obstacle_at(options, k), sizeof began.at);
+        double *at = options_obstacle_point(&kept, k);
+        memcpy(at, options_obstacle_point(options, k), sizeof began.at);
         if (body_check(&kept, message))
-            memcpy(at, options_obstacle_at(&began, k), sizeof began.at);
+            memcpy(at, options_obstacle_point(&began, k), sizeof began.at);
     }
     *options = kept;
     return body_check(options, message);
@@ -83,7 +83,7 @@ Status player_restart_runs(Player *player, const Options *options, int panes,
 {
     const UserControl *before = control_retain(past_control(&player->past, 0));
     const LecturePage *page = options->page;
-    Options own; /* options of the page, for whose mesh on_open is made */
+    Options own; /* the page's own; on_open names nodes of their mesh */
     bool opens = edit->kind == COMMAND_RESTART && page && page->on_open &&
                  !lecture_make_options(page, &own, MESSAGE(player->message)) &&
                  own.segments == options->segments;

@@ -13,7 +13,7 @@ static Status record_iterations(Player *player, long step)
 {
     Recording *recording = &player->recording;
     Status status = STATUS_OK;
-    for (int p = 0; p < past_panes(&player->past) && p < recording->panes;
+    for (int p = 0; p < past_pane_count(&player->past) && p < recording->panes;
          p++) {
         const PastPane *pane = &player->past.pane[p];
         if (pane->records.is_incomplete)
@@ -34,7 +34,7 @@ static Status record_step(Player *player)
 {
     Past *past = &player->past;
     const Simulation *simulation[OPTIONS_MAX_PANES];
-    int panes = past_panes(past);
+    int panes = past_pane_count(past);
     long step = past->step;
     bool due = step == past->energies_step + 1,
          again = step <= past->written_step;
@@ -62,7 +62,7 @@ Status player_write_missing_steps(Player *player)
     Status status = STATUS_OK;
     long shown = past->step;
     bool failed = false, again = true;
-    for (int p = 0; p < past_panes(past); p++)
+    for (int p = 0; p < past_pane_count(past); p++)
         failed = failed || past->pane[p].has_failed;
     if (failed && shown == past->written_step)
         status = record_iterations(player, shown + 1);
@@ -136,8 +136,8 @@ static void update_player_after_edit(Player *player)
     player->screen.must_redraw = true;
     if (player_is_stopped(player))
         player->screen.drawn_step = -1;
-    if (player->active >= past_panes(past))
-        player->active = past_panes(past) - 1;
+    if (player->active >= past_pane_count(past))
+        player->active = past_pane_count(past) - 1;
     const Options *now = player_active_options(player);
     if (now->scene != player->screen.scene || now->page != player->screen.page)
         reset_screen_for_scene(player);
@@ -181,7 +181,7 @@ static void report_at_rest(Player *player)
 {
     const Past *past = &player->past;
     int folded = 0;
-    for (int p = 0; p < past_panes(past); p++) {
+    for (int p = 0; p < past_pane_count(past); p++) {
         Pane pane = {.simulation = &past->pane[p].simulation};
         if (past_find_made_step(past, p, past->step) == past->step)
             folded += pane_count_folded_cells(&pane);
@@ -203,7 +203,8 @@ static void report_energy_gain(Player *player)
     if (player->setup.options[0].steps >= 0 || !player->setup.is_attended ||
         player_active_options(player)->page)
         return;
-    for (int p = 0; p < past_panes(past) && !player->play.reported_gain; p++) {
+    for (int p = 0; p < past_pane_count(past) && !player->play.reported_gain;
+         p++) {
         const Simulation *simulation = &past->pane[p].simulation;
         for (int r = 0; r < simulation->runs && !player->play.reported_gain;
              r++) {
@@ -230,7 +231,7 @@ static void stop_run_if_over(Player *player)
         (options->next_action == NEXT_ADDS_SPRING && /* springs left to add */
          past->step < player_simulation(player)->system.springs))
         return;
-    for (int p = 0; p < past_panes(past); p++) {
+    for (int p = 0; p < past_pane_count(past); p++) {
         const PastPane *pane = &past->pane[p];
         const Simulation *simulation = &pane->simulation;
         if (past_find_made_step(past, p, past->step) < past->step)
@@ -240,7 +241,7 @@ static void stop_run_if_over(Player *player)
         rests = rests && (simulation->scene->parts & HAS_TIME) &&
                 simulation->runs == 1 && !control_is_holding(pane->control) &&
                 simulation_is_at_rest(simulation);
-        bad = past_panes(past) == 1 && pane->outcome.status;
+        bad = past_pane_count(past) == 1 && pane->outcome.status;
     }
     if (rests && going > 0)
         player->play.mode = MODE_REST;
@@ -263,7 +264,7 @@ static void stop_run_if_over(Player *player)
  * line, the last one, or the update at which E was highest if E exploded. */
 static void begin_line_walk(Player *player, ActionAfterWork after)
 {
-    for (int p = 0; p < past_panes(&player->past); p++) {
+    for (int p = 0; p < past_pane_count(&player->past); p++) {
         const StepTrace *trace = &player->past.pane[p].trace;
         NewtonTrace shown;
         double far = 0;
@@ -292,7 +293,7 @@ static void begin_line_walk(Player *player, ActionAfterWork after)
 static bool walk_algorithm_lines(Player *player, int way)
 {
     bool moved = false;
-    for (int p = 0; p < past_panes(&player->past); p++) {
+    for (int p = 0; p < past_pane_count(&player->past); p++) {
         const StepTrace *trace = &player->past.pane[p].trace;
         int *place = &player->view_of_pane[p].trace_index;
         if (*place < 0)
@@ -328,7 +329,8 @@ static void describe_outcome(const Player *player, const OptionRow *row,
         append(text, size, ", %s", status_text(outcome->status));
 }
 
-/* Reports the outcomes before and after the edit; shows the same line again. */
+/* Reports how the step ended before and after the edit, and shows the line of
+ * Algorithm 3 that was shown before the edit. */
 static void compare_outcomes(Player *player)
 {
     const Past *past = &player->past;
@@ -475,7 +477,7 @@ Status obey_go_forward(Player *player, const Command *command)
 static bool panes_use_newton(const Player *player)
 {
     bool any = false;
-    for (int p = 0; p < past_panes(&player->past); p++)
+    for (int p = 0; p < past_pane_count(&player->past); p++)
         any = any || simulation_has_updates(&player->past.pane[p].simulation);
     return any;
 }

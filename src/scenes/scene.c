@@ -90,7 +90,8 @@ const Scene scenes[] = {
      "--timestep 0.02 --stretch 0.5 --projection none", create_square_scene,
      .starts_paused = true},
     /* Nodes fly 1.7 km in the first step, in which E rises to 2e16 J s^2;
-     * projection or line search prevents that.  2560 squares were tried. */
+     * projection or line search prevents that.  It is the worst of 2560 starts
+     * that were tried. */
     {"explosion", "Newton's method explodes",
      "one step without projection and line search: nodes fly", SQUARE,
      "--segments 3 --timestep 0.02 --stretch 0.485 --projection none "

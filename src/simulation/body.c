@@ -18,8 +18,8 @@
 /* A word of --pin, and where its nodes are. */
 static const struct PinWord {
     const char *word;
-    int needed_sides;  /* sides that each node is on; 0: any node */
-    int allowed_sides; /* sides, one of which each node is on; 0: any node */
+    int needed_sides;  /* bits: each node is on all of them; 0: any node */
+    int allowed_sides; /* bits: each node is on one of them; 0: any node */
 } pin_words[] = {{"top-corners", MESH_TOP, MESH_LEFT | MESH_RIGHT},
                  {"top", MESH_TOP, 0},
                  {"bottom", MESH_BOTTOM, 0},
@@ -537,13 +537,14 @@ double simulation_find_free_fraction(const Simulation *simulation,
     static const double MIN_GAP = 0.999;     /* gap to a body over d_hat */
     static const double MIN_PART = 1.0 / 64; /* least step over the whole way */
     Options moved = *options;
-    double *at = options_obstacle_at(&moved, number), free = 0, from[2];
+    double *at = options_obstacle_point(&moved, number), free = 0, from[2];
     memcpy(from, at, sizeof from);
     memcpy(at, to, sizeof from);
     if (!check_clearance(simulation, &moved, 0, -1, (Message){0}))
         return 1;
     double step = 0.5, length = math_hypot(to[0] - from[0], to[1] - from[1]);
-    if (number >= options->grounds) /* half a radius skips no body */
+    if (number >=
+        options->grounds) /* a way of half its radius jumps over no body */
         step = fmin(fmax(0.5 * at[2] / length, MIN_PART), step);
     for (int i = 0; i < MAX_HALVINGS;) {
         for (int c = 0; c < 2; c++)

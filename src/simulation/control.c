@@ -73,7 +73,8 @@ void control_store_obstacle(UserControl *control, int number,
         if (!(away < SAME * simulation->options.side))
             return;
     }
-    memcpy(options_obstacle_at(&control->options, number), place, sizeof place);
+    memcpy(options_obstacle_point(&control->options, number), place,
+           sizeof place);
 }
 
 const UserControl *control_retain(const UserControl *control)

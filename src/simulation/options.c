@@ -108,7 +108,7 @@ REASON(why_nothing_drawn,
 /* Macros for the rest of a row: parts that the scene must have, repetitions,
  * the label of an option with lists of values.  SHOWN puts the option into the
  * window's row of numbers: place, length of the values, increment. */
-#define NEEDS(what)             .needed_parts = HAS_##what
+#define NEEDS(what)             .needs_any_of = HAS_##what
 #define TIMES(n, field)         .max_times = n, .count_slot = OPTION_SLOT(field)
 #define FEWER(bits, others)     .short_counts = bits, .omitted_defaults = others
 #define LIST(text)              .label = text
@@ -235,7 +235,7 @@ const OptionRow option_rows[] = {
 
     {SECTION("time step and solver:")},
     {NUMBER(timestep, "H", "time step h", "s", 0.004, 1e-30, 1e30),
-     .needed_parts = HAS_TIMESTEP, LIST("h"), LIVE, SHOWN(1, 8, 0)},
+     .needs_any_of = HAS_TIMESTEP, LIST("h"), LIVE, SHOWN(1, 8, 0)},
     {NAME("integrator", integrator, "I", "time integrator", -1,
           integrator_methods),
      NEEDS(TIME), LIST("method"), LIVE, SHOWN(8, 16, 0)},
@@ -343,7 +343,7 @@ const IntegratorMethod *options_method(const Options *options)
     return &integrator_methods[(int)fmax(options->integrator, 0)];
 }
 
-double *options_obstacle_at(Options *options, int number)
+double *options_obstacle_point(Options *options, int number)
 {
     int ball = number - (int)options->grounds;
     return ball < 0 ? options->ground[number] + 2 : options->ball[ball];
@@ -395,7 +395,7 @@ int options_list_visible_rows(const Options *options,
     for (int place = 1; place < OPTIONS_MAX_ROWS; place++)
         for (const OptionRow *row = option_rows; row->name; row++)
             if (row->display.row_position == place &&
-                (row->needed_parts & options->scene->parts) &&
+                (row->needs_any_of & options->scene->parts) &&
                 !(row->idle_reason && row->idle_reason(options)) &&
                 (row->kind == OPTION_NAME || row->display.notch_increment > 0 ||
                  options->number[row->slot] > 0))

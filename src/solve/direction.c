@@ -9,7 +9,7 @@ enum { CLAMPS_AFTER_FAILURE = 4 };
 /* Shifts that are tried: 1e-15, 1e-13, ... 1e-5 of the largest entry.  A shift
  * changes few directions, so conjugate gradients need few solves until r.z has
  * fallen to ALL_DIGITS of its first value. */
-enum { SHIFT_TRIES = 6, CONJUGATE_MAX_SOLVES = 59 };
+enum { SHIFT_TRIES = 6, CG_MAX_SOLVES = 59 };
 static const double ALL_DIGITS = 1e-28;
 
 /* ---- the Hessian and its factor ---- */
@@ -211,7 +211,7 @@ static Status solve_with_factor(Newton *newton)
         direction->r[i] = -at->g[i];
     }
     for (int solves = 0; !status && take_conjugate_step(newton, &state) &&
-                         solves < CONJUGATE_MAX_SOLVES;
+                         solves < CG_MAX_SOLVES;
          solves++)
         status = apply_inverse_factor(newton, direction->r, direction->z);
     return status;

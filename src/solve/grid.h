@@ -53,7 +53,7 @@ static inline int node_index(const RowLayout *rows, int i, int j)
 
 typedef struct Grid {
     RowLayout rows;
-    int segments, bands;
+    int segments, bands; /* segments a side; bands of rows (grid_loops.h) */
     double length_unit, mass_unit,
         energy_unit; /* grid units per m, kg, J s^2 */
     /* Equal rows of masses are stored once, and so are equal rows of springs.
@@ -124,8 +124,9 @@ void grid_energy_quartic(const Grid *grid, const double *p, double quartic[4]);
  *   g, last_g   grad E after and before that step
  *   last_slope  last_g.last_p, below 0
  * Returns beta >= 0. */
-double grid_conjugate_p(const Grid *grid, const double *g, const double *last_g,
-                        const double *last_p, double last_slope, double *p);
+double grid_make_conjugate(const Grid *grid, const double *g,
+                           const double *last_g, const double *last_p,
+                           double last_slope, double *p);
 
 /* Moves all nodes alike, so that sum m x is sum m x_tilde, as at the minimum of
  * E where no node is pinned.  Returns the change of E, which is at most 0. */

@@ -117,9 +117,9 @@ FAST void grid_energy_quartic(const Grid *grid, const double *p,
 
 /* ---- without springs ---- */
 
-FAST double grid_conjugate_p(const Grid *grid, const double *g,
-                             const double *last_g, const double *last_p,
-                             double last_slope, double *p)
+FAST double grid_make_conjugate(const Grid *grid, const double *g,
+                                const double *last_g, const double *last_p,
+                                double last_slope, double *p)
 {
     double total = 0;
     BANDS

@@ -30,8 +30,9 @@ typedef struct NodeRun {
     ptrdiff_t first, end; /* index of the first node, and past the last one */
     ptrdiff_t next;       /* distance from a node to the next row */
     ptrdiff_t before, after; /* distances to the columns before and after */
-    ptrdiff_t shift, shift_below; /* spring_shift of the row, the row before */
-    ptrdiff_t mass_shift;         /* mass index of a node minus node index */
+    ptrdiff_t shift,
+        shift_before; /* Grid.spring_shift of this row and of the row before */
+    ptrdiff_t mass_shift; /* mass index of a node minus node index */
 } NodeRun;
 
 INLINE NodeRun nodes_in_row(const RowLayout *rows, int i, int odd)
@@ -129,13 +130,13 @@ INLINE void narrow_array(const double *from, double factor, double middle,
     F(UP, (at).before, (at).shift + (at).before)
 #define CROSS_SPRINGS(F, at)                                                   \
     F(RIGHT, (at).next, (at).shift)                                            \
-    F(RIGHT, -(at).next, (at).shift_below - (at).next)                         \
+    F(RIGHT, -(at).next, (at).shift_before - (at).next)                        \
     F(DIAGONAL, (at).next + (at).after, (at).shift)                            \
     F(DIAGONAL, (at).before - (at).next,                                       \
-      (at).shift_below + (at).before - (at).next)                              \
+      (at).shift_before + (at).before - (at).next)                             \
     F(ANTIDIAGONAL, (at).next + (at).before, (at).shift)                       \
     F(ANTIDIAGONAL, (at).after - (at).next,                                    \
-      (at).shift_below + (at).after - (at).next)
+      (at).shift_before + (at).after - (at).next)
 #define ALL_SPRINGS(F, at) ROW_SPRINGS(F, at) CROSS_SPRINGS(F, at)
 #define OWN_SPRINGS(F, at)                                                     \
     F(RIGHT, (at).next, (at).shift)                                            \
@@ -148,7 +149,7 @@ INLINE NodeRun grid_nodes(const Grid *grid, int i, int odd)
 {
     NodeRun at = nodes_in_row(&grid->rows, i, odd);
     at.shift = grid->spring_shift[i + 1];
-    at.shift_below = grid->spring_shift[i];
+    at.shift_before = grid->spring_shift[i];
     at.mass_shift = grid->mass_shift[i];
     return at;
 }

@@ -189,7 +189,8 @@ static void multigrid_compute_direction(Newton *newton)
     if (v_cycle_solve(&mg->cycle, mg->g, mg->gradient_norm2, longest, mg->p,
                       &largest)) {
         double square = grid_linear_residual(&mg->grid, mg->g, mg->p);
-        /* The factor bounds `largest`, a sum rounded to single precision. */
+        /* `largest` is rounded to single precision; the factor makes it an
+         * upper bound. */
         newton->passes_test = p_passes_test(
             &mg->grid, largest * (1 + FLT_EPSILON), square, longest);
     }
@@ -249,8 +250,8 @@ static void multigrid_search_line(Newton *newton, double last_size,
     NewtonRecord *record = &newton->record;
     double beta = 0;
     if (record->iteration > 0 && !mg->has_relaxed)
-        beta = grid_conjugate_p(&mg->grid, mg->g, mg->last_g, mg->last_p,
-                                last_slope, mg->p);
+        beta = grid_make_conjugate(&mg->grid, mg->g, mg->last_g, mg->last_p,
+                                   last_slope, mg->p);
     mg->p_size = record->residual * newton->settings.h + beta * last_size;
     multigrid_compute_line_polynomial(mg);
     record->slope = mg->line_E.q[0];

@@ -82,7 +82,7 @@ static Status test_iterate(Newton *newton, Status status)
  * each of which is exact along its line, is used unless E was so high in
  * between that the sum has lost more digits than E at the end - E at the start.
  */
-static void book_change(Newton *newton)
+static void book_energy_change(Newton *newton)
 {
     const Iterate *at = &newton->iterate;
     const double first = newton->rounding.start_energy;
@@ -110,9 +110,9 @@ static const NewtonPhases newton_phases = {find_direction, find_step_length,
  *         x = x + alpha p
  *     while residual > tolerance
  *
- * The last p is used, unless rounding hides its decrease of E.  The
- * result is then 3 to 1e11 times more accurate.  The course's Python tests p
- * before it uses p, and throws the last p away. */
+ * The last p, too, is added to x, unless rounding hides that E falls along p.
+ * The result is then 3 to 1e11 times more accurate.  The course's Python
+ * tests p before the update of x, and throws the last p away. */
 Status newton_minimise(Newton *newton)
 {
     NewtonRecord *record = &newton->record;
@@ -138,7 +138,8 @@ Status newton_minimise(Newton *newton)
             status = phases->update(newton);
 
         /* Decide whether the loop ends; find_direction has tested p */
-        record->status = newton->status = phases->test_end(newton, status);
+        record->status = newton->status =
+            phases->test_convergence(newton, status);
 
         newton->change_sum += record->change;
         newton->change_abs_sum += fabs(record->change);
@@ -147,7 +148,7 @@ Status newton_minimise(Newton *newton)
                  !newton->settings.observer(newton->settings.user_data, record);
     }
     if (newton->status != STATUS_RUNNING)
-        book_change(newton);
+        book_energy_change(newton);
     return newton->status;
 }
 

@@ -23,7 +23,7 @@ typedef struct NewtonPhases {
     /* Turns a free body (turn_free_body), and decides whether the loop ends.
      *   status  in, result of the phases before
      * Returns RUNNING, OK, or how the minimisation failed. */
-    Status (*test_end)(Newton *newton, Status status);
+    Status (*test_convergence)(Newton *newton, Status status);
 } NewtonPhases;
 
 /* Exchanges the iterate and the trial. */

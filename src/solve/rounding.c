@@ -10,7 +10,7 @@ enum { STAGNANT_ITERATIONS = 20 };
 /* Without a line search updates may go round in circles.  After this many
  * iterations without a smaller residual the loop ends.  (Of 1100 steps with
  * contact one converged later.) */
-enum { CIRCLING_ITERATIONS = 500 };
+enum { MAX_CIRCLING_ITERATIONS = 500 };
 
 /* Limits of w k over m.  Above STIFF_MASSES, rounding of the gradient may hide
  * that E rises along p.  Above INEXACT_MASSES, a direction from a factor may be
@@ -123,7 +123,7 @@ Status rounding_test_stagnation(Newton *newton)
     if (rounding->stagnant_iterations >= STAGNANT_ITERATIONS &&
         is_below_roundoff(newton, newton->record.change))
         return STATUS_ROUNDING_LIMIT;
-    return rounding->stagnant_iterations >= CIRCLING_ITERATIONS &&
+    return rounding->stagnant_iterations >= MAX_CIRCLING_ITERATIONS &&
                    newton->settings.line_search == LINE_SEARCH_NONE
                ? STATUS_ITERATION_LIMIT
                : STATUS_RUNNING;

@@ -205,10 +205,10 @@ void v_cycle_copy_system(VCycle *cycle)
 
 /* ---- the V-cycle: A x = b ---- */
 
-/* Result of a pass over one colour of a row. */
+/* What a pass over one colour of a row computes. */
 typedef enum PassKind {
-    PASS_FIRST,    /* x = D (b + sum of K x'), x was 0; x' at the far ends of
-                      springs to earlier colours */
+    PASS_FIRST,    /* the first pass, from x = 0: x = D (b + sum of K x'), D the
+                      inverse diagonal, x' at neighbours of earlier colours */
     PASS_RESIDUAL, /* w = b - A x after PASS_FIRST.  All terms cancel but the
                       sum of K x' over springs to later colours */
     PASS_SMOOTH,   /* x += D (b - A x), a Gauss-Seidel pass */

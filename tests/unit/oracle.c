@@ -557,7 +557,7 @@ static PartFrame make_part_frame(Probe *probe, PartKind parts, const void *data,
     return frame;
 }
 
-/* Formula of each term, and the parts over which it sums; data: of the term */
+/* Formula of each term, and its parts; data is the term's EnergyTerm.data */
 static const struct {
     const TermKind *kind;
     PartKind part_kind;
@@ -799,7 +799,7 @@ void visit_blocks(const IncrementalPotential *E, const double *u, int lifts,
 typedef struct DenseSystem {
     const System *system;
     Real *g, *abs_sum, *H;
-    int n, lift_factor;
+    int n, lifts;
 } DenseSystem;
 
 static void add_block(void *assembly, const EnergyPart *block)
@@ -825,7 +825,7 @@ static void assemble_system(const Probe *probe, const double *u,
     memset(to->g, 0, n * sizeof *to->g);
     memset(to->abs_sum, 0, n * sizeof *to->abs_sum);
     memset(to->H, 0, n * n * sizeof *to->H);
-    visit_parts(probe, u, u_tilde, to->lift_factor, add_block, (void *)to);
+    visit_parts(probe, u, u_tilde, to->lifts, add_block, (void *)to);
     for (size_t r = 0; r < n; r++) {
         if (!system->pinned[r / 2])
             continue;
@@ -858,7 +858,7 @@ static bool factor_densely(const DenseSystem *of)
     Real *H = of->H;
     for (int c = 0; c < n; c++) {
         Real m = of->system->pinned[c / 2] ? 0 : of->system->m[c / 2];
-        if (of->lift_factor && H[n * c + c] < m)
+        if (of->lifts && H[n * c + c] < m)
             H[n * c + c] = m;
         if (!(fabsl(H[n * c + c]) > 0))
             return false;
@@ -908,8 +908,7 @@ double exact_rise(const IncrementalPotential *E, const double *from,
 }
 
 /* ERROR_ULPS: error of parts of a double gradient and of coordinates, in units
- * of the last place. ERROR_SAMPLES: random errors, of which the worst is
- * used. */
+ * of the last place. ERROR_SAMPLES: random errors; the worst is used. */
 enum { ERROR_ULPS = 4, ERROR_SAMPLES = 12 };
 
 /* Returns the largest |p_x| + |p_y| after random errors in the last digits of

@@ -1,7 +1,6 @@
 /* test.h - TEST(name) { ... } defines a test. Tests of a file run in its order.
  * TESTS(setup, teardown) ends the file; both run once, or are NULL. An argument
- * chooses tests by name, with * for any letters. Each test ends with a call of
- * free_simulations. */
+ * chooses tests by name (* for any letters). Each ends by free_simulations. */
 #ifndef ELASTO_TEST_H
 #define ELASTO_TEST_H
 

@@ -11,7 +11,7 @@
 
 #include "play/recording.h"
 
-enum { WIDTH = 61, HEIGHT = 47, BLOCK = 20, FRAMES = 8 };
+enum { WIDTH = 61, HEIGHT = 47, SIDE = 20, FRAMES = 8 };
 
 static char folder[] = "/tmp/elasto-film-XXXXXX";
 
@@ -34,7 +34,7 @@ enum { ROWS = sizeof rows / sizeof *rows };
 static uint32_t film_pixel(int frame, int x, int y)
 {
     int i = frame == 5 ? 4 : frame; /* frames 4 and 5 are equal */
-    bool inside = x >= i && x < i + BLOCK && y >= 10 && y < 10 + BLOCK;
+    bool inside = x >= i && x < i + SIDE && y >= 10 && y < 10 + SIDE;
     return inside ? 0xff0020c0u + 0x060000u * (uint32_t)i : 0xffffffffu;
 }
 
@@ -123,7 +123,7 @@ static void check_frames(const struct FilmRow *row, const uint8_t *bytes,
                 const uint8_t *at =
                     bytes + 3 * ((i * row->height + y) * row->width + x);
                 uint32_t drawn = film_pixel(i, x, y);
-                bool middle = x == i + BLOCK / 2 && y == 10 + BLOCK / 2;
+                bool middle = x == i + SIDE / 2 && y == 10 + SIDE / 2;
                 for (int c = 0; c < 3 && (row->tolerance == 0 || middle); c++)
                     wrong += abs(at[c] - (int)(drawn >> (16 - 8 * c) & 255)) >
                              row->tolerance;

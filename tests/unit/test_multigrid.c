@@ -209,7 +209,7 @@ TEST(bits_depend_on_the_step_alone)
 /* Smooth steps take about as many directions at any size, with one cycle each.
  * Pins, broken springs and random masses take more cycles, at most as many as
  * were counted once.  A tight tolerance needs no factor. */
-TEST(steps_take_no_more_work)
+TEST(steps_take_no_more_cycles_than_counted)
 {
     static const struct {
         int segments, smooth_cycles, rough_cycles;

@@ -14,7 +14,7 @@ static Past past;
 static uint64_t hash_past(void)
 {
     uint64_t hash = STATE_HASH_SEED;
-    for (int p = 0; p < past_panes(&past); p++)
+    for (int p = 0; p < past_pane_count(&past); p++)
         hash = hash_with_ledger(&past.pane[p].simulation, hash);
     return hash;
 }

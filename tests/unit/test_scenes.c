@@ -34,7 +34,7 @@ TEST(scenes_are_complete)
         for (char *word = strtok_r(words, " ", &rest); word;
              word = strtok_r(NULL, " ", &rest))
             if (strncmp(word, "--", 2) == 0)
-                CHECK(option_find(word + 2)->needed_parts & scene->parts);
+                CHECK(option_find(word + 2)->needs_any_of & scene->parts);
         Simulation *simulation = simulate("%s", scene->name);
         CHECK(simulation->scene == scene && simulation->runs >= 1);
         CHECK(!simulation->is_over && simulation->steps == 0);

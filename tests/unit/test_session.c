@@ -1408,7 +1408,7 @@ static void random_keys_stay_in_their_field(void **unused)
         set = enter && !player.hands.selected;
         refused += enter && !set;
         press_key("Escape");
-        CHECK(!player.hands.selected && past_panes(&player.past) == 1 &&
+        CHECK(!player.hands.selected && past_pane_count(&player.past) == 1 &&
               player_is_stopped(&player));
         if (set && player.past.step == 2) /* a mesh size begins a new run */
             CHECK(hash_all_but_setting(place) == rest);
@@ -1424,7 +1424,7 @@ static void random_keys_stay_in_their_field(void **unused)
 static uint64_t hash_panes(void)
 {
     uint64_t hash = STATE_HASH_SEED;
-    for (int p = 0; p < past_panes(&player.past); p++)
+    for (int p = 0; p < past_pane_count(&player.past); p++)
         hash = hash_with_ledger(&get_past_pane(p)->simulation, hash);
     return hash;
 }

@@ -258,9 +258,9 @@ TEST(the_mouse_finds_nodes_and_springs)
 
 /* ---- what is written ----------------------------------------------- */
 
-/* Texts of a frame, and pixels of their left ends and tops */
+/* Texts of a frame, and pixels of their left ends */
 static char texts[500][160];
-static double text_left[500], text_top[500];
+static double text_left[500];
 static int text_count;
 
 int __real_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
@@ -270,7 +270,6 @@ int __wrap_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
                      double x, double y, Align align, const char *markup)
 {
     text_left[text_count % 500] = x;
-    text_top[text_count % 500] = y;
     if (text_count < 500)
         snprintf(texts[text_count++], sizeof *texts, "%s", markup);
     return __real_text_draw(text, canvas, style, x, y, align, markup);
