@@ -543,8 +543,7 @@ double simulation_find_free_fraction(const Simulation *simulation,
     if (!check_clearance(simulation, &moved, 0, -1, (Message){0}))
         return 1;
     double step = 0.5, length = math_hypot(to[0] - from[0], to[1] - from[1]);
-    if (number >=
-        options->grounds) /* a way of half its radius jumps over no body */
+    if (number >= options->grounds) /* half its radius jumps over no body */
         step = fmin(fmax(0.5 * at[2] / length, MIN_PART), step);
     for (int i = 0; i < MAX_HALVINGS;) {
         for (int c = 0; c < 2; c++)

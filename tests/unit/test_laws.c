@@ -119,7 +119,8 @@ static Obstacle *add_hand_on_wall(void)
 
 /* A hand pushes a wall against a mass at rest: the wall is no faster than 5
  * m/s, passes no mass, and reaches the hand. The work of the hand is the energy
- * of the mass and the loss of backward Euler. */
+ * of the mass and the loss of backward Euler. A ball moves at once by at most
+ * half its radius, so it skips no mass. */
 TEST(a_hand_pushes_with_a_bounded_speed)
 {
     const double h = 0.01, still[2] = {0, 0}, right[2] = {1, 0};
@@ -138,6 +139,8 @@ TEST(a_hand_pushes_with_a_bounded_speed)
     double work = run.external_work;
     step_masses();
     CHECK(wall->o[0] == 1 && run.external_work == work);
+    *wall = (Obstacle){.kind = OBSTACLE_BALL, .radius = 0.2, .v = {0, 40}};
+    CHECK_NEAR(push_max_step(get_contact(&masses), h) * h * 40, 0.1, 1e-15);
 }
 
 /* A pinned mass stops the pushed wall at a gap of 0.3 d_hat. A free mass before
