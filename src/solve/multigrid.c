@@ -14,10 +14,10 @@
  * fraction of the shortest spring since they were computed. */
 static const double NEARBY = 0.05;
 
-/* A direction is poor if the bound of p after it is more than STALLS times the
- * bound before.  Tiles relax after each poor direction whose p is not small.  A
- * sweep of a tile is worth its time if it lowers E by more than PACE times the
- * last direction's decrease, divided by the number of tiles. */
+/* A direction is poor if p is not small (SMALL_P), and its bound after it is
+ * more than STALLS times the bound before.  Tiles relax after each poor
+ * direction.  A sweep of a tile is worth its time if it lowers E by more than
+ * PACE times the last direction's decrease, divided by the number of tiles. */
 static const double STALLS = 0.3, PACE = 0.01;
 
 /* If the first sweep of all tiles in a step lowers E by less than USELESS times
@@ -282,7 +282,8 @@ static Status multigrid_find_step_length(Newton *newton)
 }
 
 /* Adds alpha p to x, then relaxes tiles of nodes if the directions stall.  The
- * Hessian is clamped after a poor direction.  The exact Hessian returns after a
+ * Hessian is clamped after a poor direction, unless it is the first one of the
+ * step, since tiles alone are often enough.  The exact Hessian returns after a
  * direction that is not poor, if one V-cycle was enough for p: near a minimum
  * the exact Hessian needs fewer updates, and each of them takes less time. */
 static Status multigrid_update_iterate(Newton *newton)
@@ -297,15 +298,17 @@ static Status multigrid_update_iterate(Newton *newton)
     newton->counters.updates++;
     if (newton->passes_test)
         return STATUS_OK;
-    const bool is_poor = mg->p_bound > STALLS * mg->last_p_bound;
+    const bool is_poor = mg->p_bound > STALLS * mg->last_p_bound &&
+                         record->residual > SMALL_P * newton->tolerance;
+    const bool is_first = mg->tiles_rest_until == 0; /* poor one in the step */
     multigrid_choose_hessian(
-        mg, is_poor || (mg->cycle.is_clamped && mg->direction_cycles > 1));
-    mg->has_relaxed = is_poor && record->iteration >= mg->tiles_rest_until &&
-                      record->residual > SMALL_P * newton->tolerance;
+        mg, (is_poor && !is_first) ||
+                (mg->cycle.is_clamped && mg->direction_cycles > 1));
+    mg->has_relaxed = is_poor && record->iteration >= mg->tiles_rest_until;
     if (mg->has_relaxed) {
         const double change = record->change * unit;
         double first = tiles_relax(&mg->tiles, PACE * change / tiles, p);
-        if (mg->tiles_rest_until == 0)
+        if (is_first)
             mg->tiles_rest_until =
                 record->iteration + (first > USELESS * change ? TILE_PAUSE : 1);
         multigrid_compute_line_polynomial(mg);
