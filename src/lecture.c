@@ -58,7 +58,7 @@ typedef struct Solid {
     int nodes, springs;
     Vec2 *x, *v; /* [nodes] positions (m), velocities (m/s) */
     double *m;   /* [nodes] masses (kg) */
-    Spring *e;   /* [springs] the slides' edges */
+    Spring *e;   /* [springs] named e as on the slides */
 } Solid;
 
 /* Adds a spring that is at rest at the present positions of its nodes. */
@@ -369,7 +369,7 @@ static void explicit_euler(Solid *solid, double h, bool symplectic)
 
 /* ==== Drawing (simulator.py) ============================================== */
 #define FOLDER "lecture_pictures"
-enum { PIXELS = 600, MAX_PICTURES = 100, HEAVY_FACTOR = 1 << 20 };
+enum { PIXELS = 600, MAX_PICTURES = 100, HELD_MASS_FACTOR = 1 << 20 };
 typedef struct Screen {
     SDL_Surface *picture; /* drawn on if there is no window, or NULL */
     SDL_Renderer *renderer;
@@ -473,12 +473,12 @@ static bool handle_event(Screen *screen, Solid *solid, const SDL_Event *event)
             if (distance(solid->x[i], screen->mouse) <
                 distance(solid->x[screen->pulled], screen->mouse))
                 screen->pulled = i;
-        solid->m[screen->pulled] *= HEAVY_FACTOR;
+        solid->m[screen->pulled] *= HELD_MASS_FACTOR;
     }
     bool leaves = event->type == SDL_WINDOWEVENT &&
                   event->window.event == SDL_WINDOWEVENT_FOCUS_LOST;
     if ((leaves || event->type == SDL_MOUSEBUTTONUP) && screen->pulled >= 0) {
-        solid->m[screen->pulled] /= HEAVY_FACTOR;
+        solid->m[screen->pulled] /= HELD_MASS_FACTOR;
         screen->pulled = -1;
     }
     return event->type != SDL_QUIT && key != SDLK_ESCAPE;

@@ -120,4 +120,4 @@ void push_begin_step(Contact *contact, const System *system, const double *x,
 
 /* Returns the largest fraction of a step's way that the held obstacle may move
  * at once: a ball moves at most half its radius, so that it skips no node. */
-double push_max_step(const Contact *contact, double h);
+double push_max_fraction(const Contact *contact, double h);

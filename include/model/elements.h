@@ -122,7 +122,8 @@ struct ElementKind {
 typedef struct ElementIterator {
     const EvalPoint *point;
     const ElementKind *kind;
-    double motion_bound;  /* m, bound on the change of a and b by alpha p */
+    double
+        motion_bound; /* m, alpha p changes Element.a and .b by at most this */
     int i, element_count; /* present element, number of elements */
     Element element;      /* present element, out */
 } ElementIterator;

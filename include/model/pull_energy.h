@@ -30,13 +30,11 @@ Status pull_configure(System *system, const TermKind *kind,
 
 /* Sets k and target of the hand before a step.  The node moves part of the way
  * to the mouse: the distance falls by the factor e in 0.06 s, by at most half
- * in one step.  The node also moves at most half a cell or, if cells are small,
- * half a side a second.  Twice that speed turns cells at a corner over.
- *   x, v  [2] m, m/s, in, of the node
- *   m     kg, mass of the node
- *   h     s, time step
- *   free  [2] m/s^2, in, acceleration of the node without the hand, for an
- *         explicit integrator: the force then moves the node by this way
+ * in one step.  In a step it also moves at most half a cell or, if cells are
+ * small, at half a body's side a second.  Twice that speed turns cells at a
+ * corner over. x, v  [2] m, m/s, in, of the node m     kg, mass of the node h
+ * s, time step free  [2] m/s^2, in, acceleration of the node without the hand,
+ * for an explicit integrator: the force then moves the node by this way
  *         exactly.  NULL: an implicit integrator, whose stiff spring does so */
 void hand_begin_step(NodePull *hand, const double *x, const double *v, double m,
                      double h, const double *free);

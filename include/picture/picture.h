@@ -21,7 +21,8 @@ typedef struct CardTableRow {
 /* A box of the column with numbers or a graph about the active pane. */
 typedef struct Card {
     const char *name;  /* name in tables and scripts: "listing" */
-    const char *title; /* text (live_values.h); its first known line is shown */
+    const char *title; /* text (live_values.h): shown is the first line whose
+                          values are all known */
     double min_height; /* ems */
     /* Returns the minimum height in ems of a card whose content is `wide` ems
      * wide; an em has `em` pixels.  NULL: min_height. */

@@ -27,7 +27,7 @@ typedef struct Command {
     long number; /* index of a node, card, obstacle, row of options, ... */
     double x, y; /* position, m; x also the value of an option */
     char text[COMMAND_TEXT_SIZE]; /* name or value that is no number, or "" */
-    bool joins_gesture; /* is a part of the present gesture: "& set" */
+    bool joins_gesture; /* part of the present gesture; in a script: "& set" */
 } Command;
 
 /* The part of the window that gets the keys; a row can name several. */

@@ -84,7 +84,7 @@ Status create_landscape_scene(Simulation *simulation);
 
 /* Makes one Newton update (Algorithm 1), with the projection (Algorithm 3, line
  * 3) and line search (Algorithm 2) of the options.  Convergence is tested by
- * |g| with one unknown or without both options, else by |p|/h. */
+ * |g| with one unknown or if both options are off, else by |p|/h. */
 Status step_descent(Simulation *simulation);
 
 /* Computes the direction at the present iterate with the present options. */

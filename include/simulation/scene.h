@@ -55,7 +55,7 @@ typedef struct SceneBody {
     double pin_speed; /* speed of pinned nodes to the left and right, sides/s */
     double notch[2]; /* heights between which springs across the middle line are
                         cut, from the centre, divided by the body's height */
-    int runs;        /* number of runs with a body each; 0: one run */
+    int runs;        /* number of runs, each with a body; 0 means 1 */
     double height_step;        /* height of run r above run r + 1, in sides */
     double friction_factor[3]; /* factors on the runs' friction; 0 means 1 */
     /* Returns a further obstacle, at its start; NULL: no obstacle. */

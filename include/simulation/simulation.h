@@ -141,7 +141,7 @@ double simulation_find_free_fraction(const Simulation *simulation,
 bool simulation_is_draggable(const Simulation *simulation);
 
 /* Whether a time step consists of updates of Newton's method. */
-bool simulation_has_updates(const Simulation *simulation);
+bool simulation_has_newton_updates(const Simulation *simulation);
 
 /* Whether the method projects a Hessian, and whether the method searches along
  * a line.  Explicit integrators do neither. */

@@ -46,8 +46,8 @@ typedef struct NewtonRecord {
     double seconds;      /* computing time of the iteration */
     Status status; /* RUNNING, or how the iteration ended the minimisation */
     Solver solver; /* NEWTON or MULTIGRID */
-    double x_before[2]; /* m, single moving point before the update, or 0 */
-    double x_after[2];  /* m, single moving point after the update, or 0 */
+    double x_before[2]; /* position of the only node before the update (m) */
+    double x_after[2];  /* position of the only node after the update (m) */
 } NewtonRecord;
 
 /* Called after each iteration.  Returns false to pause the loop. */

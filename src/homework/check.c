@@ -322,7 +322,7 @@ static const Task tasks[] = {
 enum { TASK_COUNT = sizeof tasks / sizeof *tasks };
 
 /* Returns the name of number i of a result, for messages. */
-static const char *describe_number(ResultKind kind, int i)
+static const char *name_result_number(ResultKind kind, int i)
 {
     static char text[60];
     bool v = kind == STATE && i >= MAX_UNKNOWNS;
@@ -410,7 +410,7 @@ static void explain_difference(const Task *task, int case_number,
         if (!(fabs(yours[i]) < 1e100)) {
             set_fault("%s is %g: is a variable used before it has a value, or "
                       "does something divide by zero?",
-                      describe_number(task->kind, i), yours[i]);
+                      name_result_number(task->kind, i), yours[i]);
             return;
         }
     if (first == MAX_RESULT_NUMBERS)
@@ -421,7 +421,7 @@ static void explain_difference(const Task *task, int case_number,
         set_fault("%s", words);
     else
         set_fault("%s is %.9g, and should be %.9g",
-                  describe_number(task->kind, first), yours[first],
+                  name_result_number(task->kind, first), yours[first],
                   truth[first]);
 }
 

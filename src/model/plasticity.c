@@ -13,7 +13,7 @@ static double strain_beyond_yield(FlowLaw law, double e)
 }
 
 /* Returns min(|e|, Y). */
-static double strain_within_yield(FlowLaw law, double e)
+static double limit_strain_to_yield(FlowLaw law, double e)
 {
     return fabs(e) < law.yield_strain ? fabs(e) : law.yield_strain;
 }
@@ -24,7 +24,7 @@ static double strain_within_yield(FlowLaw law, double e)
 static double flow_law_value(FlowLaw law, double e)
 {
     double over = strain_beyond_yield(law, e), change = e - law.e_n;
-    double within = strain_within_yield(law, e);
+    double within = limit_strain_to_yield(law, e);
     double sum = within * (fabs(e) - 0.5 * within) +
                  0.5 * law.plastic_slope * over * over;
     return law.theta > 0 ? sum + 0.5 * law.theta * change * change : sum;
@@ -32,7 +32,7 @@ static double flow_law_value(FlowLaw law, double e)
 
 double flow_law_slope(FlowLaw law, double e)
 {
-    double tau = copysign(strain_within_yield(law, e) +
+    double tau = copysign(limit_strain_to_yield(law, e) +
                               law.plastic_slope * strain_beyond_yield(law, e),
                           e);
     return law.theta > 0 ? tau + law.theta * (e - law.e_n) : tau;

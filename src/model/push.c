@@ -119,7 +119,7 @@ void push_begin_step(Contact *contact, const System *system, const double *x,
         obstacle->v[c] = part * way[c] / h;
 }
 
-double push_max_step(const Contact *contact, double h)
+double push_max_fraction(const Contact *contact, double h)
 {
     const Obstacle *obstacle = &contact->obstacle[contact->hand.obstacle];
     double length = h * math_hypot(obstacle->v[0], obstacle->v[1]);

@@ -46,7 +46,7 @@ static void compute_line_curves(const NewtonTrace *trace,
         if (!isnan(curves->exact[i]))
             high = fmax(high, curves->exact[i]);
     }
-    /* If no curve falls, the height of the quadratic model is the depth. */
+    /* If no curve falls, E by the quadratic model gives the depth: slope/2. */
     double depth = fmax(low < 0 ? -low : 0.5 * trace->slope, 1e-300);
     curves->low = -1.12 * depth;
     curves->high =

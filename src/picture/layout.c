@@ -486,7 +486,7 @@ Layout layout_create(const FrameContent *content, int width, int height)
         return layout;
     }
     double wide = width / layout.em, high = height / layout.em;
-    bool low = page && high < 50; /* a list or code then covers the stage */
+    bool low = page && high < 50; /* low: lists and code cover the stage */
     bool bare = content->is_bare || content->is_stage_only;
     if (!bare && wide >= 53 && high >= 34 && !low &&
         (page || content->cards.hidden_cards != (1u << picture->count) - 1)) {

@@ -311,7 +311,7 @@ static void format_live_value(const LiveValue *one, const char *format,
 
 /* Fills `line` from `length` bytes of text, with the values of its names.
  * Returns false if a value is unknown. */
-static bool expand_line(TextLine *line, const char *text, size_t length)
+static bool fill_in_values(TextLine *line, const char *text, size_t length)
 {
     const LiveValues *values = line->values;
     const char *from = text, *end = text + length;
@@ -367,7 +367,7 @@ bool text_next_line(TextLine *line)
         const char *text = line->next_text;
         size_t length = strcspn(text, "\n");
         line->next_text += length + (text[length] == '\n');
-        if (*text && expand_line(line, text, length))
+        if (*text && fill_in_values(line, text, length))
             return true;
         if (!*text)
             break;

@@ -17,7 +17,7 @@ NumberText format_digits(double value, int digits)
         snprintf(out.text, size, "%s%s", sign,
                  isnan(value) ? "no number" : "\u221e");
     else if (most != 0 && (most < 1e-3 || most >= fmax(1e5, longer)))
-        out = format_power(plain);
+        out = format_power_of_ten(plain);
     else if (most < longer)
         snprintf(out.text, size, "%s%.*g", sign, digits, most);
     else { /* zeros take the place of the digits that are left out */
@@ -32,7 +32,7 @@ NumberText format_number(double value)
     return format_digits(value, 3);
 }
 
-NumberText format_power(const char *value)
+NumberText format_power_of_ten(const char *value)
 {
     NumberText out;
     const char *digit = value + (value[0] == '-');

@@ -188,7 +188,7 @@ NumberText format_number(double value);
 
 /* Returns a value as options write it, with 1e-06 as 10^{-6}; a value that is
  * being typed stays as it is. */
-NumberText format_power(const char *value);
+NumberText format_power_of_ten(const char *value);
 
 /* ---- stages (picture.c) -------------------------------------------------- */
 

@@ -81,7 +81,7 @@ static void draw_setting(Paper *paper, Box box, const Setting *setting,
     box.width += (int)(0.8 * em); /* the value may reach into the gap */
     width = paper_write_in_box(
         paper, setting->is_changed ? FACE_BOLD : FACE_REGULAR, TEXT_SIZE,
-        colour, box, ALIGN_LEFT, format_power(setting->value).text);
+        colour, box, ALIGN_LEFT, format_power_of_ten(setting->value).text);
     canvas_dashes(&paper->canvas, (double[2]){box.x, below + 0.5},
                   (double[2]){box.x + width, below + 0.5}, fmax(1, paper->unit),
                   paper->unit, NULL, colour);

@@ -144,7 +144,7 @@ static void build_chip_row(const Player *player, WindowFrame *frame)
     const Options *options = player_active_options(player);
     bool time = simulation->scene->parts & HAS_TIME;
     bool nears = options->next_action == NEXT_SHORTENS_SPRING;
-    bool newton = simulation_has_updates(simulation) && !nears;
+    bool newton = simulation_has_newton_updates(simulation) && !nears;
     bool ended = simulation->is_over || player->play.mode > MODE_END;
     bool stands = player_is_stopped(player);
     if (player->screen.sheet) {
@@ -227,7 +227,7 @@ void player_write_label(const Player *player, int pane, char label[LABEL_SIZE])
             append(label, LABEL_SIZE, "%s", label[0] ? ", " : "");
             if (row->slot != OPTION_SLOT(integrator))
                 append(label, LABEL_SIZE, "%s ", row->label);
-            append(label, LABEL_SIZE, "%s", format_power(value).text);
+            append(label, LABEL_SIZE, "%s", format_power_of_ten(value).text);
         }
     if (last == past->step)
         return;
@@ -253,7 +253,7 @@ static void build_pane_content(const Player *player, int p, WindowFrame *frame)
                    .failure = shown->outcome.status};
     if (past_pane_count(&player->past) > 1)
         pane->label = frame->label[p];
-    if (shown->has_trace && simulation_has_updates(simulation)) {
+    if (shown->has_trace && simulation_has_newton_updates(simulation)) {
         pane->trace = &frame->trace[p];
         pane->x = step_trace_show_position(&shown->trace, view->trace_index,
                                            &frame->trace[p]);

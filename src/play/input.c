@@ -84,7 +84,7 @@ static KeyScope find_key_scope(const Player *player)
                                                                : SCOPE_RUN;
 }
 
-/* Opens the page, or adds the number, of a line of the open list.
+/* Opens the page of a line of the open list, or adds its option to the row.
  *   index  index of the page or option; -1: the typed number or name */
 static Status open_list_line(Player *player, long index)
 {

@@ -227,7 +227,7 @@ Status player_obey(Player *player, const Command *command)
         return STATUS_OK;
     if (player_hides_answer(player) &&
         (meant.kind == COMMAND_NEXT || meant.kind == COMMAND_PLAY)) {
-        status = player_reveal_answer(player, NULL); /* no step is made */
+        status = player_reveal_answer(player, NULL); /* instead of a step */
         return status ? status : player_obey_queue(player, false);
     }
     if (past_is_working(past) && !(flags & KEEPS_STEP)) {

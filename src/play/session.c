@@ -1,4 +1,4 @@
-/* session.c - shared queries of a player, messages, the queue of commands. */
+/* session.c - state of a player for other files, messages, command queue. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

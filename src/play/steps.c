@@ -28,7 +28,8 @@ static Status record_iterations(Player *player, long step)
     return status;
 }
 
-/* Writes the shown step, or only missing energies, to the tables.  Does nothing
+/* Writes the shown step to the tables, or, where the step is there already, the
+ * energies that were not known then.  Does nothing
  * unless the step is the next to be written and all panes have its records. */
 static Status record_step(Player *player)
 {
@@ -478,7 +479,8 @@ static bool panes_use_newton(const Player *player)
 {
     bool any = false;
     for (int p = 0; p < past_pane_count(&player->past); p++)
-        any = any || simulation_has_updates(&player->past.pane[p].simulation);
+        any = any ||
+              simulation_has_newton_updates(&player->past.pane[p].simulation);
     return any;
 }
 

@@ -123,7 +123,7 @@ void option_write_short(const OptionRow *row, const Options *options,
     if (row->max_times)
         last = (int)fmax(options->number[row->count_slot] - 1, 0);
     const double *value = options->number + row->slot + last * count;
-    /* an option without a value is "none" */
+    /* a value below the range means that there is none */
     if (*value < row->low || (row->count && (row->term || row->max_times) &&
                               !option_is_on(row, options)))
         snprintf(text, size, "none");

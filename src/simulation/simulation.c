@@ -238,7 +238,7 @@ NewtonCounters simulation_sum_newton_counters(const Simulation *simulation)
     return sum;
 }
 
-bool simulation_has_updates(const Simulation *simulation)
+bool simulation_has_newton_updates(const Simulation *simulation)
 {
     return simulation->run[0].newton && (simulation->scene->parts & HAS_TIME);
 }

@@ -48,7 +48,7 @@ static void transfer_system(StateCursor *cursor, System *system)
                            sizeof *contact->obstacle);
 }
 
-static void transfer_exhibit(StateCursor *cursor, Simulation *simulation)
+static void save_or_load_exhibit(StateCursor *cursor, Simulation *simulation)
 {
     const Scene *scene = simulation->scene;
     TimeIntegrator *run = &simulation->run[0];
@@ -77,7 +77,7 @@ static void transfer_state(StateCursor *cursor, Simulation *simulation)
     VISIT(simulation->status_counts);
     VISIT(simulation->status);
     VISIT(simulation->is_over);
-    transfer_exhibit(cursor, simulation);
+    save_or_load_exhibit(cursor, simulation);
     for (int r = 0; r < simulation->runs; r++) {
         TimeIntegrator *run = &simulation->run[r];
         size_t array = run->x_length * sizeof(double);

@@ -23,7 +23,7 @@ RowLayout lay_out_rows(int nodes)
                        .plane = 2 * half * (nodes + 3)};
 }
 
-void *memory_take_piece(ArrayMemory *memory, size_t bytes)
+void *memory_take_piece(ArrayArena *memory, size_t bytes)
 {
     char *piece = memory->base ? memory->base + memory->used_bytes : NULL;
     bytes = (bytes + PAGE - 1) / PAGE * PAGE;
@@ -31,7 +31,7 @@ void *memory_take_piece(ArrayMemory *memory, size_t bytes)
     return piece;
 }
 
-Status memory_create(ArrayMemory *memory)
+Status memory_create(ArrayArena *memory)
 {
     size_t page = memory->used_bytes < LARGE_PAGE ? PAGE : LARGE_PAGE;
     size_t bytes = (memory->used_bytes + page) / page * page;
@@ -48,7 +48,7 @@ Status memory_create(ArrayMemory *memory)
     return STATUS_OK;
 }
 
-void grid_lay_out(int segments, ArrayMemory *memory, Grid *grid)
+void grid_lay_out(int segments, ArrayArena *memory, Grid *grid)
 {
     *grid = (Grid){.rows = lay_out_rows(segments + 1),
                    .segments = segments,

@@ -75,23 +75,23 @@ typedef struct Grid {
 
 /* A block of memory for several arrays.  The layout is made twice: first with
  * base NULL, to count the bytes, then to place the arrays. */
-typedef struct ArrayMemory {
+typedef struct ArrayArena {
     char *base;
     size_t used_bytes;
-} ArrayMemory;
+} ArrayArena;
 
 /* Returns the next piece of the block; NULL while bytes are counted.  Pieces of
  * one size would all start in the same lines of the cache, so each starts some
  * lines further than the one before. */
-void *memory_take_piece(ArrayMemory *memory, size_t bytes);
+void *memory_take_piece(ArrayArena *memory, size_t bytes);
 
 /* Allocates zeroed memory for all pieces that memory_take_piece counted, in
  * large pages of the system if it has them.  Returns OK or OUT_OF_MEMORY; the
  * caller frees base. */
-Status memory_create(ArrayMemory *memory);
+Status memory_create(ArrayArena *memory);
 
 /* Places the arrays for segments x segments cells; sets the rest to 0. */
-void grid_lay_out(int segments, ArrayMemory *memory, Grid *grid);
+void grid_lay_out(int segments, ArrayArena *memory, Grid *grid);
 
 /* Returns the power of two that scales a to about 1. */
 double power_of_two_scale(double a);

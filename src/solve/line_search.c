@@ -20,10 +20,10 @@ typedef struct SearchContext {
     LineEnergy line;
 } SearchContext;
 
-/* Returns E(x + alpha p) - E(x), or 0 without a line search; NaN where a term
- * does not allow the point, or where E, evaluated at both points, rises by more
- * than this difference plus rounding.  Unless a line search sees E rise,
- * u_trial and x_trial get the point. */
+/* Returns E(x + alpha p) - E(x), or 0 without a line search.  NaN: a term does
+ * not allow the point, or E evaluated at both points rises by more than the
+ * difference plus rounding.  u_trial and x_trial get the point, except where
+ * a line search finds that E rises. */
 static double step_energy_difference(const void *function, double alpha)
 {
     const SearchContext *search = function;

@@ -36,7 +36,7 @@ struct Multigrid {
     Grid grid;
     VCycle cycle;
     Tiles tiles;
-    ArrayMemory memory;      /* block of all arrays */
+    ArrayArena memory;       /* block of all arrays */
     double *g, *p;           /* [2 planes] grad E and direction at x */
     double *last_g, *last_p; /* [2 planes] g and p in the iteration before */
     double gradient_norm2;   /* |g|_(M^-1)^2 */

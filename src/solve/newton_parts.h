@@ -12,10 +12,10 @@ typedef struct NewtonPhases {
      * Newton's phase only if no turn may follow that turn_free_body cannot
      * make.  Returns OK, or why there is no p. */
     Status (*find_direction)(Newton *newton);
-    /* Computes alpha, trials, slope and change; Newton's phase also the end of
-     * the step in u_trial and x_trial.  Returns OK, or why no step lowers E:
-     * LINE_SEARCH_LIMIT, NOT_DESCENT, ROUNDING_LIMIT, NOT_FINITE; alpha and
-     * change are then 0. */
+    /* Computes alpha, trials, slope and change.  For Newton's method also
+     * stores the end of the step in u_trial and x_trial.  Returns OK, or why no
+     * step lowers E: LINE_SEARCH_LIMIT, NOT_DESCENT, ROUNDING_LIMIT,
+     * NOT_FINITE; alpha and change are then 0. */
     Status (*find_step_length)(Newton *newton);
     /* Makes the end of the step the iterate (u and x).  Returns OK, NOT_FINITE,
      * ROUNDING_LIMIT. */

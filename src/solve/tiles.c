@@ -30,7 +30,7 @@ static const double DIRECTION_SWEEPS = 7, WORTH = 0.25;
 /* Limit of the rounds, which rounding could keep from ending. */
 enum { MAX_TILE_ROUNDS = 10000 };
 
-void tiles_lay_out(const Grid *grid, ArrayMemory *memory, Tiles *tiles)
+void tiles_lay_out(const Grid *grid, ArrayArena *memory, Tiles *tiles)
 {
     int high = grid->segments / TILE_ROWS + 1;
     int wide = (grid->rows.count[0] + LANES - 1) / LANES;

@@ -10,7 +10,7 @@
 /* Largest number of nodes along a side of the coarsest level. */
 enum { COARSEST_NODES = 3 };
 
-void v_cycle_lay_out(const Grid *grid, ArrayMemory *memory, VCycle *cycle)
+void v_cycle_lay_out(const Grid *grid, ArrayArena *memory, VCycle *cycle)
 {
     Level *level = cycle->level;
     *cycle = (VCycle){.grid = grid};
@@ -211,15 +211,15 @@ typedef enum PassKind {
                       inverse diagonal, x' at neighbours of earlier colours */
     PASS_RESIDUAL, /* w = b - A x after PASS_FIRST.  All terms cancel but the
                       sum of K x' over springs to later colours */
-    PASS_SMOOTH,   /* x += D (b - A x), a Gauss-Seidel pass */
+    PASS_SMOOTH,   /* Gauss-Seidel: x += D (b - A x), node by node */
     PASS_PRODUCT   /* w = A x; x.b and x.w are added to xb and xw */
 } PassKind;
 
 /* Makes a pass over one colour of row i, if the level has this row.  The colour
  * is 2 in odd rows, plus 1 in odd columns.  Springs lead to earlier colours
  * along the row from odd columns, and across rows from odd rows. */
-INLINE void pass_over_row(const Level *of, int i, int colour, PassKind result,
-                          float *xb, float *xw)
+INLINE void sweep_row(const Level *of, int i, int colour, PassKind result,
+                      float *xb, float *xw)
 {
     const Level level = *of;
     const ptrdiff_t plane = level.rows.plane;
@@ -314,14 +314,14 @@ FAST static void descend_level(const VCycle *cycle, const Level *l)
     for (int i = 0; i < rows + 4; i += 2) {
         if (!cycle->is_set_up)
             compute_matrix_rows(cycle, l, i);
-        pass_over_row(l, i, 0, PASS_FIRST, NULL, NULL);
-        pass_over_row(l, i, 1, PASS_FIRST, NULL, NULL);
-        pass_over_row(l, i - 1, 2, PASS_FIRST, NULL, NULL);
-        pass_over_row(l, i - 1, 3, PASS_FIRST, NULL, NULL);
-        pass_over_row(l, i - 1, 2, PASS_RESIDUAL, NULL, NULL);
-        pass_over_row(l, i - 1, 3, PASS_RESIDUAL, NULL, NULL);
-        pass_over_row(l, i - 2, 0, PASS_RESIDUAL, NULL, NULL);
-        pass_over_row(l, i - 2, 1, PASS_RESIDUAL, NULL, NULL);
+        sweep_row(l, i, 0, PASS_FIRST, NULL, NULL);
+        sweep_row(l, i, 1, PASS_FIRST, NULL, NULL);
+        sweep_row(l, i - 1, 2, PASS_FIRST, NULL, NULL);
+        sweep_row(l, i - 1, 3, PASS_FIRST, NULL, NULL);
+        sweep_row(l, i - 1, 2, PASS_RESIDUAL, NULL, NULL);
+        sweep_row(l, i - 1, 3, PASS_RESIDUAL, NULL, NULL);
+        sweep_row(l, i - 2, 0, PASS_RESIDUAL, NULL, NULL);
+        sweep_row(l, i - 2, 1, PASS_RESIDUAL, NULL, NULL);
         for (int c = 0; c < 2 && l->coarse && row_exists(rows, i - 4); c++)
             restrict_row(&l->rows, &l->coarse->rows, i / 2 - 2,
                          l->w + c * l->rows.plane,
@@ -340,10 +340,10 @@ FAST static void ascend_level(const Level *l)
                 prolong_row(l, &l->coarse->rows, row,
                             l->coarse->x + c * l->coarse->rows.plane,
                             l->x + c * l->rows.plane);
-        pass_over_row(l, i - 1, 3, PASS_SMOOTH, NULL, NULL);
-        pass_over_row(l, i - 1, 2, PASS_SMOOTH, NULL, NULL);
-        pass_over_row(l, i - 2, 1, PASS_SMOOTH, NULL, NULL);
-        pass_over_row(l, i - 2, 0, PASS_SMOOTH, NULL, NULL);
+        sweep_row(l, i - 1, 3, PASS_SMOOTH, NULL, NULL);
+        sweep_row(l, i - 1, 2, PASS_SMOOTH, NULL, NULL);
+        sweep_row(l, i - 2, 1, PASS_SMOOTH, NULL, NULL);
+        sweep_row(l, i - 2, 0, PASS_SMOOTH, NULL, NULL);
     }
 }
 
@@ -364,8 +364,8 @@ FAST static void multiply_by_level_matrix(const Level *level, double *sums)
     for (int i = 0; i < level->rows.nodes; i++) {
         float xb[LANES] = {0}, xw[LANES] = {0};
         double row[2] = {0, 0};
-        pass_over_row(level, i, 0, PASS_PRODUCT, xb, xw);
-        pass_over_row(level, i, 1, PASS_PRODUCT, xb, xw);
+        sweep_row(level, i, 0, PASS_PRODUCT, xb, xw);
+        sweep_row(level, i, 1, PASS_PRODUCT, xb, xw);
         for (int e = 0; e < LANES; e++) {
             row[0] += (double)xb[e];
             row[1] += (double)xw[e];

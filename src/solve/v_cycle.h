@@ -48,7 +48,7 @@ typedef struct VCycle {
     long cycles;    /* number of V-cycles so far */
 } VCycle;
 
-void v_cycle_lay_out(const Grid *grid, ArrayMemory *memory, VCycle *cycle);
+void v_cycle_lay_out(const Grid *grid, ArrayArena *memory, VCycle *cycle);
 
 /* Copies masses, pins and stiffnesses from the grid, coarsens the masses, and
  * sets the number of levels. */

@@ -159,7 +159,8 @@ void prescribed_begin_part(TimeIntegrator *run)
     if (contact && contact->hand.is_held &&
         obstacle_moves(contact, contact->hand.obstacle)) {
         part = make_longest_motion(
-            run, fmin(run->remaining_fraction, push_max_step(contact, run->h)),
+            run,
+            fmin(run->remaining_fraction, push_max_fraction(contact, run->h)),
             MAX_HAND_HALVINGS, MAX_HAND_PARTS);
         contact->hand.is_blocked = part == 0;
         contact->hand.moving_fraction = run->moved_fraction;

@@ -82,7 +82,7 @@ void watch_free(RunWatch *watch);
 Status restart_watched_run(TimeIntegrator *run);
 
 /* Makes one step, tests it and returns the verdict. */
-Verdict watch_step(RunWatch *watch);
+Verdict make_judged_step(RunWatch *watch);
 
 /* ---- random scenes (stress_scenes.c) ----------------------------------- */
 

@@ -159,7 +159,7 @@ static Verdict run_steps(Simulation *simulation, uint64_t shaken, int steps,
             !watch_create(run, tally, &watch))
             return snprintf(reason, 512, "no restart"), VERDICT_WRONG;
         for (int step = 0; step < steps && worst != VERDICT_WRONG; step++) {
-            Verdict verdict = watch_step(&watch);
+            Verdict verdict = make_judged_step(&watch);
             worst = verdict > worst ? verdict : worst;
             if (verdict == VERDICT_WRONG)
                 memcpy(reason, watch.reason, sizeof watch.reason);
@@ -292,7 +292,7 @@ static bool run_many_steps(VerdictTally *tally, char *reason)
         for (size_t i = 0; step % 50 == 0 && i < run->x_length; i++)
             run->v[i] += random_uniform(&random, -3, 3);
         watch.tests_residuals = step % 500 < 3;
-        good = watch_step(&watch) != VERDICT_WRONG;
+        good = make_judged_step(&watch) != VERDICT_WRONG;
     }
     memcpy(reason, watch.reason, sizeof watch.reason);
     watch_free(&watch);

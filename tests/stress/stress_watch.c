@@ -477,7 +477,7 @@ static void check_step_state(RunWatch *watch)
         check_descent(watch, run->newton->iterate.u, "as the step ends");
 }
 
-Verdict watch_step(RunWatch *watch)
+Verdict make_judged_step(RunWatch *watch)
 {
     TimeIntegrator *run = watch->run;
     size_t bytes = (size_t)count_unknowns(watch) * sizeof *watch->x;

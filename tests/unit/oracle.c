@@ -589,8 +589,8 @@ static void add_unit_move(const PartFrame *frame, int k, double sign, double *p)
         p[2 * frame->node[i / 2] + i % 2] += sign * frame->unit_move[k][i];
 }
 
-/* Finds the negative eigenvalues of the block of one part, in the numbers of
- * its frame. Returns their number. p, q [2n] are 0 before and after.
+/* Finds the negative eigenvalues of a part's Hessian block, in the part's own
+ * coordinates; returns their number. p, q [2n] are 0 before and after.
  *   lift  [4] out, the change that makes each of these eigenvalues 0
  *   rows  [4][6] out, eigenvectors over the coordinates of the frame's nodes */
 static int find_clamping(const Probe *probe, int row, const void *data,

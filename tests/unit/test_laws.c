@@ -140,7 +140,7 @@ TEST(a_hand_pushes_with_a_bounded_speed)
     step_masses();
     CHECK(wall->o[0] == 1 && run.external_work == work);
     *wall = (Obstacle){.kind = OBSTACLE_BALL, .radius = 0.2, .v = {0, 40}};
-    CHECK_NEAR(push_max_step(get_contact(&masses), h) * h * 40, 0.1, 1e-15);
+    CHECK_NEAR(push_max_fraction(get_contact(&masses), h) * h * 40, 0.1, 1e-15);
 }
 
 /* A pinned mass stops the pushed wall at a gap of 0.3 d_hat. A free mass before
@@ -161,7 +161,7 @@ TEST(a_fixed_body_stops_the_hand)
                          {.n = {left[0], 0}, .o = {0.05, 0}, .node = -1}};
     CHECK_OK(contact_configure(&masses, &(Barrier){0.01, 1}, 2, walls));
     wall = add_hand_on_wall();
-    get_contact(&masses)->hand.target[0] = 0.05; /* close: the wall slows */
+    get_contact(&masses)->hand.target[0] = 0.05; /* near the wall: it slows */
     begin_free_masses(0.01, still, still);
     for (int i = 0; i < 300; i++)
         step_masses();

@@ -222,8 +222,8 @@ TEST(markup_has_its_widths)
     }
 }
 
-/* Adds to a line what a formula draws: how much red, green and blue the canvas
- * lacks, where (pixels), and the extent of the formula. */
+/* Adds a formula's drawing to a line: its ink in red, green and blue, centre of
+ * the ink (pixels), and extent of the formula. */
 static void add_drawing(const TextStyle *like, const char *markup, char *line)
 {
     double ink[3] = {0}, at[2] = {0};

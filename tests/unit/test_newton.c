@@ -65,7 +65,7 @@ TEST(residuals_are_what_they_are_called)
                 CHECK_NEAR(residual, exact, 1e-9 * exact + 1e-10);
             else if (multigrid && newton->passes_test)
                 CHECK_NEAR(residual, exact, tolerance - residual);
-            else if (multigrid) /* a bound of the next p passed the test */
+            else if (multigrid) /* it ends by a bound of the next p */
                 CHECK_AT_MOST(exact_residual(&E, newton->iterate.u, NULL,
                                              run->h, 0, 1, NULL),
                               tolerance);

@@ -58,7 +58,7 @@ static int choose_stride(int all, int some)
     return tests_are_long() ? all : some;
 }
 
-/* Checks that a step has the same bits backwards, at random, and forwards. */
+/* Checks that steps have the same bits in whichever order they are visited. */
 static void check_all_steps(long steps, const uint64_t *hash)
 {
     Random random = {7};

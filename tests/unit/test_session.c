@@ -942,7 +942,7 @@ static double count_turned_triangles(const Simulation *simulation)
     return turned;
 }
 
-static double count_crossings(const Simulation *simulation)
+static double count_edge_crossings(const Simulation *simulation)
 {
     return (double)edge_crossings(&simulation->system, simulation->run[0].x);
 }
@@ -1047,7 +1047,7 @@ static const struct {
                {"mean vy", find_mean_vy},
                {"turned", count_turned_triangles},
                {"broken", count_broken_springs},
-               {"crossings", count_crossings},
+               {"crossings", count_edge_crossings},
                {"flattest", find_smallest_area_ratio},
                {"grown", find_heap_growth},
                {"gained", find_gained_energy},

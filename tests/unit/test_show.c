@@ -240,7 +240,7 @@ TEST(the_mouse_finds_nodes_and_springs)
     }
     CHECK(frame_find_pick(&content, &layout, 5, 200).kind == PICK_NONE);
     CHECK(frame_find_pick(&content, &layout, 1100, 200).kind == PICK_NONE);
-    int left = 0; /* the spring of nodes 0 and 1, in the left column */
+    int left = 0; /* index of the spring of nodes 0 and 1 */
     while (system->e[2 * left] != 0 || system->e[2 * left + 1] != 1)
         left++;
     double column = 0.5 * (x[0] + x[2]), height = 0.5 * (x[1] + x[3]);
@@ -343,7 +343,7 @@ TEST(maps_of_inertia_label_their_contours)
         CHECK_AT_MOST(near, 4);
     }
     draw_without_words();
-    for (int k = 0; k < 3; k++) { /* the contour passes there, too */
+    for (int k = 0; k < 3; k++) { /* the contour passes below the target */
         double at[2], far = sqrt(2 * levels[k]);
         int darkest = -9;
         plot_to_pixel(&stage, (double[]){target[0], target[1] - far}, at);

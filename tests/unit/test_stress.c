@@ -109,18 +109,18 @@ TEST(broken_promises_are_noticed)
             &simulate("%s --tolerance 1e-6", rows[i].line)->run[0];
         IntegratorMethod method = *run->method;
         CHECK(watch_create(run, &tally, &watch));
-        CHECK(watch_step(&watch) == VERDICT_CONVERGED);
+        CHECK(make_judged_step(&watch) == VERDICT_CONVERGED);
         method.set_target =
             rows[i].set_target ? rows[i].set_target : method.set_target;
         method.set_state = rows[i].set_state;
         run->method = &method;
-        CHECK(watch_step(&watch) == VERDICT_WRONG);
+        CHECK(make_judged_step(&watch) == VERDICT_WRONG);
         CHECK(strstr(watch.reason, rows[i].reason) != NULL);
         watch_free(&watch);
     }
 }
 
-/* Stops at the record whose number `user` counts down; 0: never. */
+/* Stops at record number *user, which counts down; at 0 never. */
 static bool stop_at_record(void *user, const NewtonRecord *record)
 {
     (void)record;
@@ -157,7 +157,7 @@ TEST(interruptions_leave_no_trace)
         }
 }
 
-/* The test of large squares rejects an iterate before the end. */
+/* The judge of large squares rejects an iterate before the last one. */
 TEST(an_unfinished_search_is_noticed)
 {
     Simulation *simulation = simulate("--segments 12 --solver multigrid");

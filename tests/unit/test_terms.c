@@ -165,7 +165,7 @@ static void make_cell_pair(const TermRow *row, Random *random, TermCase *c)
 static void make_shape(const TermRow *row, Random *random, TermCase *c)
 {
     if (row->shape == GRAPH) {
-        random_system(random, row->flat ? SPRINGS_NEAR_ZERO : SPRINGS_MIXED,
+        random_system(random, row->flat ? SPRINGS_SHORT : SPRINGS_MIXED,
                       &c->system, c->x_n);
         return;
     }
@@ -451,7 +451,7 @@ static void check_max_step(TermCase *c, const TermKind *kind)
     }
     if (row->shape == PAIR)
         CHECK(crossings > 0);
-    else if (row->shape != GRID) /* in a grid another corner may be smallest */
+    else if (row->shape != GRID) /* a grid has other corners, too */
         compare("what the limit leaves", find_remaining_share(c, x), 0.1, 1e-8);
 }
 

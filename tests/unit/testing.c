@@ -115,7 +115,7 @@ int random_below(Random *random, int limit)
     return (int)(random_bits(random) % (uint64_t)limit);
 }
 
-void random_system(Random *random, SpringKind state, System *system, double *x)
+void random_system(Random *random, SpringMix state, System *system, double *x)
 {
     int n = 3 + random_below(random, MAX_NODES - 2);
     int springs = n + random_below(random, MAX_SPRINGS - n + 1);

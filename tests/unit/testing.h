@@ -62,7 +62,7 @@ double random_logarithmic(Random *random, double low, double high);
 int random_below(Random *random, int limit);
 
 /* Lengths of random springs over rest lengths: 0.1 ... 2, or 1e-9 ... 1e-7 */
-typedef enum SpringKind { SPRINGS_MIXED, SPRINGS_NEAR_ZERO } SpringKind;
+typedef enum SpringMix { SPRINGS_MIXED, SPRINGS_SHORT } SpringMix;
 
 enum { MAX_NODES = 12, MAX_COORDINATES = 2 * MAX_NODES, MAX_SPRINGS = 40 };
 
@@ -70,7 +70,7 @@ enum { MAX_NODES = 12, MAX_COORDINATES = 2 * MAX_NODES, MAX_SPRINGS = 40 };
  * stiffnesses cover four powers of ten.
  *   system  out; free it with system_free
  *   x       [MAX_COORDINATES] out */
-void random_system(Random *random, SpringKind state, System *system, double *x);
+void random_system(Random *random, SpringMix state, System *system, double *x);
 
 /* Writes a sparse matrix to a full one [size size]. */
 void fill_dense_matrix(const Sparse *A, double *dense);
