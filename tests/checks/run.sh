@@ -56,8 +56,8 @@ all_checks() {
     done
 }
 
-# The longest checks start first. Some wait for windows and signals most of the
-# time, so there are two jobs more than processors (LONG: one).
+# The longest tests start first, and checks make way.  Checks wait for windows
+# and signals, so there are two jobs more than processors (LONG: one).
 slow="test_session check_scripts check_window check_pages check_faults"
 more=2
 [ -z "${LONG:-}" ] || more=1
@@ -71,7 +71,7 @@ work() { # suites...
             name=$(basename "$test")
             take "$name" || continue
             case $name in
-            *.sh) run "$name" sh "$test" ;;
+            *.sh) run "$name" nice sh "$test" ;;
             *) run "$name" "$test" ;;
             esac </dev/null
         done
