@@ -56,11 +56,11 @@ all_checks() {
     done
 }
 
-# The longest tests start first, and checks make way.  Checks wait for windows
-# and signals, so there are two jobs more than processors (LONG: one).
+# The longest tests start first.  Checks wait for windows and signals, so there
+# are two jobs more than processors, and checks make way (LONG: one, equal).
 slow="test_session check_scripts check_window check_pages check_faults"
-more=2
-[ -z "${LONG:-}" ] || more=1
+more=2 lower=nice
+[ -z "${LONG:-}" ] || more=1 lower=
 jobs=${JOBS:-$(($(nproc 2>/dev/null || echo 2) + more))}
 
 # A worker runs all suites and checks that no other worker has taken.
@@ -71,7 +71,7 @@ work() { # suites...
             name=$(basename "$test")
             take "$name" || continue
             case $name in
-            *.sh) run "$name" nice sh "$test" ;;
+            *.sh) run "$name" $lower sh "$test" ;;
             *) run "$name" "$test" ;;
             esac </dev/null
         done
