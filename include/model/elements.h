@@ -122,8 +122,7 @@ struct ElementKind {
 typedef struct ElementIterator {
     const EvalPoint *point;
     const ElementKind *kind;
-    double
-        motion_bound; /* m, alpha p changes Element.a and .b by at most this */
+    double motion_bound;  /* m, limit of the change of a and b by alpha p */
     int i, element_count; /* present element, number of elements */
     Element element;      /* present element, out */
 } ElementIterator;

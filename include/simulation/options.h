@@ -139,6 +139,13 @@ int names_find_or_parse(NameTable names, const char *text);
 
 int names_count(NameTable names);
 
+/* Returns the index of the name for a value of OPTION_NAME.  The value -1, for
+ * an option that was not given, means name 0. */
+static inline int option_name_index(double value)
+{
+    return value > 0 ? (int)value : 0;
+}
+
 /* When a changed option takes effect. */
 typedef enum ChangeEffect {
     EFFECT_NEW_RUN,   /* takes effect in a new run */

@@ -18,8 +18,7 @@ static const double MIN_VISIBLE = 3e-3;
 static const double ROUNDING = 1e-20;
 static const double LEGEND_SIZE = 0.85; /* ems, size of the legend's letters */
 static const double LEGEND_GAP = 1;     /* letters, gap between two entries */
-static const double MIN_PLOT =
-    4.7; /* ems, least plot height with its time axis */
+static const double MIN_PLOT = 4.7;   /* ems, least plot height with its axis */
 static const double MIN_HEIGHT = 9.6; /* ems, least height of the card */
 static const double ROW_HEIGHT = 1.2; /* ems, for each curve after the 4th */
 

@@ -84,26 +84,25 @@ static KeyScope find_key_scope(const Player *player)
                                                                : SCOPE_RUN;
 }
 
-/* Opens the page of a line of the open list, or adds its option to the row.
- *   index  index of the page or option; -1: the typed number or name */
-static Status open_list_line(Player *player, long index)
+static Status open_page(Player *player, const char *name)
 {
-    const char *typed = player->hands.typed;
-    const OptionRow *all[OPTIONS_MAX_ROWS], *row = option_find(typed);
     Command page = {.kind = COMMAND_PAGE, .joins_gesture = true};
+    snprintf(page.text, sizeof page.text, "%s", name);
+    return player_obey(player, &page);
+}
+
+/* Opens the typed page, or adds the option at the typed place of the list. */
+static Status open_typed_line(Player *player)
+{
+    const OptionRow *all[OPTIONS_MAX_ROWS];
+    const char *typed = player->hands.typed;
     char *end;
     long number = strtol(typed, &end, 10);
-    if (player->screen.column != COLUMN_OPTIONS || player->screen.sheet) {
-        snprintf(page.text, sizeof page.text, "%s",
-                 index < 0 ? typed : lecture_pages[index].name);
-        return player_obey(player, &page);
-    }
-    int rows = player_list_options(player, true, all);
-    if (index < 0 && !row && (*end || number < 1 || number > rows))
+    if (player->screen.column != COLUMN_OPTIONS || player->screen.sheet)
+        return open_page(player, typed);
+    if (*end || number < 1 || number > player_list_options(player, true, all))
         return player_refuse(player, "there is no such number in the list");
-    if (index < 0)
-        index = (row ? row : all[number - 1]) - option_rows;
-    return obey(player, COMMAND_ADD, index);
+    return obey(player, COMMAND_ADD, all[number - 1] - option_rows);
 }
 
 /* Acts on the typed text: opens the page, adds or sets the number, or checks
@@ -113,7 +112,7 @@ static Status accept_typed_text(Player *player)
     const OptionRow *row = player->hands.selected;
     Status status;
     if (!row && player_shows_list(player)) {
-        status = open_list_line(player, -1);
+        status = open_typed_line(player);
         player->hands.is_typing = player->hands.is_typing && status;
         return status;
     }
@@ -403,7 +402,9 @@ static Status press_left_button(Player *player, const MouseTarget *target,
         if (find_key_scope(player) != SCOPE_LIST || index < 0 ||
             row[index].target < 0)
             return STATUS_OK;
-        return open_list_line(player, row[index].target);
+        return player->screen.column == COLUMN_OPTIONS
+                   ? obey(player, COMMAND_ADD, row[index].target)
+                   : open_page(player, lecture_pages[row[index].target].name);
     case ZONE_CELL:
         player->screen.view.selected_cell = index;
         return obey(player, COMMAND_OPEN, 0);

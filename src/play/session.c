@@ -261,7 +261,8 @@ Command make_set_command(const OptionRow *row, double value)
 {
     return (Command){.kind = COMMAND_SET,
                      .number = row - option_rows,
-                     .x = row->kind == OPTION_NAME ? fmax(value, 0) : value,
+                     .x = row->kind == OPTION_NAME ? option_name_index(value)
+                                                   : value,
                      .joins_gesture = true};
 }
 

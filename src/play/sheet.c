@@ -77,12 +77,11 @@ static void begin_scene_of_cell(Sheet *sheet, int i)
 void sheet_advance_cells(Player *player)
 {
     Sheet *sheet = player->screen.sheet;
-    bool limited = player->screen.window;
     double begin = clock_now();
     if (!sheet)
         return;
     for (int i = 0; i < sheet->cells; i++) {
-        if (limited && clock_now() - begin > STEP_TIME)
+        if (player->screen.window && clock_now() - begin > STEP_TIME)
             break;
         int cell = sheet->next_cell, age = sheet->turns[cell]++;
         Simulation *simulation = &sheet->simulation[cell];

@@ -29,8 +29,8 @@ static Status record_iterations(Player *player, long step)
 }
 
 /* Writes the shown step to the tables, or, where the step is there already, the
- * energies that were not known then.  Does nothing
- * unless the step is the next to be written and all panes have its records. */
+ * energies that were not known then.  Does nothing unless the step is the next
+ * to be written and all panes have its records. */
 static Status record_step(Player *player)
 {
     Past *past = &player->past;

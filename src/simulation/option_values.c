@@ -105,8 +105,9 @@ bool option_parse(const OptionRow *row, int count, const char *text,
 
 void option_write(const OptionRow *row, double value, char *text, size_t size)
 {
-    if (row && row->kind == OPTION_NAME) { /* -1 stands for name 0 */
-        snprintf(text, size, "%s", names_get(row->names, (int)fmax(value, 0)));
+    if (row && row->kind == OPTION_NAME) {
+        snprintf(text, size, "%s",
+                 names_get(row->names, option_name_index(value)));
         return;
     }
     snprintf(text, size, "%.15g", value);
@@ -168,7 +169,7 @@ double option_find_value_after_wheel(const OptionRow *row,
     char text[32];
     if (row->kind == OPTION_NAME) {
         int count = names_count(row->names), turns = (int)rint(notches);
-        int index = ((int)fmax(value, 0) + turns) % count;
+        int index = (option_name_index(value) + turns) % count;
         return turns == 0 ? value : (index + count) % count;
     }
     if (increment > 0) {

@@ -340,7 +340,7 @@ int names_count(NameTable names)
 
 const IntegratorMethod *options_method(const Options *options)
 {
-    return &integrator_methods[(int)fmax(options->integrator, 0)];
+    return &integrator_methods[option_name_index(options->integrator)];
 }
 
 double *options_obstacle_point(Options *options, int number)
@@ -371,7 +371,7 @@ bool option_is_equal(const OptionRow *row, const Options *a, const Options *b)
 {
     const double *of_a = &a->number[row->slot], *of_b = &b->number[row->slot];
     return row->kind == OPTION_NAME
-               ? fmax(*of_a, 0) == fmax(*of_b, 0)
+               ? option_name_index(*of_a) == option_name_index(*of_b)
                : memcmp(of_a, of_b, find_numbers_size(row)) == 0;
 }
 

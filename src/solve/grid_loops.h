@@ -30,9 +30,8 @@ typedef struct NodeRun {
     ptrdiff_t first, end; /* index of the first node, and past the last one */
     ptrdiff_t next;       /* distance from a node to the next row */
     ptrdiff_t before, after; /* distances to the columns before and after */
-    ptrdiff_t shift,
-        shift_before; /* Grid.spring_shift of this row and of the row before */
-    ptrdiff_t mass_shift; /* mass index of a node minus node index */
+    ptrdiff_t shift, shift_before; /* spring_shift of this row, row before */
+    ptrdiff_t mass_shift;          /* mass index of a node minus node index */
 } NodeRun;
 
 INLINE NodeRun nodes_in_row(const RowLayout *rows, int i, int odd)
