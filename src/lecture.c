@@ -8,7 +8,7 @@
  *                        line_search: Algorithm 2, step_forward: Algorithm 3
  *   explicit steps       explicit_euler: forward or symplectic Euler
  *   simulator.py         draw, main
- * Each Newton iteration starts from nothing; the program has no tricks.
+ * Each Newton iteration allocates, builds and factors the Hessian anew.
  *   cc -O2 lecture.c -o lecture $(sdl2-config --cflags --libs) \
  *      -I/usr/include/suitesparse -lcholmod -llapack -lm
  *   ./lecture                         a window: pull at a node; Esc closes it
@@ -147,8 +147,8 @@ static void inertia_hess(const Solid *solid, cholmod_triplet *H)
 }
 
 /* ==== Projection to positive semi-definite (utils.py: make_PSD) =========== */
-/* A = Q L Q^T by LAPACK, as in numpy's eigh.  The eigenvectors replace A, in
- * C's order of numbers as its rows; l gets the eigenvalues. */
+/* A = Q L Q^T by LAPACK, as in numpy's eigh.  l gets the eigenvalues, and the
+ * eigenvectors replace A: in C's order of a matrix they are its rows. */
 void dsyev_(const char *vectors, const char *triangle, const int *n, double *A,
             const int *lda, double *l, double *work, const int *size,
             int *info);
@@ -245,7 +245,7 @@ static void ip_grad(const Solid *solid, const Vec2 *x, const Vec2 *x_tilde,
 static cholmod_sparse *ip_hess(const Solid *solid, const Vec2 *x, double h,
                                cholmod_common *common)
 {
-    size_t n = 2 * (size_t)solid->nodes; /* a 4x4 block has 10 entries */
+    size_t n = 2 * (size_t)solid->nodes; /* a symmetric 4x4 block: 10 numbers */
     cholmod_triplet *IJV = cholmod_allocate_triplet(
         n, n, n + 10 * (size_t)solid->springs, 1, CHOLMOD_REAL, common);
     if (!IJV)
@@ -267,13 +267,13 @@ static void search_dir(const Solid *solid, const Vec2 *x, const Vec2 *x_tilde,
     cholmod_common common;
     cholmod_start(&common);
     common.print = 0;    /* CHOLMOD prints no messages */
-    common.final_ll = 1; /* L D L^T would exist for an indefinite H, too */
+    common.final_ll = 1; /* L L^T, which only a positive definite H has */
     cholmod_sparse *H = ip_hess(solid, x, h, &common);
     cholmod_dense *g = cholmod_zeros(n, 1, CHOLMOD_REAL, &common), *y = NULL;
     if (g)
         ip_grad(solid, x, x_tilde, h, g->x);
-    /* A call that is given NULL returns NULL, so one check is enough.  L has
-     * all n columns only if all its pivots were positive. */
+    /* CHOLMOD's functions return NULL if they are given NULL, so one check is
+     * enough.  L->minor is n if all pivots of L are positive. */
     cholmod_factor *L = cholmod_analyze(H, &common);
     cholmod_factorize(H, L, &common);
     if (common.status == CHOLMOD_OK && L->minor == n)
@@ -308,8 +308,8 @@ static double line_search(const Solid *solid, const Vec2 *x, const Vec2 *p,
 }
 
 /* ==== Projected Newton for implicit Euler (Algorithm 3) =================== */
-/* max over nodes of |p_x| + |p_y|, over h: the change of a velocity by the next
- * update, m/s.  Therefore tol has one meaning for each h and each mesh.
+/* Largest |p_x| + |p_y| of all nodes, divided by h: the change of a velocity by
+ * the next update, m/s.  Therefore tol means the same for every h and mesh.
  * (numpy's norm(p, inf) of an array of shape (n, 2) is the largest row sum.) */
 static double residual(const Solid *solid, const Vec2 *p, double h)
 {
@@ -320,8 +320,8 @@ static double residual(const Solid *solid, const Vec2 *p, double h)
 }
 
 /* One time step of implicit Euler, from t_n to t_n + h (slide: step_forward).
- * The loop fails if tol is below the rounding errors of p.  elasto also
- * adds the last p: 3 to 1e11 times as accurate.  table: updates, or NULL. */
+ * FAILs if tol is below the rounding errors of p.  elasto also adds the last p,
+ * so its x is 3 to 1e11 times as accurate.  table: file of updates, or NULL. */
 static void step_forward(Solid *solid, double h, double tol, int step,
                          FILE *table)
 {
@@ -330,7 +330,7 @@ static void step_forward(Solid *solid, double h, double tol, int step,
     Vec2 *x_n = allocate(4 * n, sizeof(Vec2)), *x_tilde = x_n + n;
     Vec2 *p = x_tilde + n, *x_new = p + n;
     for (int i = 0; i < n; i++) {
-        x_n[i] = x[i]; /* Newton's method starts here too */
+        x_n[i] = x[i]; /* x_n is also Newton's first iterate */
         x_tilde[i] = add(x[i], mul(h, v[i]));
     }
     search_dir(solid, x, x_tilde, h, p);
@@ -354,7 +354,7 @@ static void step_forward(Solid *solid, double h, double tol, int step,
 /* There is no equation to solve.  Forward Euler moves x with the old v, and
  * each step adds energy until the square explodes.  Symplectic Euler moves x
  * with the new v: the energy stays near the true one if h is small.  From
- * main's start h = 0.01/n_seg s is small enough, 0.025/n_seg s explodes. */
+ * main's start h = 0.01/n_seg s is small enough, 0.025/n_seg s too large. */
 static void explicit_euler(Solid *solid, double h, bool symplectic)
 {
     Vec2 *x = solid->x, *v = solid->v, *g = allocate(solid->nodes, sizeof *g);
@@ -371,10 +371,10 @@ static void explicit_euler(Solid *solid, double h, bool symplectic)
 #define FOLDER "lecture_pictures"
 enum { PIXELS = 600, MAX_PICTURES = 100, HELD_MASS_FACTOR = 1 << 20 };
 typedef struct Screen {
-    SDL_Surface *picture; /* drawn on if there is no window, or NULL */
+    SDL_Surface *picture; /* picture in memory; NULL: there is a window */
     SDL_Renderer *renderer;
     double scale, radius; /* pixels in a metre; radius of a node in pixels */
-    Vec2 *x_start, mouse; /* [nodes] positions at the start (m); mouse (m) */
+    Vec2 *x_start, mouse; /* [nodes] start positions (m); mouse position (m) */
     int pulled;           /* the node that the mouse pulls, or -1 */
     bool paused;
 } Screen;
@@ -396,7 +396,7 @@ static void draw_line(const Screen *screen, Vec2 a, Vec2 b, double radius)
     a = screen_projection(screen, a);
     b = screen_projection(screen, b);
     if (!(dot(a, a) + dot(b, b) < 1e8))
-        return; /* too far away for SDL */
+        return; /* coordinates too large for SDL */
     double direction = atan2(b.y - a.y, b.x - a.x);
     for (int i = 0; i < 2 * N; i++) {
         double angle = 2 * M_PI * (i + 0.5) / N, far = radius - 0.5 + i / N;
@@ -442,7 +442,7 @@ static Screen open_screen(const Solid *solid)
         window, "lecture: pull at a node; Space pauses, R restarts, Esc ends");
     if (!window) {
         printf("no screen: %d pictures go to %s/\n", MAX_PICTURES, FOLDER);
-        mkdir(FOLDER, 0777); /* a failure shows when a picture is saved */
+        mkdir(FOLDER, 0777); /* SDL_SaveBMP reports a missing folder */
         screen.picture = SDL_CreateRGBSurfaceWithFormat(0, PIXELS, PIXELS, 24,
                                                         SDL_PIXELFORMAT_RGB24);
         screen.renderer = SDL_CreateSoftwareRenderer(screen.picture);
@@ -505,9 +505,9 @@ static bool show(Screen *screen, Solid *solid, double h, int step)
                 return false;
             draw(screen, solid); /* the window may have been resized */
         }
-        SDL_Delay(5); /* SDL_WaitEvent may fail on X as the window closes */
+        SDL_Delay(5); /* under X11 SDL_WaitEvent may fail on closing */
     } while (screen->paused || !SDL_TICKS_PASSED(SDL_GetTicks(), end));
-    if (screen->pulled >= 0) { /* a third of the way to the mouse */
+    if (screen->pulled >= 0) { /* the node moves 1/3 of the way to the mouse */
         Vec2 way = sub(screen->mouse, solid->x[screen->pulled]);
         solid->v[screen->pulled] = mul(1 / (3 * h), way);
     }
@@ -522,7 +522,7 @@ typedef struct Parameter {
 #define DEFAULTS                                                               \
     "side_len=1 rho=1000 k=1e5 initial_stretch=1.4 n_seg=4 h=0.004 tol=0.01 "  \
     "method=0 steps=N states=FILE"
-/* Reads NAME=VALUE, also h=1/60; NULL ends p. */
+/* Reads "h=0.004" or "h=1/60" into parameter h of p, a list up to NULL. */
 static void read_argument(const char *text, Parameter *const *p)
 {
     char name[20] = "";
@@ -534,7 +534,7 @@ static void read_argument(const char *text, Parameter *const *p)
         p++;
     if (!*p)
         FAIL(2, "'%s' is none of " DEFAULTS "\n", text);
-    bool whole = (*p)->max < 1e30; /* real numbers have the limit 1e30 */
+    bool whole = (*p)->max < 1e30; /* a max of 1e30 marks real numbers */
     if (!(value >= (*p)->min && value <= (*p)->max) || text[end] ||
         (whole && value != floor(value)))
         FAIL(2, "'%s': %s is a %snumber from %g to %g\n", text, name,
@@ -552,7 +552,7 @@ int main(int argc, char **argv)
     Parameter h = {"h", 0.004, 1e-30, 1e30};    /* s */
     Parameter tol = {"tol", 1e-2, 1e-30, 1e30}; /* m/s */
     Parameter method = {"method", 0, 0, 2};  /* 1 symplectic, 2 forward Euler */
-    Parameter steps = {"steps", -1, 0, 1e9}; /* -1: opens a window */
+    Parameter steps = {"steps", -1, 0, 1e9}; /* -1: until the window closes */
     Parameter *all[] = {&side_len, &rho, &k,      &stretch, &n_seg,
                         &h,        &tol, &method, &steps,   NULL};
     const char *states = "/dev/null"; /* the file for x and v */

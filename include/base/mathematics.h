@@ -6,8 +6,8 @@
  * are below 1.5 units in the last place. */
 #pragma once
 
-/* The program tests for NaN and infinity, and its sums must keep their order so
- * that a run has one hash.  Fast-math options break both. */
+/* The program tests for NaN and infinity, and its sums must keep their order,
+ * or the hash of a run changes.  Fast-math options break both. */
 #if defined __FAST_MATH__ || __FINITE_MATH_ONLY__ || __ASSOCIATIVE_MATH__
 #error "elasto needs NaN, infinity and sums in order: no -ffast-math, no -Ofast"
 #endif

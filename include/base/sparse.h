@@ -12,22 +12,22 @@
 #include "base/status.h"
 
 typedef struct Triplets {
-    int matrix_size; /* rows = columns of the matrix */
+    int matrix_size; /* number of rows and of columns of the matrix */
     long long count; /* number of triplets */
-    int *row; /* [count] row of each triplet, >= column; NULL: only counted */
+    int *row; /* [count] row of each triplet, >= column; NULL while counting */
     int *column; /* [count] column of each triplet */
 } Triplets;
 
 typedef struct Sparse {
-    int size;          /* rows = columns */
-    int entries;       /* stored entries */
-    int *column_start; /* [size+1] column c is start[c] ... start[c+1]-1 */
+    int size;          /* number of rows and of columns */
+    int entries;       /* number of stored entries */
+    int *column_start; /* [size+1] index of each column's first entry */
     int *row;      /* [entries] row of each entry, ascending in each column */
-    double *value; /* [entries+1] value[entries] sums the dropped entries */
-    int *slot;     /* [triplets] index of each triplet in value */
+    double *value; /* [entries+1] values, then a bin for unused triplets */
+    int *slot;     /* [triplets] index in value[] of each triplet's entry */
 } Sparse;
 
-/* Allocates room for the triplets that were counted, to be added once more.
+/* Allocates memory for the counted triplets, which the caller then adds again.
  * Returns OK, TOO_LARGE or OUT_OF_MEMORY. */
 Status triplets_allocate(Triplets *triplets);
 void triplets_free(Triplets *triplets);

@@ -1,8 +1,8 @@
 /* status.h - every way in which a call can end, each with a text.
  *
  * A function that can fail returns a Status.  STATUS_OK is 0, so `if (status)`
- * reads "if the call failed", but for the statuses of a step that is not at its
- * end or has not converged.  Numeric kernels cannot fail. */
+ * reads "if the call failed", except after a step, which may also be unfinished
+ * or end without convergence.  Numeric kernels cannot fail. */
 #pragma once
 
 #include <stdbool.h>

@@ -7,8 +7,8 @@
 #include "simulation/options.h"
 
 /* Reads a command line into options, whose texts point into argv.  Lists of
- * values make several panes: "--timestep 0.004,0.04 --projection clamp,none" is
- * four.  options->panes is their number; each pane has its own options.
+ * values make several panes: "--timestep 0.004,0.04 --projection clamp,none"
+ * makes four.  options->panes is the number of panes.
  *   pane     number of the pane, from 0
  *   options  out
  *   message  out, after INVALID_INPUT a line with the option, its value

@@ -15,7 +15,7 @@ typedef struct LecturePage {
     const char *name;         /* name for --lecture, one word */
     const char *topic;        /* title of the slide */
     const char *section;      /* heading above the page in the list, or NULL */
-    bool is_extra;            /* whether the 80 minutes leave the page out */
+    bool is_extra;            /* the lecture of 80 minutes skips the page */
     const char *intro;        /* text: what the page is about */
     const char *formula;      /* text: large formulas, one on a line, or NULL */
     const char *command_line; /* scene and settings, as on the command line */
@@ -23,14 +23,14 @@ typedef struct LecturePage {
     const char *answer_text;  /* text: the answer, and what to look at */
     const char *try;          /* text: what to change, and what will happen */
     const char *question; /* text: the question before the answer, or NULL */
-    const char *answer;   /* live value that is the right number; "click": the
-                             end of the next step; NULL: the answer is words */
+    const char *answer;   /* name of the live value to guess; "click": the end
+                             of the next step; NULL: the answer is words */
     const char *covered_cards; /* cards hidden before the answer, or NULL */
     const char *main_card;     /* name of the enlarged card, or NULL */
-    const char *law_name;    /* name of the curve in the card `law`, or NULL */
-    const char *notes;       /* text for the lecturer */
-    const char *file;        /* path of the source shown by K */
-    const char *functions;   /* functions shown by K, separated by ',' */
+    const char *law_name;  /* name of the curve in the card `law`, or NULL */
+    const char *notes;     /* text for the lecturer */
+    const char *file;      /* path of the source that the key K shows */
+    const char *functions; /* names of the shown functions, separated by ',' */
     const char *const *code; /* code lines of `functions`, then NULL */
     const char *lit_code;    /* code lines with this text are highlighted */
     /* [PAGE_HIGHLIGHT_LENGTH] text of the code lines that are highlighted at
@@ -42,7 +42,7 @@ typedef struct LecturePage {
     double speed;          /* steps for each frame; 0: as in the scene */
     const char *on_open;   /* commands at the opening, separated by ';' */
     const char *on_answer; /* commands at the answer, separated by ';' */
-    int print_presses; /* presses of N before printing; 0: by printed_step */
+    int print_presses; /* presses of key N before printing; 0: printed_step */
     unsigned layers;   /* bits of PictureLayer: additions to the picture */
     NextAction next_action; /* effect of the key N after the answer */
     int pause_step;         /* step at which a run pauses; 0: none */
@@ -68,5 +68,5 @@ const LecturePage *lecture_find_page(const char *text);
 bool page_wants_click(const LecturePage *page);
 bool page_wants_number(const LecturePage *page);
 
-/* Sets options->page, and the options that a page has outside its line. */
+/* Sets options->page, and options from the page's fields, such as layers. */
 void lecture_apply_page(const LecturePage *page, Options *options);

@@ -32,22 +32,22 @@ typedef struct Boundary {
     int point_count, edge_count; /* numbers of points and edges */
     int *point_node;             /* [nodes] node of each point */
     SweptBox *edge_box;          /* [springs] boxes of the edges, sorted */
-    SweptBox *point_box;         /* [nodes] box of each point, by node */
-    unsigned char *triangles_at_spring; /* [springs] solid triangles */
+    SweptBox *point_box;         /* [nodes] box of the point at each node */
+    unsigned char *triangles_at_spring; /* [springs] count of solid triangles */
     unsigned char *node_role; /* [nodes] bits: in a triangle, on an edge */
 
-    /* Motion for which the boxes were made: from x by alpha (p - mean). */
+    /* Motion for which the boxes were made: from x by alpha (p - mean_p). */
     bool has_valid_boxes; /* the boxes are those of the present boundary */
     bool is_swept;        /* the boxes cover the way along p, not x alone */
-    double *x, *p;     /* [2n] m; x is the start of the block of all arrays */
+    double *x, *p;     /* [2n] m, start and motion; free(x) frees all arrays */
     double alpha;      /* the boxes cover the motion alpha p */
     double mean_p[2];  /* m, mean of p over the points; a motion that all points
                           share brings none closer to an edge */
-    double box_margin; /* each box is wider by this on all sides (m) */
-    double widest_edge; /* largest width of an edge's box, coordinate 0 (m) */
+    double box_margin; /* m, added to each box at all sides */
+    double widest_edge; /* m, largest width of an edge's box (coordinate 0) */
     bool sorts_by_y;    /* coordinate 0 of the boxes is y, not x */
     bool has_all_near_edges; /* near_edge had room for all near edges */
-    int *near_edge;          /* [8 nodes] near edges, point by point */
+    int *near_edge;     /* [8 * nodes] springs of near edges, point by point */
     int *near_list_end; /* [nodes] end of each point's edges in near_edge */
 } Boundary;
 

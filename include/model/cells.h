@@ -17,11 +17,11 @@
 
 typedef struct CellBarriers {
     Triangles triangles;    /* four triangles in each cell */
-    int (*side_springs)[3]; /* [triangles.count] W is 0 if a side is broken */
+    int (*side_springs)[3]; /* [triangles.count] springs at the sides */
     double c;               /* J, A0 k_c */
 } CellBarriers;
 
-/* The sum of W over triangles with three whole springs; data: CellBarriers. */
+/* The sum of W over triangles without a broken spring; data: CellBarriers. */
 extern const TermKind cell_energy;
 
 /* Adds the term with all triangles of the mesh, or changes its stiffness.

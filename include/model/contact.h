@@ -23,7 +23,7 @@ enum { MOTION_MAX_PHASES = 4 };
 
 /* Prescribed motion of an obstacle: phases of constant velocity, then rest. */
 typedef struct ObstacleMotion {
-    int phase_count;                     /* number of phases */
+    int phase_count;
     double phase_end[MOTION_MAX_PHASES]; /* s, end of the phase */
     double v[MOTION_MAX_PHASES][2];      /* m/s, velocity in the phase */
 } ObstacleMotion;
@@ -33,17 +33,17 @@ typedef struct Obstacle {
     double o[2];   /* m, point of a wall's surface, centre of a fixed ball */
     double n[2];   /* outward unit normal of a wall; not used for balls */
     double radius; /* m, R > 0; not used for walls */
-    ObstacleMotion motion; /* prescribed motion */
-    double v[2];           /* m/s, velocity in the present step */
-    double friction;       /* coefficient of friction mu >= 0 */
-    int node;              /* node at the centre of a free ball; -1: not free */
-    double options_o[2];   /* o in the options (m), which no hand moves */
+    ObstacleMotion motion;
+    double v[2];         /* m/s, velocity in the present step */
+    double friction;     /* coefficient of friction mu >= 0 */
+    int node;            /* node at the centre of a free ball; -1: not free */
+    double options_o[2]; /* m, o in the options, before any motion */
 } Obstacle;
 
 /* Width and strength of the barrier. */
 typedef struct Barrier {
     double d_hat; /* m, gap at which the barrier begins */
-    double c;     /* J, strength: area kappa d_hat/2 */
+    double c;     /* J, factor in W = c f(d/d_hat) */
 } Barrier;
 
 /* Gap between a node and an obstacle. */
@@ -82,18 +82,18 @@ typedef struct ObstaclePush {
 
 typedef struct Contact {
     Barrier barrier;
-    int obstacle_count; /* number of obstacles */
+    int obstacle_count;
     Obstacle obstacle[CONTACT_MAX_OBSTACLES];
     int free_ball;     /* number of the ball whose centre is a node; -1: none */
     ObstaclePush hand; /* obstacle held by a hand */
 } Contact;
 
-/* The sum of W over all pairs of a node and an obstacle; data: Contact.  The
- * Element of a pair has s, n, r = d, n, r of its NodeGap. */
+/* The sum of W over all pairs of a node and an obstacle; data: Contact.  In
+ * the Element of a pair, s is the gap d; n and r are those of its NodeGap. */
 extern const TermKind contact_energy;
 
-/* Adds the term or replaces its obstacles; without obstacles removes the term.
- *   obstacle  [obstacles] in, at most one of them with a node
+/* Adds the term or replaces its obstacles; removes the term if obstacles is 0.
+ *   obstacle  [obstacles] in, at most one of them a free ball
  * Returns OK or OUT_OF_MEMORY. */
 Status contact_configure(System *system, const Barrier *barrier, int obstacles,
                          const Obstacle *obstacle);

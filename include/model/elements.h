@@ -20,15 +20,15 @@
 /* An element is a group of one to three nodes with an energy W, such as a
  * triangle or a node near a wall, at given positions. */
 typedef struct Element {
-    int node_count;   /* 1 ... 3 */
-    int vector_count; /* vectors that W depends on: 1: a, 2: a and b */
-    int node[3];      /* [nodes] */
-    const double (*node_weight)[3]; /* [vectors] a, b: sums of weight * x_i */
+    int node_count;                 /* 1 ... 3 */
+    int vector_count;               /* 1: W depends on a; 2: on a and b */
+    int node[3];                    /* [nodes] */
+    const double (*node_weight)[3]; /* [vectors] weights of the x_i in a, b */
     int block_index; /* index of the block in the Hessian; -1: none yet */
     int partner; /* obstacle (contact) or spring of the edge (self-contact) */
-    int search_cursor; /* > 0: where get_element(i) continues its search */
-    double derivative_factor; /* factor on derivatives: EvalPoint.weight, or 1
-                                 if the kind's functions multiply by weight */
+    int search_cursor; /* > 0: get_element(i) finds more elements from here */
+    double derivative_factor; /* EvalPoint.weight; 1 if the kind's gradient
+                                 and hessian contain this factor */
     double v[4];    /* m, the vectors a and b, if the kind uses them */
     double s;       /* argument of W: a gap, a ratio of areas or a slip */
     double n[2], r; /* further numbers, explained at each TermKind */
@@ -56,14 +56,14 @@ static inline void element_compute_weighted_sums(const Element *element,
 typedef struct Triangles {
     int count;         /* number of triangles */
     double rest_area;  /* m^2, A0 of each triangle at rest */
-    double inverse_J0; /* 1/m^2, 1/(2 A0), where J is 2 A0 at rest */
+    double inverse_J0; /* 1/m^2, 1/(2 A0); inverse_J0 (a x b) is 1 at rest */
     int (*node)[3]; /* [count] nodes a, b, c of each triangle, anticlockwise */
 } Triangles;
 
 /* The functions of one kind of element.  Elements are numbered from 0. */
 struct ElementKind {
-    /* Finds the elements before count_elements, at x and, with p [2n], on the
-     * way to x + alpha p.  NULL: the elements never change. */
+    /* Finds the elements at x and, with p [2n], on the way to x + alpha p; is
+     * called before count_elements.  NULL: the elements never change. */
     void (*prepare)(const EvalPoint *at, const double *p, double alpha);
 
     /* Number of elements. */
@@ -74,8 +74,8 @@ struct ElementKind {
     bool (*get_element)(const EvalPoint *at, int i, double way,
                         Element *element);
 
-    /* Number of dense blocks of the Hessian, each for 1 to 3 nodes.  The number
-     * does not depend on x, which may be NULL. */
+    /* Number of dense blocks of the Hessian, each for 1 to 3 nodes.  All x have
+     * the same number, so EvalPoint.x may be NULL. */
     int (*count_blocks)(const EvalPoint *at);
 
     /* Writes the nodes of a block of the Hessian, returns their number. */
@@ -103,15 +103,15 @@ struct ElementKind {
     double (*line_remainder)(const EvalPoint *at, const Element *element,
                              const double P[4], double alpha);
 
-    /* Returns the alpha along P at which s has shrunk by the fraction
-     * ELEMENT_LIMIT.  NULL: W exists for every s; else s must stay above 0. */
+    /* Returns the alpha along P at which about the fraction ELEMENT_LIMIT of
+     * the gap or area is used up.  NULL: W exists for s <= 0, too. */
     double (*max_step)(const EvalPoint *at, const Element *element,
                        const double P[4]);
 
     /* Returns mu times the normal force (N), the largest force of friction.
      *   t      [4] out, tangent: the contact slides by t.(da, db)
      *   speed  m/s, out, speed of the obstacle along t
-     * NULL: no friction acts on these elements. */
+     * A kind without this function has no friction. */
     double (*friction_limit)(const EvalPoint *at, const Element *element,
                              double t[4], double *speed);
 };
@@ -123,8 +123,8 @@ typedef struct ElementIterator {
     const EvalPoint *point;
     const ElementKind *kind;
     double motion_bound;  /* m, limit of the change of a and b by alpha p */
-    int i, element_count; /* present element, number of elements */
-    Element element;      /* present element, out */
+    int i, element_count; /* present element: 0 ... element_count-1 */
+    Element element;      /* present element */
 } ElementIterator;
 
 ElementIterator elements_begin(const EvalPoint *at, const double *p,
@@ -141,14 +141,14 @@ double elements_line_remainder(const EvalPoint *at, const double *p,
                                double alpha);
 
 /* Returns an alpha > 0 up to which the gaps and areas of all elements stay
- * positive along p; infinite if above 1. */
+ * positive along p.  INFINITY: no element limits alpha <= 1. */
 double elements_max_step(const EvalPoint *at, const double *p);
 
 /* Whether the energy P exists at x: Element.s of each element is positive.
- * Tested for starts and, after rounding, for iterates. */
+ * Iterates are tested, too, as rounding can close a gap. */
 bool elements_are_feasible(const EvalPoint *at);
 
-/* The TermKind of a term with elements begins with these functions. */
+/* First members in the initialiser of each TermKind with elements. */
 #define ELEMENTS(kind)                                                         \
     .element = &(kind), .value = elements_value,                               \
     .gradient = elements_gradient, .add_triplets = elements_add_triplets,      \

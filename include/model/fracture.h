@@ -24,10 +24,10 @@ typedef struct Fracture {
     unsigned char *has_new_break; /* [nodes] 1: a spring broke there */
 } Fracture;
 
-/* Fracture as a term; data: Fracture.  The option --tear has its number s_c.
- * The term has no value.  The function end_step breaks springs and books the
- * energy that these springs and their cells had.  Fracture follows all terms
- * that lose energy when springs break: their end_step sees whole springs. */
+/* Fracture as a term; data: Fracture.  The option's number is s_c.  The term
+ * has no energy.  Its end_step breaks springs and books the energy that the
+ * springs and their cells had.  Fracture stands behind all terms that lose
+ * energy when springs break, so their end_step runs before the break. */
 extern const TermKind fracture;
 
 /* Returns the strain at which spring s breaks. */

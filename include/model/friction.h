@@ -47,7 +47,7 @@ extern const TermKind friction_energy, self_friction_energy;
  *   u  [2n] m, in, displacement of the step */
 double friction_obstacle_work(const System *system, const double *u);
 
-/* Adds one of the two terms, changes its eps_v, or removes it.
+/* Adds or removes friction_energy or self_friction_energy, or changes eps_v.
  *   wanted      false: remove
  *   slip_speed  m/s, eps_v
  * Returns OK or OUT_OF_MEMORY. */

@@ -12,7 +12,7 @@ extern const TermKind mass_spring_energy;
 void mass_spring_add_triplets(const EvalPoint *at, Triplets *triplets);
 double mass_spring_curvature_bound(const EvalPoint *at);
 
-/* Adds factor d to g at node e[0] and subtracts it at node e[1].  g [2n]. */
+/* Adds factor * d to g [2n] at node e[0], and -factor * d at node e[1]. */
 static inline void spring_add_force(const int e[2], double factor,
                                     const double d[2], double *g)
 {

@@ -24,13 +24,13 @@
 #include "model/square_mesh.h"
 
 typedef struct NeoHookean {
-    Triangles triangles; /* two triangles a cell, right angle at a */
+    Triangles triangles; /* two in each cell, right angle at node a */
     double mu, lambda;   /* J/m^2: Lame's parameters times a thickness of 1 m */
 } NeoHookean;
 
 /* The sum of W over the triangles; data: NeoHookean.  The option's numbers are
  * 1 for triangles, Young's modulus E in Pa, and Poisson's ratio nu.
- * `configure` removes the springs' term; the sides of the triangles stay in the
+ * The term replaces mass_spring_energy; the sides of the triangles stay in the
  * system as springs, which are drawn. */
 extern const TermKind neo_hookean_energy;
 

@@ -20,8 +20,8 @@
  * damping (damping.h) V has the further summand theta (e - e_n)^2/2. */
 typedef struct FlowLaw {
     double ep;            /* plastic strain at the step's start */
-    double yield_strain;  /* yield strain Y_n > 0 */
-    double flow_fraction; /* 1/(1 + H), fraction of (strain - Y_n) that flows */
+    double yield_strain;  /* Y_n > 0, yield strain in this step */
+    double flow_fraction; /* 1/(1 + H), fraction of (|e| - Y_n) that flows */
     double plastic_slope; /* 1 - flow_fraction, slope of V' beyond Y_n */
     double theta;         /* damping eta/h; 0: none */
     double e_n;           /* elastic strain e = E - ep at the step's start */
@@ -46,8 +46,8 @@ typedef struct Plasticity {
 
 /* The sum of W over the springs; data: Plasticity.  The option's numbers are Y
  * and H.  The term replaces mass_spring_energy.  The value includes the energy
- * of hardening, k l2 H kappa^2/2.  After a step in which ep changes by gamma it
- * books the dissipated energy k l2 Y gamma. */
+ * of hardening, k l2 H kappa^2/2.  After a step in which ep changes by gamma,
+ * the term books the dissipated energy k l2 Y |gamma|. */
 extern const TermKind plastic_energy;
 
 /* Returns the law V of spring s without damping; elastic without the term. */

@@ -29,13 +29,13 @@ Status pull_configure(System *system, const TermKind *kind,
                       const NodePull *pull);
 
 /* Sets k and target of the hand before a step.  The node moves part of the way
- * to the mouse: the distance falls by the factor e in 0.06 s, by at most half
- * in one step.  In a step it also moves at most half a cell or, if cells are
- * small, at half a body's side a second.  Twice that speed turns cells at a
- * corner over. x, v  [2] m, m/s, in, of the node m     kg, mass of the node h
- * s, time step free  [2] m/s^2, in, acceleration of the node without the hand,
- * for an explicit integrator: the force then moves the node by this way
- *         exactly.  NULL: an implicit integrator, whose stiff spring does so */
+ * to the mouse: the distance falls by the factor e in 0.06 s, in one step by at
+ * most half.  A step moves the node by at most half a cell or, if cells are
+ * small, half a body's side a second; twice this speed turns corner cells over.
+ *   x, v  [2] m, m/s, in, position and velocity of the node
+ *   m, h  kg, mass of the node; s, time step
+ *   free  [2] m/s^2, in, for an explicit integrator: acceleration of the node
+ *         without the hand.  NULL: implicit integrator */
 void hand_begin_step(NodePull *hand, const double *x, const double *v, double m,
                      double h, const double *free);
 

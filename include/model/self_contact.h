@@ -23,7 +23,7 @@
 #include "model/boundary.h"
 #include "model/contact.h"
 
-/* A point and an edge with a block of the matrix. */
+/* A point and an edge that have a block in the Hessian. */
 typedef struct PointEdgePair {
     int node, edge; /* numbers of the node and of the edge's spring */
 } PointEdgePair;
@@ -36,16 +36,16 @@ typedef struct SelfContact {
     int pair_count;       /* number of pairs in this step */
     int pair_capacity;    /* number of pairs for which `pair` has room */
     int start_pair_count; /* number of pairs at the start of this step */
-    PointEdgePair *pair;  /* [pair_capacity] start pairs by node, then edge */
+    PointEdgePair *pair;  /* [pair_capacity] start pairs (sorted), new pairs */
 } SelfContact;
 
-/* The sum of W over all points and edges; data: SelfContact.  An element is a
- * near pair with a = q, b = e, s = d^2/d_hat^2, n from the edge to p, and r in
- * [0, 1] the position on the edge that is nearest to p. */
+/* Barrier energy of all points p near edges; data: SelfContact.  An Element is
+ * a near pair: a = x_p - x_0, b = x_1 - x_0, s = (distance/d_hat)^2, n the unit
+ * vector from the edge to p, r in [0, 1] the place on the edge nearest to p. */
 extern const TermKind self_contact_energy;
 
 /* Adds the term or changes its numbers.
- *   barrier   of a node and an obstacle; the term's c is an eighth
+ *   barrier   that of a node and an obstacle; SelfContact.c is 1/8 of its c
  *   friction  coefficient of friction mu
  * Returns OK or OUT_OF_MEMORY. */
 Status self_contact_configure(System *system, const SquareMesh *mesh,

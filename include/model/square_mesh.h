@@ -70,7 +70,7 @@ void square_mesh_get_cell(const SquareMesh *shape, int c, int node[4],
 
 /* Writes the triangle t = 4 c + k: corner k of cell c and its two neighbours.
  *   node  [3] out, anticlockwise from the corner
- *   side  [3] out, springs */
+ *   side  [3] out, springs node[0]-node[1], node[1]-node[2], node[2]-node[0] */
 void square_mesh_get_triangle(const SquareMesh *shape, int t, int node[3],
                               int side[3]);
 

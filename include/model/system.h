@@ -4,8 +4,8 @@
  * The potential P(x) is the sum of the terms in the list (term.h).  Gravity is
  * not a term: an implicit step adds it to its target u_tilde, an explicit step
  * to the acceleration, so the velocity in free fall is exact.  Arrays change
- * between steps only: by control_apply, state_restore, a switch, begin_step and
- * end_step of a term.
+ * between steps only: by control_apply, state_restore, exhibit_flip_switch, and
+ * a term's begin_step and end_step.
  *
  * Code that changes a system calls system_mark_changed, which raises its
  * version.  Solvers store the version for which their results are valid. */
@@ -31,7 +31,7 @@ struct System {
     double *l2;  /* [springs] m^2, rest length squared, > 0 */
     double *k;   /* [springs] J/m^2, stiffness; 0: broken or without energy */
     double gravity[2];      /* m/s^2, acceleration of every node */
-    int *elimination_order; /* [n] position of each node in this order */
+    int *elimination_order; /* [n] place of each node in the elimination */
     unsigned char *pinned;  /* [n] 1: pinned, 0: free */
     double *pin_v;          /* [2n] m/s, velocity of pinned nodes; NULL: 0 */
     int segments;           /* segments a side if there is one square, else 0 */
@@ -84,8 +84,8 @@ void system_book_loss(System *system, const TermKind *kind, double energy);
 /* Whether the point is feasible for all terms (elements_are_feasible). */
 bool system_is_feasible(EvalPoint at);
 
-/* Returns the smallest elements_max_step of all terms along p [2n] m, in;
- * `internal`: without the external terms. */
+/* Returns the step alpha along p [2n] m, in, up to which all terms' gaps and
+ * areas stay positive; infinite if above 1.  `internal`: no external terms. */
 double system_max_step(EvalPoint at, const double *p, bool internal);
 
 /* Whether all nodes can move straight from x to x + p so that no body passes

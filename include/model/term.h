@@ -1,9 +1,9 @@
 /* term.h - one summand of the potential: P(x) is the sum of a system's terms.
  *
  * A System holds a list of terms.  A term that a scene lacks is not in its list
- * and costs nothing.  A term is one source file with a constant TermKind, or
- * two. The functions loop over whole arrays, so a term costs one indirect call
- * a pass.
+ * and costs nothing.  The source file of a term defines a constant TermKind, or
+ * two for similar terms.  The functions loop over whole arrays, so a term costs
+ * one indirect call a pass.
  *
  * A function pointer that is NULL means: this term adds nothing here.  Terms
  * ignore pins: the caller clears pinned nodes in g and in the Hessian. */
@@ -18,7 +18,7 @@ typedef struct ElementKind ElementKind;
 typedef struct EnergyTerm EnergyTerm;
 struct SquareMesh;
 
-/* Where and with what a term is evaluated. */
+/* Positions, weight and spring data for which a term is evaluated. */
 typedef struct EvalPoint {
     const System *system;
     const EnergyTerm *term; /* evaluated term; NULL: none is selected yet */
@@ -52,9 +52,9 @@ struct TermKind {
     /* Name in messages, such as "friction".  NULL: no message names it. */
     const char *name;
 
-    /* Adds the term with the numbers from its option's slot on, one of them not
-     * 0, or changes the numbers of a term that is in the list.  NULL: the term
-     * needs more than these numbers.  Returns OK or OUT_OF_MEMORY. */
+    /* Adds the term, or changes its numbers if it is in the list.  `number` has
+     * the values of the term's option, of which at least one is not 0.  NULL: a
+     * term that needs further arguments.  Returns OK or OUT_OF_MEMORY. */
     Status (*configure)(System *system, const struct SquareMesh *mesh,
                         const double *number);
 
@@ -76,8 +76,8 @@ struct TermKind {
 
     /* Kind of the elements, if the term is a sum over elements (elements.h).
      * The functions from value to line_remainder, without extend_pattern and
-     * line_polynomial, are then those of elements.c.  Only such a term can be
-     * undefined at an x (elements_are_feasible). */
+     * line_polynomial, are then those of elements.c.  A term without elements
+     * has an energy at every x (elements_are_feasible). */
     const ElementKind *element;
 
     /* Returns P(x) >= 0 in joules, not multiplied by weight.  NULL: the term
@@ -99,11 +99,11 @@ struct TermKind {
      * needed.  Returns OK or OUT_OF_MEMORY. */
     Status (*extend_pattern)(const EvalPoint *at, bool *grown);
 
-    /* Adds weight times the projected Hessian of P at x:
-     *   slot  in/out, place of the term's first triplet in the matrix, then of
-     *         the next term's; NULL if q is given
-     *   q     NULL: out[(*slot)[t]] += triplet t
-     *         [2n]: out += Hessian q without a matrix, out [2n]
+    /* Adds weight times the projected Hessian of P at x, or its product with q.
+     *   slot  in/out, slots of the term's triplets, moved on to those of the
+     *         next term; NULL if q is given
+     *   q     [2n] in; NULL: the Hessian itself is added
+     *   out   Hessian q is added to out [2n], or triplet t to out[(*slot)[t]]
      * CLAMP and ABS make each block positive semi-definite; NONE and ON_DEMAND
      * leave it.  Returns the number of blocks that the projection changed. */
     int (*hessian)(const EvalPoint *at, Projection projection, const int **slot,
@@ -128,15 +128,15 @@ struct TermKind {
      * calls system_mark_changed like begin_step. */
     void (*end_step)(const TermStep *step);
 
-    /* Returns about the largest eigenvalue of the Hessian at rest (J/m^2), for
-     * springs the largest k.  If is_diagonal, no eigenvalue is larger. */
+    /* Returns an estimate of the Hessian's largest eigenvalue at rest (J/m^2),
+     * for springs the largest k; if is_diagonal, an upper bound. */
     double (*curvature_bound)(const EvalPoint *at);
 
     /* Frees the allocations that data points to, not data itself. */
     void (*free)(void *data);
 
-    bool is_diagonal;      /* P is a sum of c/2 |x_i - o|^2 over nodes i, c > 0,
-                              so its Hessian is a diagonal matrix */
+    bool is_diagonal;      /* P is a sum of c/2 |x_i - o|^2, o fixed points, so
+                              its Hessian is a diagonal matrix; c > 0 */
     bool is_external;      /* has forces that move the centre of mass */
     bool depends_on_start; /* P depends on x_n too; rotating a body changes P */
     bool supports_all_integrators; /* works with every integrator; other terms

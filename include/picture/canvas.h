@@ -19,8 +19,8 @@ typedef struct Box {
     int x, y, width, height; /* pixels, from the upper left corner */
 } Box;
 
-/* Converts a coordinate to an int, towards 0. A coordinate that is too large
- * becomes the nearest safe number, NaN the least one. */
+/* Rounds a coordinate towards 0 and clamps it to -2^29 ... 2^29 pixels; NaN
+ * becomes -2^29. */
 int pixel_from_coordinate(double place);
 
 /* Returns the box without a margin on each side; sizes are at least 0. */
@@ -31,7 +31,7 @@ typedef enum BoxEdge { EDGE_TOP, EDGE_BOTTOM, EDGE_LEFT, EDGE_RIGHT } BoxEdge;
 /* Cuts a strip, `pixels` wide, off one edge of `rest`. Returns the strip. */
 Box box_cut_off(Box *rest, BoxEdge edge, int pixels);
 
-/* Returns the part that two boxes share.  The corner of `a` must be >= 0. */
+/* Returns the intersection of two boxes; a.x and a.y must be >= 0. */
 Box box_intersect(Box a, Box b);
 
 /* Clips the line {x0, y0, x1, y1} to the box and a margin around it (Liang and
@@ -41,14 +41,14 @@ bool box_clip_line(const Box *box, double margin, double line[4]);
 typedef struct Canvas {
     int width, height; /* pixels */
     Box clip;          /* drawing changes only pixels in this box */
-    uint32_t *pixels;  /* [width height] row by row, no gaps */
+    uint32_t *pixels;  /* [height width] rows from top to bottom */
 } Canvas;
 
-/* Interpolates between two colours, part = 0 ... 1.  The result is opaque. */
+/* Returns an opaque colour between `one` (part = 0) and `other` (part = 1). */
 Colour colour_mix(Colour one, Colour other, double part);
 
-/* Creates a white canvas.  width, height 1 ... CANVAS_MAX_SIZE; canvas out.
- * Returns OK, INVALID_INPUT, OUT_OF_MEMORY. */
+/* Creates a white canvas of 1 ... CANVAS_MAX_SIZE pixels a side.  Returns OK,
+ * INVALID_INPUT, OUT_OF_MEMORY. */
 Status canvas_create(int width, int height, Canvas *canvas);
 void canvas_free(Canvas *canvas);
 
@@ -68,9 +68,9 @@ void canvas_line(Canvas *canvas, double x0, double y0, double x1, double y1,
                  double width, Colour colour);
 
 /* A line of dashes of 5 units with gaps of 4 units.
- *   unit   pixels
- *   phase  in/out, pixels of the dash pattern before the line, for the segments
- *          of a polyline; NULL: the line begins with a dash */
+ *   unit   length in pixels
+ *   phase  in/out, length of the polyline before this segment, pixels, modulo
+ *          9 units; NULL: the line begins with a dash */
 void canvas_dashes(Canvas *canvas, const double a[2], const double b[2],
                    double width, double unit, double *phase, Colour colour);
 
@@ -80,17 +80,17 @@ void canvas_arrow(Canvas *canvas, double x0, double y0, double x1, double y1,
 
 /* A filled triangle.
  *   c       corners x, y, x, y, x, y
- *   smooth  anti-aliases the edges; false: neighbours have no seam between */
+ *   smooth  anti-aliases the edges; false: no seam between two triangles */
 void canvas_triangle(Canvas *canvas, const double c[6], bool smooth,
                      Colour colour);
 
-/* A circle drawn with this line width. */
+/* A circle, drawn as a line of this width. */
 void canvas_ring(Canvas *canvas, double x, double y, double radius,
                  double width, Colour colour);
 void canvas_disc(Canvas *canvas, double x, double y, double radius,
                  Colour colour);
 
-/* Colours the pixels of a mask.
- *   mask  [height width] in, coverages 0 ... 255 */
+/* Blends the colour into a rectangle with upper left corner (x, y).
+ *   mask  [height width] in, coverage of each pixel, 0 ... 255 */
 void canvas_fill_mask(Canvas *canvas, int x, int y, int width, int height,
                       const uint8_t *mask, Colour colour);

@@ -38,11 +38,11 @@ typedef struct NewtonTrace {
     StepLine at_line;           /* present line of Algorithm 3 */
     double h, tolerance;        /* time step (s), tolerance (m/s) */
     int record_count;           /* number of records */
-    const NewtonRecord *record; /* [record_count] of the iterations */
+    const NewtonRecord *record; /* [record_count] records of iterations */
     int iteration;              /* number of the present update, from 0 */
     const double *x;            /* [2n] m, present iterate x^i */
     const double *p;       /* [2n] direction p (m); NULL before LINE_SOLVE */
-    double residual;       /* |p|/h, m/s */
+    double residual;       /* |p|/h, m/s; |g| in Algorithm 1 */
     bool has_failed;       /* the step has ended without convergence */
     double slope;          /* grad E . p (J s^2) */
     int projected;         /* number of projected blocks; < 0: unknown */
@@ -50,8 +50,8 @@ typedef struct NewtonTrace {
     const double *x_tilde; /* [2n] x_tilde (m), drawn as a ghost; or NULL */
     EnergyDifference energy_difference; /* change of E along p; or NULL */
     const void *difference_data; /* first argument of energy_difference */
-    double first_alpha;          /* first trial of the line search; 0 means 1 */
-    int trials;                  /* number of trials alpha so far */
+    double first_alpha;          /* first step length tried; 0 stands for 1 */
+    int trials;                  /* number of step lengths tried so far */
     bool is_accepted;            /* the last trial was accepted */
 } NewtonTrace;
 
@@ -61,7 +61,7 @@ enum { MAX_LIVE_VALUES = 160, VALUES_RUNS = 3 };
 typedef struct LiveValue {
     const char *name; /* name in texts: "residual" */
     int run;          /* run 1, 2 or 3 that has the value; 0: all runs */
-    const char *text; /* NULL: the value is a number or a point */
+    const char *text; /* words; NULL: the value is a number or a point */
     double value[2];  /* number, or coordinates of a point */
     bool is_point;    /* value is a point, written as "(1, 0.5)" */
 } LiveValue;
@@ -70,7 +70,8 @@ typedef struct LiveValue {
 typedef struct LiveValues {
     int count;    /* number of values */
     int next_run; /* run of the values that are added next; 0: all runs */
-    Colour colour[VALUES_RUNS + 1]; /* colours of runs; [0]: of other lines */
+    /* Colours of the text lines that begin with "#0" to "#3"; run r: "#r". */
+    Colour colour[VALUES_RUNS + 1];
     LiveValue value[MAX_LIVE_VALUES];
 } LiveValues;
 
@@ -81,7 +82,7 @@ enum { HISTORY_SERIES = 16, HISTORY_POINTS = 1024 };
 /* Quantities over time, for plots. */
 typedef struct History {
     int series;                       /* number of quantities */
-    const char *name[HISTORY_SERIES]; /* not owned; the total energy is first */
+    const char *name[HISTORY_SERIES]; /* names; the first energy is the total */
     int count;                        /* number of points in time */
     double time[HISTORY_POINTS];      /* s, ascending */
     double value[HISTORY_SERIES][HISTORY_POINTS];
@@ -106,13 +107,13 @@ typedef struct DescentTrace {
 /* A simulation that the stage shows. */
 typedef struct Pane {
     const Simulation *simulation;
-    const double *x;         /* [2n] m, drawn positions; NULL: those of run 0 */
+    const double *x;         /* [2n] m, drawn positions; NULL: x of run 0 */
     const double *ghost_x;   /* [2n] m, outcome with other settings; or NULL */
     const char *ghost_label; /* settings of the ghost, "projection none: ..." */
-    const History *history;  /* energies or radii over time */
+    const History *history;  /* energies, radii, positions over time */
     const NewtonTrace *trace; /* trace of the time step, or NULL */
     const char *label;        /* differences from other panes, "h 0.01, k 5" */
-    Status failure;           /* status of the shown or of a failed next step */
+    Status failure;           /* OK, or why the shown or next step has failed */
     /* frame_compute_values fills values, descent and shown_trace. */
     LiveValues values;
     DescentTrace descent;
@@ -124,9 +125,9 @@ typedef enum PickKind {
     PICK_NONE,
     PICK_NODE,     /* Pick.index: number of the node */
     PICK_SPRING,   /* Pick.index: number of the spring */
-    PICK_OBSTACLE, /* Pick.index: number of the obstacle, grounds first */
+    PICK_OBSTACLE, /* Pick.index: obstacle number; grounds, then balls */
     PICK_EDGE,     /* Pick.index: 0 left, 1 right edge of the square */
-    PICK_POINT,    /* any place on a map or curve that takes clicks */
+    PICK_POINT,    /* a clickable point of a map or curve */
     PICK_HANDLE,   /* Pick.index: number of a handle, which can be dragged */
     PICK_SWITCH,   /* Pick.index: number of a switch of the scene */
     PICK_CELL      /* Pick.index: row * ENVELOPE_COLUMNS + column of a cell */
@@ -142,7 +143,7 @@ typedef struct Pick {
 /* Bounds of a pane's view while the mouse drags a thing: the view stands still,
  * so that the thing stays under the mouse. */
 typedef struct DragBounds {
-    bool is_dragging;    /* during a drag */
+    bool is_dragging;
     bool mouse_has_left; /* the mouse is off the stage: the view may move */
     int pane_index;
     double bounds[4]; /* left, bottom, right, top (m) */
@@ -184,14 +185,14 @@ typedef struct SettingsRow {
     Setting item[LAYOUT_MAX_SETTINGS];
 } SettingsRow;
 
-/* The bar of a step in the time line, as high as the step has updates. */
+/* A step's bar in the time line; the height shows the number of updates. */
 typedef struct StepBar {
     int updates; /* Newton updates of the step */
     bool is_unconverged;
 } StepBar;
 
 typedef struct TimeLine {
-    long steps;     /* number of known steps */
+    long steps;     /* number of stored steps */
     long step;      /* the step on the stage, 0 ... steps */
     bool is_paused; /* the run is paused */
     /* Returns the bar of a step 1 ... steps.  NULL: no bars are drawn. */
@@ -225,14 +226,14 @@ typedef enum ColumnContent {
 typedef struct CardSets {
     unsigned closed_cards;  /* cards of which only the title is drawn */
     unsigned hidden_cards;  /* cards that the picture or the page leaves out */
-    unsigned covered_cards; /* cards without content until a guess */
+    unsigned covered_cards; /* cards that stay empty until a guess */
     int enlarged;           /* card that fills the column; -1: none */
 } CardSets;
 
 /* A row of a list: a key or a number, and what it does. */
 typedef struct ListRow {
     char key[VALUE_SIZE], text[SENTENCE_SIZE];
-    /* ROW_GREY: a number without effect now, or a page that is extra */
+    /* ROW_GREY: an option without effect now, or a page that lectures skip */
     enum { ROW_PLAIN, ROW_GREY, ROW_HEADING } style;
     int target; /* index of the page or option that a click opens; -1: none */
 } ListRow;
@@ -242,14 +243,14 @@ typedef struct RowList {
     ListRow row[LAYOUT_MAX_ROWS];
 } RowList;
 
-/* A scene in the overview of scenes. */
+/* A scene in the sheet, the overview of scenes. */
 typedef struct SheetCell {
     const char *name;             /* name of the scene */
     const char *heading;          /* heading above the cell, or NULL */
     const Simulation *simulation; /* NULL: the scene is not ready yet */
 } SheetCell;
 
-/* The overview of scenes; without cells the overview is closed. */
+/* The sheet, the overview of scenes; a sheet without cells is closed. */
 typedef struct SheetContent {
     int cells; /* number of cells */
     SheetCell cell[LAYOUT_MAX_CELLS];
@@ -262,10 +263,10 @@ typedef struct LectureContent {
     const char *question; /* text of the question, unchanged after the answer;
                              NULL: this run asks none */
     const char *verdict;  /* verdict on the guess at this page, or NULL */
-    int guesses, right_guesses;  /* numbers of guesses and of right guesses */
-    char heading[SENTENCE_SIZE]; /* heading above lines that hold for the page's
-                                    own options; "": no option is changed */
-    char answer_text[ANSWER_SIZE]; /* text: the answer of the page */
+    int guesses, right_guesses;    /* numbers of guesses and of right guesses */
+    char heading[SENTENCE_SIZE];   /* heading of the answer for the page's own
+                                      options; "": the options are unchanged */
+    char answer_text[ANSWER_SIZE]; /* answer of the page, with live values */
 } LectureContent;
 
 /* ---- all of it ----------------------------------------------------------- */
@@ -283,11 +284,11 @@ typedef struct FrameContent {
     int active_pane; /* index of the pane whose numbers the cards show */
     Pane pane[LAYOUT_MAX_PANES];
     const FrameView *view;
-    HandGrip hand;      /* hand of the mouse or of a script */
+    HandGrip hand;      /* node or obstacle that is held */
     bool shows_strain;  /* springs are coloured by strain */
     bool is_bare;       /* shows pictures without words */
     bool is_stage_only; /* shows the stage alone, as on the web page */
-    bool has_document;  /* the web page has switches, texts and cards */
+    bool has_document;  /* a web page shows switches, texts and cards */
     struct Text *fonts; /* fonts; NULL: widths of texts are estimated */
     double min_em;      /* pixels, least size of an em; 0: the usual minimum */
     TitleBar title_bar;
@@ -313,8 +314,8 @@ static inline const Pane *active_pane(const FrameContent *content)
 /* Returns the positions that a pane shows, [2n] m. */
 const double *pane_positions(const Pane *pane);
 
-/* Finds the bounding box of the nodes of the first runs: left, bottom, right,
- * top, m.  Nodes that are not finite are left out. */
+/* Finds the bounding box of all finite nodes of run 0 to run `runs` - 1: left,
+ * bottom, right, top, m. */
 void find_node_bounds(const Pane *pane, int runs, double bounds[4]);
 
 /* Counts the cells with a triangle that has turned over. */

@@ -37,8 +37,8 @@ typedef struct Layout {
     double em;         /* pixels of an em, the size of plain text */
     Box title_bar, stage, column, settings_row, time_line, chip_row;
     int panes, cards, settings, chips; /* numbers of boxes */
-    bool has_list;              /* the column shows code or a list, not cards */
-    Box pane[LAYOUT_MAX_PANES]; /* the panes of the stage */
+    bool has_list; /* the column shows code or a list, not cards */
+    Box pane[LAYOUT_MAX_PANES];
     Box card[LAYOUT_MAX_CARDS]; /* the cards; a main card is on the stage */
     Box setting[LAYOUT_MAX_SETTINGS];
     Box chip[LAYOUT_MAX_CHIPS]; /* a chip that does not fit has no width */
@@ -53,7 +53,7 @@ typedef enum WindowZone {
     ZONE_TITLE,
     ZONE_STAGE,      /* index: number of the pane */
     ZONE_CARD,       /* index: number of the card */
-    ZONE_CARD_CLOSE, /* the cross of a card; index: number of the card */
+    ZONE_CARD_CLOSE, /* the cross that closes a card; index: its number */
     ZONE_LIST,       /* the column with code or a list */
     ZONE_LIST_CLOSE, /* the cross that closes code or list */
     ZONE_SETTING,    /* index: number of the setting */
@@ -63,8 +63,8 @@ typedef enum WindowZone {
 } WindowZone;
 
 typedef struct WindowHit {
-    WindowZone zone; /* zone of the window */
-    int index;       /* number of the part of the zone */
+    WindowZone zone;
+    int index;       /* number of the pane, card, ... in the zone */
     double pixel[2]; /* pixels, position of the mouse */
 } WindowHit;
 
@@ -78,7 +78,7 @@ Box layout_cross_box(const Layout *layout, int card);
 
 /* Maps the world to pixels: pixel = origin + (scale[0] x, -scale[1] y). */
 typedef struct Camera {
-    double scale[2];  /* pixels a metre, > 0 */
+    double scale[2];  /* pixels per metre along x and y, > 0 */
     double origin[2]; /* pixels, image of the point (0, 0) */
 } Camera;
 

@@ -14,8 +14,8 @@ typedef struct Paper {
     double em;         /* pixels */
     double unit;       /* pixels, 1/14 em */
     double min_letter; /* ems, least size of normal letters */
-    Box word_boxes[MAX_WORD_BOXES]; /* boxes of labels and of words on panels */
-    int word_count; /* number so far; the newest MAX_WORD_BOXES are kept */
+    Box word_boxes[MAX_WORD_BOXES]; /* boxes that new labels must not cover */
+    int word_count; /* boxes so far; the newest MAX_WORD_BOXES are kept */
 } Paper;
 
 /* Creates white paper of this size in pixels.  The caller frees it, also after

@@ -20,18 +20,17 @@ typedef struct CardTableRow {
 
 /* A box of the column with numbers or a graph about the active pane. */
 typedef struct Card {
-    const char *name;  /* name in tables and scripts: "listing" */
-    const char *title; /* text (live_values.h): shown is the first line whose
-                          values are all known */
+    const char *name;  /* name in tables and scripts, such as "listing" */
+    const char *title; /* text (live_values.h): first line of known values */
     double min_height; /* ems */
     /* Returns the minimum height in ems of a card whose content is `wide` ems
      * wide; an em has `em` pixels.  NULL: min_height. */
     double (*find_height)(const FrameContent *content, double wide, double em);
     double height_weight;   /* weight with which the card shares free height */
-    bool fits_half_width;   /* may stand in one half of a wide column */
-    bool fits_half_page;    /* may stand in one half on a page */
+    bool fits_half_width;   /* two such cards may share a row */
+    bool fits_half_page;    /* on a page, two such cards may share a row */
     bool starts_closed;     /* shows only its title at first */
-    bool needs_line_energy; /* draws E along p (cards_need_line_energy) */
+    bool needs_line_energy; /* draws the graph of E along the direction p */
     /* place of a main card: the picture's, or below or beside the picture */
     enum { PLACE_SWAPPED, PLACE_BELOW, PLACE_BESIDE } main_place;
     bool is_only_in_lecture; /* is hidden outside of the lecture */
@@ -49,7 +48,7 @@ typedef struct Card {
     /* Draws the content: curves, words, table and legend; on the web page
      * only curves.  NULL: `words` or `listing` is written. */
     void (*draw)(const Plot *card);
-    bool has_no_curves; /* the web page has all of the content as text */
+    bool has_no_curves; /* draws only text, which the web page writes itself */
 } Card;
 
 typedef struct Picture {
@@ -67,16 +66,15 @@ typedef struct Picture {
     void (*add_values)(const Simulation *simulation, LiveValues *values);
     const char *legend;   /* text in the upper left corner, or NULL */
     bool shows_scale_bar; /* draws a scale of metres in the lower left corner */
-    /* Finds the part of the picture at pixel (x, y), which is pick->point in
-     * the world.  NULL: finds switches, handles and positions. */
+    /* Finds the part of the picture at pixel (x, y); pick->point is the pixel's
+     * place in the world.  NULL: finds only switches, handles and positions. */
     void (*pick)(const Plot *stage, double x, double y, Pick *pick);
-    /* Draws the note about the part under the mouse; may be NULL. */
+    /* Draws a note about the picture's part under the mouse; may be NULL. */
     void (*draw_hover)(Plot *stage);
     /* Samples energies for the history; may be NULL. */
     int (*get_energies)(const Simulation *simulation, Energy *row);
 } Picture;
 
-/* Returns the picture of a scene. */
 const Picture *picture_of_scene(const struct Scene *scene);
 
 static inline const Picture *active_picture(const FrameContent *content)
@@ -87,7 +85,7 @@ static inline const Picture *active_picture(const FrameContent *content)
 /* Finds the index of the picture's card with this name; -1: no such card. */
 int picture_find_card(const Picture *picture, const char *name);
 
-/* Draws a frame: stage, cards, title bar and the other rows. */
+/* Draws a frame: stage, cards, title bar, settings, time line and chips. */
 void frame_draw(Paper *paper, const FrameContent *content);
 
 /* Draws the content of one card, without frame and title, on a whole paper.

@@ -41,10 +41,9 @@ void text_free(Text *text);
 /* Returns the distance between two lines of words, pixels. */
 double text_line_height(double size);
 
-/* Extent of a line in pixels, above and below the baseline, at least that of a
- * line of words.  The width is a whole number. */
+/* Extent of a line of text, at least as high as a line of words */
 typedef struct TextExtent {
-    double width, ascent, descent; /* pixels */
+    double width, ascent, descent; /* pixels; the width is a whole number */
 } TextExtent;
 TextExtent text_measure(Text *text, const TextStyle *style, const char *markup);
 
@@ -54,7 +53,8 @@ TextExtent text_measure(Text *text, const TextStyle *style, const char *markup);
 size_t text_break_line(Text *text, const TextStyle *style, int width,
                        const char *markup, size_t room, TextExtent *extent);
 
-/* Draws a line below y; fractions reach higher.  Returns its width, pixels. */
+/* Draws a line of words whose top is at y; fractions reach higher.  Returns the
+ * line's width, pixels. */
 int text_draw(Text *text, Canvas *canvas, const TextStyle *style, double x,
               double y, Align align, const char *markup);
 
@@ -72,7 +72,7 @@ bool text_is_markup_brace(const char *text, const char *brace);
 /* A letter in one face and size. */
 typedef struct Glyph {
     uint64_t key;      /* face, size and letter as one number; 0: a free slot */
-    int left, top;     /* pixels from the pen on the baseline to the mask */
+    int left, top;     /* pixels from the pen to the mask: right, down */
     int advance;       /* pixels to the next letter */
     int width, height; /* pixels of the mask */
     uint8_t *mask;     /* [height width] coverage; NULL: no pixel is covered */

@@ -27,7 +27,7 @@ typedef struct Command {
     long number; /* index of a node, card, obstacle, row of options, ... */
     double x, y; /* position, m; x also the value of an option */
     char text[COMMAND_TEXT_SIZE]; /* name or value that is no number, or "" */
-    bool joins_gesture; /* part of the present gesture; in a script: "& set" */
+    bool joins_gesture; /* is undone with the last command; "&" in a script */
 } Command;
 
 /* The part of the window that gets the keys; a row can name several. */
@@ -46,8 +46,8 @@ enum {
     REPEATS = 1,    /* is repeated while the key is held down */
     IN_SCRIPT = 2,  /* is written into the script of a session */
     KEEPS_STEP = 4, /* does not abandon a step that is being made */
-    REPLACES = 8,   /* replaces the same command before it in a drag */
-    KEEPS_NOTE = 16 /* leaves the message below the picture */
+    REPLACES = 8,   /* in a gesture, replaces the last command of its kind */
+    KEEPS_NOTE = 16 /* does not clear the message below the picture */
 };
 
 typedef struct CommandRow {
@@ -81,7 +81,7 @@ Status command_parse(const char *line, Command *command, Message message);
  *   line  [size] out */
 void command_format(const Command *command, char *line, size_t size);
 
-/* Whether a command replaces the one before it: the next place of a drag. */
+/* Whether a command replaces `before`, as each new place of a drag does. */
 bool command_replaces_last(const Command *command, const Command *before);
 
 /* ---- scripts ------------------------------------------------------------- */
@@ -122,7 +122,7 @@ Status script_read(const char *name, Script *script, Message message);
 Status script_write(const char *name, const char *line, const Script *script);
 
 /* Returns the command of the next line if it is due, or NULL.
- *   waits  the run goes on: lines of later steps are not due */
+ *   waits  in, lines of later steps are not due; false: every line is due */
 const Command *script_take_due_command(Script *script, long step, bool waits);
 
 bool script_is_over(const Script *script);

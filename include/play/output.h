@@ -37,8 +37,8 @@ Status output_open(const char *name, char *message, OutputFile *output);
 /* Closes an open file.  Returns OK, or FILE_FAILED and leaves NAME.part. */
 Status output_close(OutputFile *output, CloseAction keep);
 
-/* Writes "NAME: why" into an empty message; with NULL for `why`, the text of
- * output_explain. Returns the status. */
+/* Writes "NAME: why" into the message unless the message has a text.  If `why`
+ * is NULL, output_explain gives the reason.  Returns `status`. */
 Status output_report(char *message, const char *name, Status status,
                      const char *why);
 
@@ -76,8 +76,8 @@ typedef struct CsvTable {
 } CsvTable;
 
 /* Adds columns that are new.
- *   names  in, separated by commas, or NULL.  "name:whole" is a column of whole
- *          numbers, left empty below 0; "name:text" a column of texts */
+ *   names  in, separated by commas, or NULL.  "name:whole": whole numbers,
+ *          and empty fields for negative numbers; "name:text": texts */
 void table_add_columns(CsvTable *table, const char *names);
 
 /* Opens a table, and writes the line of names.  Returns as output_open. */

@@ -5,8 +5,8 @@
  * bits; going back and forward, undo, panes and tables only read the past.
  *
  *   branch 0   0--1--2--3--4--5--6     started from options
- *   branch 1            3'-4'-5'       changed at 3: a pin; 4 ... 6 stay
- *   branch 2               4"-5"       P at 5': step 5 again, made from 4'
+ *   branch 1            3'-4'-5'       changed at 3 by a pin; 4 ... 6 stay
+ *   branch 2               4"-5"       key P at 5': step 5 made again from 4'
  *
  * Branches are a stack.  Undo returns to the branch below, at the step where
  * the user left it; redo returns to the branch above; an edit drops the
@@ -14,15 +14,15 @@
  * An entry has the state after its step, and the control with which the next
  * step is made (control_apply).  A branch begins with a new control at a state
  * of the branch below.  Where several branches begin at one step, the control
- * of the topmost one counts.  A start, a drag of a point or node, and a switch
- * set a new state, which its branch stores.
+ * of the topmost one counts.  A start, a dragged point, a placed node and a
+ * flipped switch set a new state, which the branch stores.
  *
  * To show a step, each pane loads the nearest stored state up to that step, and
  * makes the steps from there once more (past_do_work).  A short step of
  * Newton's method is made once more although its state is stored, to show its
- * iterates. The panes share their time and count of steps.  A step is one time
- * step of the pane with the longest one, and as many of the others as fit into
- * it.  A pane that cannot make its part ends; the others go on. */
+ * iterates.  The panes share their time and count of steps.  In a step the pane
+ * with the longest time step makes one time step, the other panes as many as
+ * fit into it.  A pane that cannot make its part ends; the others go on. */
 #pragma once
 
 #include "play/command.h"
@@ -32,7 +32,7 @@
 /* Bytes for states and samples; beyond them every second state is dropped. */
 #define PAST_BYTES ((size_t)256 << 20)
 
-/* A picture can show positions up to this many times max_x after step 1. */
+/* Largest max_x of a drawn step, in units of step 1's max_x. */
 #define PAST_EXPLODED 10
 
 enum { ALL_PANES = -1 }; /* past_edit edits each pane */
@@ -56,19 +56,19 @@ typedef struct EnergySample {
 /* The summary of a step, which outlives its iterations. */
 typedef struct StepOutcome {
     int updates;          /* number of Newton's updates in all substeps */
-    Status status;        /* OK, or the last other status of the substeps */
-    double energy_change; /* change of E in the step, J s^2 */
-    double max_x;         /* largest |coordinate| of run 0, m */
+    Status status;        /* last status other than OK in the substeps, or OK */
+    double energy_change; /* change of the minimised E in the step, J s^2 */
+    double max_x;         /* largest |coordinate| of a node in run 0, m */
 } StepOutcome;
 
 /* A step that a pane has made. */
 typedef struct PastEntry {
-    const UserControl *control; /* control with which the next step is made;
-                               NULL: this entry's step is still being made */
-    SavedState *state;          /* state after the step; NULL: not stored */
-    EnergySample *sample; /* energies of the state under `control`, or NULL */
-    /* Steps that the simulation made in this step.  0: the scene is over, or
-     * the pane has ended, with the status in `outcome`. */
+    /* Control of the next step; NULL: this entry's step is still being made. */
+    const UserControl *control;
+    SavedState *state;    /* state after the step; NULL: not stored */
+    EnergySample *sample; /* energies under the entry's control, or NULL */
+    /* Number of steps of the simulation in this step of the panes.  0: the
+     * scene is over, or the pane has ended with the failure in `outcome`. */
     int substeps;
     StepOutcome outcome;
 } PastEntry;
@@ -79,19 +79,19 @@ typedef struct Branch {
     long first_step;   /* step of entry 0 */
     long entries;      /* number of entries, at least 1 */
     long capacity;     /* entries that memory is reserved for */
-    int copied;        /* entries from the branch below; 2: repeats a step */
+    int copied;        /* number of entries from the branch below, 0 ... 2 */
     long left_step;    /* step that was shown when the user left the branch */
     long stride;       /* every stride-th entry stores its state */
     int panes;         /* number of panes */
     PastEntry *entry;  /* [capacity][panes]; entry[entries] is being made */
-    int gesture;       /* id; edits of a gesture are undone together; 0: none */
+    int gesture;       /* id; a gesture is undone as a whole; 0: none */
     Command edit;      /* edit that began the branch */
 } Branch;
 
 /* The simulation of a pane, and its position in the present branch. */
 typedef struct PastPane {
     Simulation simulation;
-    const UserControl *start_control; /* control at step 0, or NULL */
+    const UserControl *start_control; /* control at step 0; NULL: no run */
     const UserControl *control;       /* control of the simulation */
     bool has_state;            /* the simulation has the state of `step` */
     long step;                 /* last step that the pane has finished */
@@ -101,13 +101,13 @@ typedef struct PastPane {
     StepOutcome outcome;       /* outcome of the present step, or of the last */
     bool has_failed;           /* the step after `step` could not be made */
     StepTrace trace;           /* iterates of the last step that was made */
-    bool has_trace;            /* trace is that of `step` or of a failed step */
-    NewtonRecords records; /* Newton's records of the last step, for the log */
+    bool has_trace;            /* `trace` is of `step` or of the failed step */
+    NewtonRecords records;     /* records of the last step, for the log */
 } PastPane;
 
 /* Stages of the work that leads to the step that is to be shown. */
 typedef enum WorkStage {
-    WORK_DONE,      /* the step is shown */
+    WORK_DONE,      /* no work is left: goal_step is shown */
     WORK_LOADING,   /* the panes load stored states */
     WORK_REPEATING, /* known steps are made once more */
     WORK_MAKING,    /* a new step is made; no pane has finished its part */
@@ -116,7 +116,7 @@ typedef enum WorkStage {
 
 typedef struct Past {
     Branch *branch; /* [branches] branches from the bottom of the stack */
-    int branches, capacity; /* branches; branches that memory is reserved for */
+    int branches, capacity; /* number of branches; room for branches */
     int current; /* index of the present branch; higher ones are undone */
     long step;   /* step that is shown in all panes */
     PastPane pane[OPTIONS_MAX_PANES];
@@ -125,13 +125,13 @@ typedef struct Past {
     long written_step;     /* last step with valid rows in the tables, or -1 */
     long energies_step;    /* last step with valid energies in the tables */
     size_t used_bytes, max_bytes; /* memory of states and samples, limit */
-    int line_energy_pane; /* pane in which E along p is drawn; -1: none */
+    int line_energy_pane; /* pane in which E(x + alpha p) is drawn; -1: none */
     WorkStage work_stage; /* stage of the work that leads to `goal_step` */
     long goal_step;       /* step that is to be shown */
     long step_to_load;    /* step to which WORK_LOADING brings the panes */
-    bool samples_energy;  /* each iteration of goal_step samples E along p */
+    bool samples_energy;  /* every iteration samples E(x + alpha p) */
     double end_time;      /* end of the new step, s */
-    Status bad_status;    /* OK, or the last other status of the new step */
+    Status bad_status;    /* last status other than OK in the new step, or OK */
 } Past;
 
 /* Whether work is left before goal_step is shown. */
@@ -175,8 +175,8 @@ Status past_edit(Past *past, const Command *edit, int pane, bool again,
 void past_set_goal(Past *past, long step, bool again);
 
 /* Does a part of the work: makes a Newton iteration, or begins a step.  Returns
- * RUNNING while there is more work; OK or an unconverged status when the goal
- * is shown; after a failure its status, and the last whole step is shown. */
+ * RUNNING while work is left, OK or an unconverged status when goal_step is
+ * shown, or the status of a failure: the last whole step is shown then. */
 Status past_do_work(Past *past);
 
 /* Repeats past_do_work while it returns RUNNING; returns its last status. */
@@ -194,7 +194,7 @@ long past_newest(const Past *past);
 /* Returns the entry of a step; NULL: the step is not made yet. */
 const PastEntry *past_entry(const Past *past, int pane, long step);
 
-/* Returns the control that follows the shown step. */
+/* Returns the control with which the step after the shown step is made. */
 const UserControl *past_control(const Past *past, int pane);
 
 /* Returns the control with which the run was started. */
@@ -204,7 +204,7 @@ const UserControl *past_start_control(const Past *past, int pane);
  * failure has ended the pane before. */
 long past_find_made_step(const Past *past, int pane, long step);
 
-/* Returns the last step up to `step` whose reach is at most PAST_EXPLODED. */
+/* Returns the last step up to `step` that can be drawn (PAST_EXPLODED). */
 long past_find_drawable_step(const Past *past, int pane, long step);
 
 /* Fills the energies over time that plots of a pane show. */

@@ -26,7 +26,7 @@ typedef struct PlayerSetup {
     Script script;
     const volatile sig_atomic_t *stop_signal; /* not 0: the run ends */
     double start_time; /* time on the wall clock when the run began, s */
-    bool is_attended;  /* a window, script or page can pause and go back */
+    bool is_attended;  /* a window, script or page can control the run */
     bool asks_guess;   /* pages hide the answer until the user guesses */
 } PlayerSetup;
 
@@ -48,7 +48,7 @@ typedef enum ActionAfterWork {
     AFTER_NOTHING,
     AFTER_SHOW_FIRST, /* show the step's first line of Algorithm 3 */
     AFTER_SHOW_LAST,  /* show the step's last line of Algorithm 3 */
-    AFTER_SHOW_END,   /* show the end; the peak of E if E exploded */
+    AFTER_SHOW_END,   /* show the step's end; if E exploded, its peak */
     AFTER_COMPARE     /* compare the outcomes before and after an edit */
 } ActionAfterWork;
 
@@ -56,7 +56,7 @@ typedef enum ActionAfterWork {
 typedef struct PaneView {
     int trace_index; /* index in StepTrace.position; -1: end of the step */
     double *ghost_x; /* [2n] m, positions before an edit, or NULL */
-    char ghost_label[256]; /* edited setting, and the step's old outcome */
+    char ghost_label[256]; /* setting and outcome of the step before an edit */
 } PaneView;
 
 /* How steps follow each other. */
@@ -64,18 +64,18 @@ typedef struct Playback {
     PlayMode mode;
     TimeUnit walk_unit; /* unit of "next" and "back" */
     ActionAfterWork after_work;
-    TracePosition wanted_position; /* shown after an edit if iterate >= 0 */
+    TracePosition wanted_position; /* shown after an edit; iterate < 0: none */
     int log_speed;                 /* 2^log_speed steps a frame */
-    double due_time;    /* s on the wall clock, time of the next step */
-    double work_start;  /* s on the wall clock; 0: there is no work */
+    double due_time;    /* time of the next step on the wall clock, s */
+    double work_start;  /* start of the work on the wall clock, s; 0: no work */
     bool has_warned;    /* the run was stopped where a step did not converge */
     bool reported_gain; /* a rise of the total energy was reported */
 } Playback;
 
 enum { MAX_QUEUED_COMMANDS = 16 };
 
-/* Commands that wait until the present one is obeyed and no step is being made:
- * the parts of a command, and drags while a step is made. */
+/* Commands that wait for the end of the present command and of a step being
+ * made: commands that a command has added, and drags during a step. */
 typedef struct CommandQueue {
     Command command[MAX_QUEUED_COMMANDS];
     int count;                /* number of commands */
@@ -84,12 +84,12 @@ typedef struct CommandQueue {
     char note[SENTENCE_SIZE]; /* message when the queue is empty, or "" */
 } CommandQueue;
 
-/* Commands that wait, and gestures: groups that are undone as one. */
+/* Queue, journal and gestures.  Undo takes back all commands of a gesture. */
 typedef struct Commands {
     CommandQueue queue;
     int gesture;      /* id of the present gesture, which is undone as one */
     int gestures;     /* number of gestures so far, the id of the newest */
-    int held_gesture; /* id of the gesture that drags join */
+    int held_gesture; /* gesture of the last grab or push, and of its drags */
     Script journal;   /* commands of the session, with undo and redo */
     CommandKind leave_command; /* command that ends the program if repeated */
     bool has_refused_line;     /* a line of the script was refused */
@@ -101,7 +101,7 @@ typedef struct Tour {
     const LecturePage *revealed_page; /* page whose answer is shown, or NULL */
     char asked_question[ANSWER_SIZE]; /* question of revealed_page */
     char verdict[VALUE_SIZE];   /* verdict on the guess at the page, or "" */
-    int guesses, right_guesses; /* numbers of guesses so far */
+    int guesses, right_guesses; /* number of guesses; of right guesses */
     bool is_page_running;       /* a page's commands are running */
     Options page_options[OPTIONS_MAX_DRAWN_PANES]; /* options of each pane */
 } Tour;
@@ -144,15 +144,15 @@ typedef struct Screen {
 typedef struct Mouse {
     double x, y;              /* pixels */
     bool has_position;        /* x and y are known */
-    CommandKind drag_command; /* COMMAND_NONE: no button is down */
-    int dragged_id; /* index of the dragged part; -1: edge of the square */
-    double drag_start[2];  /* pixels, start of the drag, or of its last pan */
+    CommandKind drag_command; /* kind of drag; COMMAND_NONE: no drag */
+    int dragged_id;        /* index of the dragged part; -1: none, or an edge */
+    double drag_start[2];  /* pixels, mouse at start of drag or at last pan */
     bool has_moved;        /* the mouse has moved farther than a click may */
     double grip_offset[2]; /* from the mouse to the dragged obstacle, m */
     bool repins_node;      /* the dragged node is pinned again after the drag */
     bool was_wheel_turn;   /* the last input was a turn of the wheel */
-    int gesture;           /* id of the last key, click or turn of the wheel */
-    Options start_options; /* values at the start of a drag of a number */
+    int gesture;           /* gesture id of the last key, click or wheel turn */
+    Options start_options; /* options at the start of a drag of a number */
 } Mouse;
 
 /* Objects that the user holds or has selected, and the typed text. */
@@ -161,7 +161,7 @@ typedef struct Hands {
     bool is_holding;  /* a node or an obstacle is held */
     long pulled_step; /* step at which the hand last moved what it holds */
     const OptionRow *selected; /* selected number, or NULL */
-    uint64_t added_rows;       /* bit r: the user added option row r */
+    uint64_t added_rows;       /* bit r: the row of numbers also has option r */
     bool is_typing;            /* a field is open: keys go into `typed` */
     char typed[28]; /* typed value, answer, or number of a list's line */
 } Hands;
@@ -196,9 +196,9 @@ Status player_create(const Options *options, char *const *words,
                      const Window *window, const volatile sig_atomic_t *stop,
                      Player *player);
 
-/* Continues the work, or else shows the next step, made before or new, records
- * the step, and obeys the queue; with a window may only do a part of the work.
- * Returns OK also for a step that did not converge. */
+/* Continues the work that leads to the step to be shown, or begins the work for
+ * the next step; then records the step and obeys the queue.  With a window, a
+ * call can leave work undone.  Returns OK also after an unconverged step. */
 Status player_make_step(Player *player);
 
 /* Obeys a command, then the commands in the queue.  Returns OK, INVALID_INPUT
@@ -226,9 +226,8 @@ int player_find_wait_time(const Player *player);
 /* Whether the run is over. */
 bool player_has_ended(const Player *player);
 
-/* Describes how a pane differs: "h 0.01 s, ended at step 3".  A value that only
- * one pane has differently is left out in the other panes if they differ in
- * another value, too. */
+/* Describes how a pane differs: "h 0.01 s, ended at step 3".  A value that all
+ * panes but one share is left out, unless the label would be empty. */
 void player_write_label(const Player *player, int pane, char label[LABEL_SIZE]);
 
 /* Returns the hash of the present states of all panes (state_hash). */
@@ -255,8 +254,8 @@ enum ExitCode {
 };
 
 /* Returns the index, from i on, of the next word of the command line that
- * decides what is simulated, not how long it runs or what it writes; 0: no
- * such word.  The caller loops from i = 0 with i + 1 until it returns 0. */
+ * decides what is simulated, not how long or with which files; 0: no such word.
+ * The first call has i = 1, each further call the last index + 1. */
 int player_find_scene_word(const Player *player, int i);
 
 /* Reads the command line; prints --help, --version or a list, or creates the

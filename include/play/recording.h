@@ -58,7 +58,7 @@ typedef struct Recording {
     long frames;                 /* number of frames written */
     unsigned char *is_old_frame; /* [step] 1: left by an earlier run */
     Film film;
-    int panes; /* number of panes at the start */
+    int panes; /* number of panes at the start of the run */
     CsvTable table[RECORDING_TABLE_COUNT];
     bool has_tables;             /* a table is open */
     bool uses_stdout;            /* a table goes to standard output */

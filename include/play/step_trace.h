@@ -6,7 +6,7 @@
 
 #include "picture/frame_content.h"
 
-/* Bytes of the iterates of one step; further iterates have records only. */
+/* Most bytes for a step's iterates; beyond them only records are stored. */
 #define STEP_TRACE_BYTES ((size_t)64 << 20)
 
 /* E along p is drawn up to 3/2 of the first trial of the line search.  If E is
@@ -26,13 +26,13 @@ bool newton_records_reserve(NewtonRecords *records, int count);
 
 /* An iterate of Newton's method, with its direction and its line search. */
 typedef struct TraceIterate {
-    double *x, *p, *u; /* [x_length] m, x^i, p^i, x^i - x_n; NULL: not stored */
-    double first_trial;   /* alpha, first trial of the line search */
-    Quartic polynomial;   /* polynomial part of E(x + alpha p) - E(x), J s^2 */
-    bool has_remainder;   /* E along p is not only its polynomial part */
-    bool has_samples;     /* `energy_samples` is filled */
-    double alpha;         /* step length that was taken */
-    double energy_change; /* change of E at alpha, J s^2 */
+    double *x, *p, *u;  /* [x_length] m, iterate x^i, p^i, x^i - x^n; or NULL */
+    double first_trial; /* alpha, first trial of the line search */
+    Quartic polynomial; /* polynomial part of E(x + alpha p) - E(x), J s^2 */
+    bool has_remainder; /* E along p has a part that is no polynomial */
+    bool has_samples;   /* `energy_samples` is filled */
+    double alpha;       /* step length that was taken */
+    double energy_change;   /* change of E at alpha, J s^2 */
     double *energy_samples; /* [SAMPLE_COUNT] J s^2, samples of E along p */
 } TraceIterate;
 
@@ -46,23 +46,23 @@ typedef struct TracePosition {
 } TracePosition;
 
 typedef struct StepTrace {
-    NewtonTrace common_trace;  /* h and tolerance, the same at all positions */
-    int x_length;              /* 2n; 0: no iterates are stored */
-    NewtonRecords records;     /* Newton's record at each iterate */
-    TraceIterate *iterate;     /* [records.count] */
-    int iterate_capacity;      /* iterates that memory was reserved for */
+    NewtonTrace common_trace; /* values shared by all positions: h, tolerance */
+    int x_length;             /* 2n; 0: no iterates are stored */
+    NewtonRecords records;    /* Newton's record at each iterate */
+    TraceIterate *iterate;    /* [records.count] */
+    int iterate_capacity;     /* iterates that memory was reserved for */
     bool samples_each_iterate; /* E along p is sampled at each iterate */
     bool samples_last_iterate; /* E along p is sampled at the last iterate */
-    double *x_tilde;           /* [x_length] m, or NULL */
+    double *x_tilde;   /* [x_length] m, first x_tilde of the step; or NULL */
     double *end_x;     /* [x_length] m, x after the last iteration, or NULL */
     size_t used_bytes; /* memory of the iterates */
     TracePosition *position; /* [position_count] in the order of the walk */
     int position_count;      /* number of positions; 0 if memory is missing */
 } StepTrace;
 
-/* Begins the trace of a step.  E along p is sampled in each iteration (`all`,
- * for a walk), in the last one (`last`, for a card), or only in one that ends
- * with alpha 0. */
+/* Begins the trace of a step.  A last iteration with alpha 0 samples E along p.
+ *   all   in, each iteration samples E along p, for a walk through the step
+ *   last  in, the last iteration samples E along p, for a card */
 void step_trace_begin(StepTrace *trace, const Simulation *simulation, bool all,
                       bool last);
 
@@ -88,13 +88,12 @@ void step_trace_free(StepTrace *trace);
 int step_trace_walk(const StepTrace *trace, TimeUnit unit, int position,
                     int way);
 
-/* Returns the index of the last position at iterate i up to the line `line`; if
- * there is no such position, that of the last position of the step. */
+/* Returns the index of the last position at iterate i whose line of Algorithm 3
+ * is not after `line`; without such a position, the last index of the step. */
 int step_trace_find_position(const StepTrace *trace, int i, StepLine line);
 
-/* Returns the index of the position where E was highest, if E exploded: E rose
- * by more than ten times its change in the whole step.  -1: E did not explode.
- */
+/* Returns the index of the position where E was highest, if E exploded (rose
+ * by more than ten times its change in the whole step); else -1. */
 int step_trace_find_peak(const StepTrace *trace);
 
 /* Fills what a picture shows at a position; position -1: after the step.

@@ -24,13 +24,13 @@ enum { BUTTON_LEFT = 1, BUTTON_MIDDLE = 2, BUTTON_RIGHT = 3 };
 typedef struct Input {
     InputKind kind;
     char key[32];       /* "N", "Shift+N", "Ctrl+R", "Tab+M", "Left", "+" */
-    bool is_repeat;     /* the key is held down */
+    bool is_repeat;     /* repeats a key that is held down */
     int button, clicks; /* button: BUTTON_...; clicks 2: a double click */
     double x, y; /* place of the mouse, pixels of the picture in the window */
     double wheel_notches; /* notches of the wheel; > 0: away from the user */
 } Input;
 
-/* Functions of the only window. */
+/* Functions of the program's window. */
 typedef struct Window {
     /* Opens the window.  Returns false after a failure (get_failure_reason).
      *   size  [2] in, pixels; 0: 1280 x 800, or what fits on the screen
@@ -44,13 +44,13 @@ typedef struct Window {
     /* Returns the size of letters that are easy to read, pixels. */
     double (*find_font_size)(void);
 
-    /* Whether the web page has texts, numbers, switches and cards beside the
-     * canvas that is the window.  NULL: the window is not in a page. */
+    /* Whether the web page shows texts, numbers, switches and cards as elements
+     * beside the window's canvas.  NULL: the window is not in a web page. */
     bool (*has_document)(void);
 
     void (*set_title)(const char *title);
 
-    /* Returns the reason of the last failure.  NULL: no function fails. */
+    /* Returns why `open` or `show` failed.  NULL: `open` never fails. */
     const char *(*get_failure_reason)(void);
 
     /* Shows the paper's canvas.  Returns OK, OUT_OF_MEMORY, SCREEN_FAILED. */

@@ -19,8 +19,8 @@
 
 #include "simulation/simulation.h"
 
-/* Stores a user's guess that the next step, or the longest step of the dial,
- * leads to (x, y), m.  No effect with several nodes, or after the end. */
+/* Stores a user's guess (x, y), m, of the point after the next step, in `dial`
+ * after the longest step.  No effect with several nodes or after the end. */
 void scene_store_guess(Simulation *simulation, double x, double y);
 
 /* ---- one mass, one spring ------------------------------------------------ */
@@ -28,7 +28,7 @@ void scene_store_guess(Simulation *simulation, double x, double y);
 #define SMALL_MASS 1.0 /* mass of each node, kg */
 
 /* Creates a system of a free node 0 and some pinned nodes, each with a spring
- * to node 0; m, J/m^2.  Returns as system_create. */
+ * (rest length m, stiffness J/m^2) to node 0.  Returns as system_create. */
 Status create_small_system(System *system, int pins, double length,
                            double stiffness);
 
@@ -58,7 +58,7 @@ bool mass_find_next_step(const Simulation *simulation, int run, MassStep *step);
 /* Exact solution x(t), m, out; t seconds since the start or the last drag. */
 void mass_find_exact_x(const Simulation *simulation, double t, double x[2]);
 
-/* Length, energies and forces of a spring from its pinned end to d. */
+/* A spring with the vector d (m) from its pinned end to its free end. */
 typedef struct SpringValues {
     double length;            /* |d|, m */
     double strain;            /* |d|^2/l2 - 1 */
@@ -71,7 +71,7 @@ typedef struct SpringValues {
     double root_eigenvalue_along, root_eigenvalue_across;
 } SpringValues;
 
-/* Evaluates a spring; d [2] m, l2 m^2, k J/m^2. */
+/* Evaluates a spring with the vector d [2] (m), l2 (m^2) and k (J/m^2). */
 SpringValues spring_evaluate(const double d[2], double l2, double k);
 
 /* ---- descents: a minimisation by Newton's method, update by update ------- */
@@ -90,7 +90,7 @@ Status step_descent(Simulation *simulation);
 /* Computes the direction at the present iterate with the present options. */
 void descent_update_direction(Simulation *simulation);
 
-/* Returns E or f at (x, y), of the parts that are switched on. */
+/* Returns E or f with derivatives at (x, y), of the parts switched on. */
 LocalModel descent_evaluate(const Simulation *simulation, Projection projection,
                             double x, double y);
 
@@ -151,13 +151,13 @@ double envelope_timestep(int column);
 /* Returns the stiffness of a row, J/m^2. */
 double envelope_stiffness(int row);
 
-/* Creates `envelope`: run 0 is that of the map's shown cell, at the start the
- * one nearest to h and k of the options. */
+/* Creates `envelope`.  Run 0 is the run of the shown cell of the map, at first
+ * of the cell nearest to h and k of the options. */
 Status create_envelope_scene(Simulation *simulation);
 
 /* Runs the cells of the next row, from the softest springs to the stiffest. */
 Status step_envelope_scene(Simulation *simulation);
 
-/* Runs the steps of a cell, with the h of its column and the k of its row, as
- * run 0.  Returns OK, also if steps did not converge, or OUT_OF_MEMORY. */
+/* Runs a cell of the map, with h of the column and k of the row, as run 0.
+ * Returns OK, also if steps did not converge, or OUT_OF_MEMORY. */
 Status envelope_run_cell(Simulation *simulation, int column, int row);

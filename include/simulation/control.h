@@ -17,8 +17,8 @@ typedef struct UserControl {
     unsigned char pinned[]; /* [nodes] 1: pinned, 0: free */
 } UserControl;
 
-/* Return a control for a simulation with nothing held, or a copy.  The caller
- * may change it until control_retain is called.  NULL: no memory. */
+/* Make a control from a simulation, with nothing held, or copy a control.  The
+ * caller may change the result before control_retain.  NULL: no memory. */
 UserControl *control_from_simulation(const Simulation *simulation);
 UserControl *control_copy(const UserControl *from);
 
@@ -38,7 +38,7 @@ void control_store_obstacle(UserControl *control, int number,
 /* Adds a reference, and returns the control; NULL is accepted. */
 const UserControl *control_retain(const UserControl *control);
 
-/* Removes a reference, with the last one the control; NULL is accepted. */
+/* Removes a reference; the last one frees the control.  NULL is accepted. */
 void control_release(const UserControl *control);
 
 /* Gives a simulation a control from the next step on.  Scene, mesh and start of
@@ -57,14 +57,14 @@ Status simulation_place_node(Simulation *simulation, int node, double x,
 /* ---- the state ----------------------------------------------------------- */
 
 /* The state is what a step depends on besides the control: positions,
- * velocities, memory of integrators and terms, counts, data of small scenes. */
+ * velocities, memory of integrators and terms, step counts, scene data. */
 
 /* Writes the state as bytes, unless `bytes` is NULL.  Returns their number. */
 size_t state_save(const Simulation *simulation, void *bytes);
 
-/* Restores a saved state.  Obstacles, plastic strains and the k of springs that
- * can break or be switched get their saved values.  The control has all other
- * numbers, so control_apply comes first.
+/* Restores a saved state.  Obstacles, plastic strains and the stiffnesses of
+ * springs that can break or be switched get their saved values.  The control
+ * has all other numbers, so control_apply comes first.
  *   bytes  in, from a simulation with the same system */
 void state_restore(const void *bytes, Simulation *simulation);
 

@@ -10,16 +10,16 @@ typedef struct Simulation Simulation;
 /* A user's guess where the next step leads, and where the step does lead. */
 typedef struct Prediction {
     bool has_guess;    /* the user has made a guess */
-    long guess_step;   /* steps of the simulation when the user guessed */
+    long guess_step;   /* number of steps made before the guess */
     double guess[2];   /* m, the guess */
     double outcome[2]; /* m, where the step does lead */
-    double error;      /* m, `guess` to `outcome`; in one variable along x */
+    double error;      /* m, distance guess to outcome; one unknown: along x */
 } Prediction;
 
 /* ---- descents: minimisation by Newton's method, update by update --------- */
 
-/* Value, gradient and Hessian (xx, xy, yy) of E or f at a point, in J s^2 and
- * m.  A function of one unknown uses g[0] and H[0]; the other numbers are 0. */
+/* Value, gradient and Hessian (xx, xy, yy) of E at a point, in J s^2 and m.  A
+ * function f of one unknown uses g[0] and H[0]; the other numbers are 0. */
 typedef struct LocalModel {
     double energy, g[2], H[3]; /* E; gradient; Hessian xx, xy, yy */
     int projected_springs; /* number of springs whose Hessian was projected */
@@ -33,18 +33,18 @@ enum { DESCENT_MAX_RECORDS = 256 };
 /* A minimisation that is shown iteration by iteration. */
 typedef struct Descent {
     int count;                                /* number of records */
-    NewtonRecord record[DESCENT_MAX_RECORDS]; /* records of first iterations */
+    NewtonRecord record[DESCENT_MAX_RECORDS]; /* Newton's first iterations */
     double iterate[2];                        /* present iterate (m) */
-    double value;                             /* f or E at the iterate */
-    double start_value;                       /* E at the start of the search */
-    double direction[2]; /* p at the iterate (m); 0: none */
-    double slope;        /* gradient times p; negative is downhill */
-    bool tests_g;        /* Algorithm 1, whose loop tests |g|, not |p| */
-    double residual;     /* compared with the tolerance: |g|, or |p|/h in m/s */
+    double value;         /* value of the minimised function at the iterate */
+    double start_value;   /* E at the start; one unknown: INFINITY */
+    double direction[2];  /* Newton's direction p at the iterate (m); 0: none */
+    double slope;         /* gradient times p; below 0, E falls along p */
+    bool tests_g;         /* the loop tests |g| (Algorithm 1), not |p|/h */
+    double residual;      /* |g|, or |p|/h (m/s), compared with the tolerance */
     ScalarEnergy *scalar; /* function of one unknown; NULL: two unknowns */
 } Descent;
 
-/* Parts of E on the map of landscape. */
+/* Parts of E in the scene `landscape`, as bits. */
 enum LandscapePart {
     PART_INERTIA = 1,    /* |x - x_tilde|_M^2 / 2 */
     PART_ELASTICITY = 2, /* h^2 P(x) */
@@ -55,7 +55,7 @@ enum LandscapePart {
 enum { DIAL_POINTS = 41 };
 
 typedef struct DialCurve {
-    double h[DIAL_POINTS];        /* s, ascending */
+    double h[DIAL_POINTS];        /* time steps in ascending order (s) */
     double point[DIAL_POINTS][2]; /* m, minimiser for each h */
 } DialCurve;
 
@@ -63,7 +63,7 @@ typedef struct DialCurve {
 
 #define RACE_TIME 0.064 /* s, simulated time of each run */
 
-/* RACE_SHOWN_ROW is the step size whose runs the table of methods shows. */
+/* RACE_SHOWN_ROW: index of the step size that the table of methods shows. */
 enum { RACE_SHOWN_ROW = 1, RACE_METHODS = 4, RACE_STEP_SIZES = 7 };
 
 /* An explicit run counts as stable if RACE_EXTRA_STEPS further steps, which are
@@ -75,7 +75,7 @@ enum { RACE_EXTRA_STEPS = 2048, RACE_MAX_ENERGY_RATIO = 2 };
 typedef struct RacePoint {
     const IntegratorMethod *method;
     double h;       /* s, time step */
-    double error;   /* m, largest distance from the reference; NaN: failed */
+    double error;   /* m, largest error of a node; NaN: the run failed */
     double seconds; /* s, processor time */
     bool converged; /* every step converged */
     bool is_stable; /* the energy stays bounded when the run goes on */
@@ -92,7 +92,7 @@ enum { ENVELOPE_STEPS = 3, ENVELOPE_COLUMNS = 25, ENVELOPE_ROWS = 22 };
 
 typedef struct EnvelopeCell {
     bool is_known;     /* the run of the cell was made */
-    Status bad_status; /* OK, or the last other status of all steps */
+    Status bad_status; /* OK, or why a step failed or did not converge */
     int updates;       /* Newton updates of all steps */
 } EnvelopeCell;
 
@@ -107,10 +107,10 @@ typedef struct EnvelopeMap {
 /* Data of all small scenes; a scene uses what it needs. */
 typedef struct SmallSceneData {
     double exact_start[4]; /* x (m) and v (m/s) where the exact path starts */
-    double x_tilde[2];     /* x_tilde (m); in one unknown only [0] */
-    unsigned switches;     /* bit s: part s of E is on (LandscapePart); for
-                              switches of kinds of springs, kind s is off */
-    DialCurve dial;        /* minimisers of scene `dial` */
+    double x_tilde[2];     /* inertial target (m); one unknown uses only [0] */
+    unsigned switches;     /* bit s: 1 if switch s is on; with LAYER_KINDS
+                              1 if the springs of kind s are off */
+    DialCurve dial;        /* curve of minimisers in scene `dial` */
     Race race;             /* runs of scene `race` */
     EnvelopeMap envelope;  /* runs of scene `envelope` */
 } SmallSceneData;

@@ -16,13 +16,13 @@ struct LecturePage;
 
 /* Layers of a picture that can be added to its scene, as bits. */
 typedef enum PictureLayer {
-    LAYER_NUMBERS = 1 << 0, /* number of each node */
-    LAYER_FORCES = 1 << 1,  /* force on each node, as an arrow */
-    LAYER_MODES = 1 << 2,   /* fastest oscillation; a spring's eigenvectors */
-    LAYER_KINDS = 1 << 3,   /* a colour and a switch for each kind of spring */
-    LAYER_CUTS = 1 << 4,    /* fills the square; its springs after the answer */
-    LAYER_DOWNHILL = 1 << 5,  /* -grad E, and the half plane where E falls */
-    LAYER_CURVES = 1 << 6,    /* curves on which a component of grad E is 0 */
+    LAYER_NUMBERS = 1 << 0,  /* number of each node */
+    LAYER_FORCES = 1 << 1,   /* force on each node, as an arrow */
+    LAYER_MODES = 1 << 2,    /* node displacements; eigenvectors of a spring */
+    LAYER_KINDS = 1 << 3,    /* a colour and a switch for each kind of spring */
+    LAYER_CUTS = 1 << 4,     /* filled cells; springs only with the answer */
+    LAYER_DOWNHILL = 1 << 5, /* -grad E and all directions in which E falls */
+    LAYER_CURVES = 1 << 6,   /* curves on which a component of grad E is 0 */
     LAYER_FIRST_STEP = 1 << 7 /* draws only the first step, enlarged */
 } PictureLayer;
 
@@ -30,7 +30,7 @@ typedef enum PictureLayer {
 typedef enum NextAction {
     NEXT_MAKES_STEP,      /* makes a step */
     NEXT_SHORTENS_SPRING, /* makes the spring shorter by a fifth */
-    NEXT_ADDS_SPRING,     /* makes a step, which adds a spring to the Hessian */
+    NEXT_ADDS_SPRING,     /* adds the next spring to the shown Hessian */
 } NextAction;
 
 enum { OPTIONS_MAX_GROUNDS = 8, OPTIONS_MAX_BALLS = 8 };
@@ -65,12 +65,12 @@ typedef struct Options {
             double body[SQUARE_MESH_MAX_BODIES][BODY_OPTION_NUMBERS];
             /* height (m), velocity (m/s; 0: no ceiling), lowest height (m) */
             double ceiling[3]; /* values of --ceiling */
-            double barrier[2]; /* d_hat (m), kappa (J/m^2); 0: side/100, 4 k */
+            double barrier[2]; /* d_hat (m) and kappa (J/m^2); 0: automatic */
             double friction, slip_speed, cells, self_contact;
-            double self_friction;  /* between two bodies; -1: as `friction` */
+            double self_friction;  /* friction between bodies; -1: `friction` */
             double material;       /* 0: springs, 1: triangles */
             double young, poisson; /* values of --young, --poisson */
-            double yield, hardening, tear; /* 0: no spring yields or breaks */
+            double yield, hardening, tear; /* yield, tear: strains; 0: never */
             double damping;                /* value of --damping */
             double timestep, tolerance; /* --timestep (s), --tolerance (m/s) */
             double integrator;  /* row of integrator_methods; -1: not chosen */
@@ -155,10 +155,10 @@ typedef enum ChangeEffect {
 
 /* How the window shows an option and changes it by mouse, wheel and keys. */
 typedef struct OptionDisplay {
-    int row_position; /* position in the window's row of numbers, from 1; 0: the
-                     row has the option after the user has added it */
+    int row_position; /* position in the window's row of numbers, from 1; 0: in
+                     the row only after the user has added the option */
     int max_letters;  /* letters of the longest value */
-    double notch_increment; /* change by a notch; 0: factor, next name */
+    double notch_increment; /* step of a wheel notch; 0: a notch multiplies */
 } OptionDisplay;
 
 /* One option.  Options differ in many ways; most fields of a row are 0. */
@@ -172,19 +172,19 @@ typedef struct OptionRow {
     int slot;              /* OPTION_SLOT of the option's first number */
     size_t offset;         /* OPTION_TEXT: offset of the field in Options */
     bool is_table;         /* OPTION_TEXT: the file is a CSV table */
-    int count;             /* number of numbers in a value; 0: one */
+    int count;             /* how many numbers a value has; 0 means 1 */
     unsigned short_counts; /* bit n: the first n numbers are enough */
     const double *omitted_defaults; /* [count] defaults of omitted numbers */
     char separator;                 /* separator of the numbers; 0: a comma */
-    int max_times;  /* most values of a repeated option; 0: the last is used */
+    int max_times;  /* limit of repetitions; 0: only the last value counts */
     int count_slot; /* max_times > 0: slot of the number of values */
     double default_value;  /* default, as on the slides */
     double low, high;      /* range, both ends included */
     const char *unit;      /* unit of the numbers, or "" if they have none */
     NameTable names;       /* OPTION_NAME: the values */
     unsigned needs_any_of; /* bits of ScenePart: the scene needs one of them */
-    /* Returns why the option has no effect beside the others; NULL: it has one.
-     * The function is NULL for options that always have one. */
+    /* Returns why the option has no effect with the present options, or NULL.
+     * The pointer is NULL for options that always have an effect. */
     const char *(*idle_reason)(const Options *options);
     ChangeEffect effect;
     const TermKind *term; /* energy term that the option adds, or NULL */
@@ -225,7 +225,7 @@ void option_write(const OptionRow *row, double value, char *text, size_t size);
 void option_write_short(const OptionRow *row, const Options *options,
                         char *text, size_t size);
 
-/* Whether a number of the option is not 0, so that it adds its term. */
+/* Whether a number of the option is not 0, or a repeated option was given. */
 bool option_is_on(const OptionRow *row, const Options *options);
 
 /* Whether an option has the same numbers, or the same name, in two structs. */

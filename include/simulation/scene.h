@@ -17,21 +17,21 @@ typedef enum PictureKind {
     PICTURE_CURVE,     /* f(x), its quadratic model, the iterates */
     PICTURE_LANDSCAPE, /* contours of E, the Newton path */
     PICTURE_MASS,      /* a mass and the arrows of a step */
-    PICTURE_TANGENT,   /* g and its tangents above E and its parabolas */
-    PICTURE_DIAL,      /* the landscape's minimiser for every h */
+    PICTURE_TANGENT,   /* g = E' with tangents, E with parabolas below it */
+    PICTURE_DIAL,      /* minimiser of E for every time step h */
     PICTURE_SPRING,    /* a spring, its energies and eigenvalues */
-    PICTURE_RACE,      /* error over run time */
+    PICTURE_RACE,      /* error of methods over computing time */
     PICTURE_ENVELOPE,  /* convergence for each time step and stiffness */
     PICTURE_COUNT
 } PictureKind;
 
-/* Parts that a scene has, as bits.  Options about missing parts are refused. */
+/* Parts of a scene, as bits.  Options that need a missing part are refused. */
 enum ScenePart {
-    HAS_MESH = 1,            /* a square: segments, side, density, stiffness */
+    HAS_MESH = 1,            /* a square: segments, side, solver and more */
     HAS_TIME = 2,            /* motion in time, by an integrator */
     HAS_START = 4,           /* a point to start from */
-    HAS_SPRINGS = 8,         /* springs: solver, projection of their Hessian */
-    HAS_MINIMUM = 16,        /* tolerance and line search */
+    HAS_SPRINGS = 8,         /* springs: projection of their Hessian */
+    HAS_MINIMUM = 16,        /* a minimisation: tolerance, line search */
     HAS_ONE_COORDINATE = 32, /* a start with one coordinate, x */
     HAS_TIMESTEP = 64,       /* a time step h */
     HAS_BODY = 128,          /* a body: options --turn, --at, --pin and more */
@@ -39,7 +39,7 @@ enum ScenePart {
     HAS_SQUARE = HAS_MESH | HAS_MOTION | HAS_SPRINGS | HAS_MINIMUM | HAS_BODY
 };
 
-/* Most points that the mouse can drag, and most switches of a picture. */
+/* Limits of the numbers of draggable points and of switches in a picture. */
 enum { SCENE_MAX_HANDLES = 4, SCENE_MAX_SWITCHES = 4 };
 
 /* A part of the picture that can be switched off. */
@@ -51,12 +51,12 @@ typedef struct SceneSwitch {
 /* Properties of a scene's body for which there is no option. */
 typedef struct SceneBody {
     double aspect;         /* height over width; 0: a square */
-    double cell_stiffness; /* stiffness of cells, k_c, over k; 0: one half */
-    double pin_speed; /* speed of pinned nodes to the left and right, sides/s */
-    double notch[2]; /* heights between which springs across the middle line are
-                        cut, from the centre, divided by the body's height */
-    int runs;        /* number of runs, each with a body; 0 means 1 */
-    double height_step;        /* height of run r above run r + 1, in sides */
+    double cell_stiffness; /* stiffness of cells / that of springs; 0: 1/2 */
+    double pin_speed;      /* outward speed of pinned nodes, side lengths/s */
+    double notch[2];    /* ends of a slit in the middle line: heights above the
+                           centre, divided by the body's height */
+    int runs;           /* number of runs, each with a body; 0 means 1 */
+    double height_step; /* height of run r above r + 1, in side lengths */
     double friction_factor[3]; /* factors on the runs' friction; 0 means 1 */
     /* Returns a further obstacle, at its start; NULL: no obstacle. */
     struct Obstacle (*make_obstacle)(const struct Options *options);
@@ -73,17 +73,17 @@ typedef struct Scene {
     /* Fills simulation->system and the mesh, and starts each run
      * (simulation_start_run). */
     Status (*create)(struct Simulation *simulation);
-    double speed;   /* steps a frame at first; 0: 1, or 1/32 without time */
+    double speed;   /* steps per frame at the start; 0: 1, without time 1/32 */
     double view[4]; /* m, left, bottom, right, top of the view; 0: automatic */
     double strain_colour_max; /* strain of the full colour; 0: no colours */
     bool needs_dissipation;   /* the sentence describes a motion that dies away,
                                  which is true only of methods that dissipate */
-    const char *step_name; /* name of a step, "iteration"; NULL: a time step */
+    const char *step_name; /* word for a step, as "iteration"; NULL: "step" */
     bool starts_paused;    /* the window waits at step 0 */
-    const char *group_heading; /* heading of the group, in its first scene */
+    const char *group_heading; /* heading of the group that this scene begins */
     bool is_hidden;  /* has no key and no cell in the overview; the table ends
                         with these scenes */
-    const char *pin; /* value of --pin */
+    const char *pin; /* default of option --pin */
     SceneBody body;
     /* Makes one step; NULL: a step in time of each run. */
     Status (*step)(struct Simulation *simulation);

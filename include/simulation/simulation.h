@@ -16,10 +16,10 @@ enum { SIMULATION_MAX_RUNS = 3, SIMULATION_MODE_NODES = 64 };
  * behind a barrier of energy, such as another body. */
 typedef struct EnergyLedger {
     double start_energy; /* J, total energy at the start */
-    double work; /* J, work of placed nodes and of changed options and pins */
+    double work; /* J, work of the user's changes of nodes, options and pins */
     double last_balance;  /* J, total energy minus work, after the last step */
     long gain_steps;      /* steps in which energy grew by more than the work */
-    double gained_energy; /* J, total growth beyond the work in these steps */
+    double gained_energy; /* J, energy gained beyond the work in gain_steps */
 } EnergyLedger;
 
 struct Simulation {
@@ -34,7 +34,7 @@ struct Simulation {
     int step_run;      /* run whose step is being computed */
     Status bad_status; /* OK, or the last other status of this step's runs */
     Descent descent;   /* minimisation; zero in scenes that move in time */
-    SmallSceneData exhibit;  /* data of small scenes, and of switches */
+    SmallSceneData exhibit;  /* data of the small scenes; switches */
     Prediction prediction;   /* guess where the next step leads */
     NewtonObserver observer; /* called after each Newton iteration, or NULL */
     void *observer_data;     /* argument of observer */
@@ -48,7 +48,7 @@ struct Simulation {
 
 /* A quantity of energy by its name: "elastic", "friction". */
 typedef struct Energy {
-    const char *name; /* name in a TermKind or a constant text */
+    const char *name; /* static text, not to be freed */
     double value;     /* J */
 } Energy;
 
@@ -57,14 +57,14 @@ typedef struct Energy {
  * and its balance since the start is
  *   total at the start + work
  *     = total + what terms took out (TermKind.loss_name) + dissipated.
- * Each term books its own energy; several terms may share a name.
+ * A term has its own energy; several terms may share a name.
  *
  * The work of a moving wall, pin or hand is its force at the end of the step
- * times its way, which is right to O(h): backward Euler then dissipates in
+ * times its displacement, with error O(h): backward Euler then dissipates in
  * every step where the potential is convex.  Where the potential is not convex
  * (springs buckle, contacts turn, as in squeeze and rub) `dissipated` may fall:
- * the method has made energy.  The mean of the forces at both ends would have a
- * smaller error where a body is pressed, but `dissipated` would fall more. */
+ * the method has added energy.  The mean of the forces at both ends would have
+ * a smaller error where a body is pressed, but `dissipated` would fall more. */
 enum { MAX_ENERGIES = 2 * SYSTEM_MAX_TERMS + 5 };
 
 typedef struct Energies {
@@ -76,8 +76,8 @@ typedef struct Energies {
 } Energies;
 
 /* Creates the simulation of options->scene; free it in any case.
- *   observer, user  called after each Newton iteration, or NULL
- *   simulation      out
+ *   observer    called with `user` after each Newton iteration, or NULL
+ *   simulation  out
  * Returns OK, OUT_OF_MEMORY, TOO_LARGE, INVALID_INPUT. */
 Status simulation_create(const Options *options, NewtonObserver observer,
                          void *user, Simulation *simulation);
@@ -87,7 +87,7 @@ void simulation_free(Simulation *simulation);
 void options_fill_newton_settings(const Options *options,
                                   NewtonSettings *settings);
 
-/* Creates a run of a scene at x, v, for functions Scene.create. */
+/* Creates the integrator of a run, which starts at x with velocities v. */
 Status simulation_start_run(Simulation *simulation, int run,
                             const IntegratorMethod *method, System *system,
                             const double *x, const double *v);
@@ -118,9 +118,9 @@ bool simulation_is_at_rest(const Simulation *simulation);
 /* Returns Newton's counters, summed over the runs; explicit methods have 0. */
 NewtonCounters simulation_sum_newton_counters(const Simulation *simulation);
 
-/* Returns when a changed option takes effect, row->effect with two exceptions.
- * In a scene without time it is EFFECT_NEW_RUN, but options that need HAS_START
- * keep EFFECT_REPEAT.  With several runs the method has EFFECT_NEW_RUN. */
+/* Returns when a change of row's option takes effect, usually row->effect.  The
+ * result is EFFECT_NEW_RUN for the method of several runs, and in scenes
+ * without time, where EFFECT_REPEAT is kept if the scene has HAS_START. */
 ChangeEffect simulation_find_option_effect(const Simulation *simulation,
                                            const OptionRow *row);
 

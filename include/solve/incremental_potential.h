@@ -17,7 +17,7 @@ typedef struct IncrementalPotential {
     const double *u_tilde; /* [2n] m, x_tilde - x_n */
 } IncrementalPotential;
 
-/* E and the point at which a minimisation is; arrays of [2n]. */
+/* E, and the point that a minimisation has reached; arrays of [2n]. */
 typedef struct Iterate {
     IncrementalPotential E;
     double *u; /* m, displacement from x_n */
@@ -36,17 +36,17 @@ void incremental_potential_gradient(const IncrementalPotential *E,
                                     const double *u, const double *x,
                                     double *g);
 
-/* Makes the Hessian's pattern: triplets, first 2n diagonal entries of the mass
- * matrix, then the entries of each term; rows in elimination order if the
- * system has one.  The slots of pinned nodes, except their masses on the
- * diagonal, lead to the last value of A, which is unused.
+/* Makes the Hessian's pattern, in elimination order if the system has one.  The
+ * first 2n triplets are the diagonal of the mass matrix, the next ones are the
+ * terms' entries.  Entries of terms at pinned nodes are dropped: their slots
+ * lead to an additional last value of A, which is unused.
  *   A  out; free it with sparse_free, also after a failure
  * Returns OK, TOO_LARGE, OUT_OF_MEMORY. */
 Status incremental_potential_create_hessian(const System *system, Sparse *A);
 
-/* Adds pairs that are near each other at u, x to the terms' lists.  *grown out:
- * whether the Hessian has entries that its pattern lacks, so that the pattern
- * must be made again.  Returns OK, OUT_OF_MEMORY. */
+/* Adds pairs of a node and an edge that are close at u, x to the terms' lists.
+ *   grown  out, whether the pattern lacks entries and must be made again
+ * Returns OK, OUT_OF_MEMORY. */
 Status incremental_potential_extend_pattern(const Iterate *at, bool *grown);
 
 /* Writes the projected Hessian of E at u, x to A, which has the pattern.
@@ -62,11 +62,11 @@ int incremental_potential_apply_hessian(const Iterate *at,
                                         Projection projection, const double *q,
                                         double *y);
 
-/* Turns springs that draw nodes to fixed points into masses:
+/* Turns springs of stiffness c from nodes to fixed points o into masses:
  *   m/2 |u - u_tilde|^2 + w c/2 |x - o|^2 = (m + w c)/2 |u - v|^2 + constant.
  * g and p of the iterate serve as workspace.
  *   m        [2n] kg, out, m + w c
- *   u_tilde  [2n] m, out, v */
+ *   u_tilde  [2n] m, out, the target v */
 void incremental_potential_absorb_pulls(const Iterate *iterate, double *m,
                                         double *u_tilde);
 

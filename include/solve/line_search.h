@@ -1,9 +1,9 @@
 /* line_search.h - step length along a search direction (slide: Algorithm 2,
  * backtracking line search).
  *
- * The slides halve alpha while E(x + alpha p) > E(x).  A function here returns
- * the difference of the two (incremental_potential_prepare_line), so that
- * rounding of large energies does not hide a small decrease. */
+ * The slides halve alpha while E(x + alpha p) > E(x).  The program computes the
+ * difference itself (incremental_potential_prepare_line), so that rounding of
+ * large energies does not hide a small decrease. */
 #pragma once
 
 #include "base/status.h"

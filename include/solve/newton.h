@@ -28,26 +28,25 @@ typedef enum ResidualKind {
     RESIDUAL_ESTIMATE /* p solves H p = -g up to a bounded linear residual */
 } ResidualKind;
 
-/* The record of an iteration of the loop. */
 typedef struct NewtonRecord {
     long step_number; /* number of the time step, from 1 */
     int iteration;    /* number from 0; -1: prescribed motion ended the step */
     double residual;  /* m/s, max over nodes of |p_x| + |p_y|, over h */
     ResidualKind residual_kind; /* how well the residual is known */
     double alpha;               /* step length along p; 0: no step along p */
-    int trials;                 /* step lengths that the line search tried */
+    int trials;                 /* number of step lengths that were tried */
     double slope;        /* J s^2, grad E . p; below 0: p leads downhill */
     double change;       /* J s^2, change of E by the update */
-    int projected;       /* number of blocks that were projected */
-    int negative_pivots; /* negative pivots of the Hessian from which p came,
-                            without projection */
+    int projected;       /* number of blocks of H that projection changed */
+    int negative_pivots; /* number of negative pivots of the Hessian that gave
+                            p; 0 for a projected Hessian */
     bool has_new_factor; /* has a new factor of the Hessian */
     double shift;        /* kg, added to the diagonal of the Hessian */
     double seconds;      /* computing time of the iteration */
     Status status; /* RUNNING, or how the iteration ended the minimisation */
     Solver solver; /* NEWTON or MULTIGRID */
-    double x_before[2]; /* position of the only node before the update (m) */
-    double x_after[2];  /* position of the only node after the update (m) */
+    double x_before[2]; /* m, node of a one-node scene before the update */
+    double x_after[2];  /* m, node of a one-node scene after the update */
 } NewtonRecord;
 
 /* Called after each iteration.  Returns false to pause the loop. */
@@ -59,22 +58,22 @@ typedef struct NewtonSettings {
     Solver solver;           /* how the minimiser is found */
     Projection projection;   /* how negative eigenvalues are replaced */
     LineSearch line_search;  /* how the step length is found */
-    int max_iterations;      /* most iterations; then ITERATION_LIMIT */
+    int max_iterations;      /* limit of iterations (status ITERATION_LIMIT) */
     NewtonObserver observer; /* called after each iteration; NULL: none */
     void *user_data;         /* argument of the observer */
 } NewtonSettings;
 
-/* Counts of the work since the object was made.  No decision reads them. */
+/* Counts of the work since the object was made. */
 typedef struct NewtonCounters {
     long updates;          /* number of updates of x */
     long factorisations;   /* number of factorisations of the Hessian */
     long solves;           /* number of linear solves with a factor of H */
-    long projected;        /* projected blocks, summed over factorisations */
+    long projected;        /* number of projected blocks of factored Hessians */
     long cycles;           /* number of V-cycles of multigrid */
     long tile_sweeps;      /* number of sweeps of multigrid's tiles (tiles.h) */
     long indefinite_ends;  /* minimisations that converged with a last p from a
                               Hessian with negative pivots: perhaps a maximum */
-    long handed_to_newton; /* minimisations that multigrid passed to Newton */
+    long handed_to_newton; /* number of minimisations that Newton took over */
 } NewtonCounters;
 
 /* Adds each member of counters to sum. */
@@ -94,7 +93,7 @@ typedef struct SearchDirection {
     Sparse A;             /* Hessian, one triangle, in elimination order */
     Cholesky *cholesky;   /* factor of A; NULL: not created yet */
     double shift;         /* kg, added to the diagonal before factoring */
-    double moved_since_factor; /* m, bound of displacements since A's factor */
+    double moved_since_factor; /* m, bound of displacements since factoring */
     double *b;                 /* right-hand side in elimination order */
     double *r, *z, *q, *d;     /* vectors of conjugate gradients */
 } SearchDirection;
@@ -106,15 +105,15 @@ typedef struct RoundingChecks {
     double min_mass;         /* kg, the smallest mass */
     double max_curvature;    /* J/m^2, the largest curvature_bound of a term */
     double shortest_spring;  /* m, rest length; 1 without springs */
-    bool is_stiff; /* w max_curvature > 1e5 min_mass, w being P's weight in E; a
-                      decrease of E is then computed twice */
-    bool factor_is_inexact; /* w max_curvature > 1e10 min_mass: the residual
-                               is only an estimate */
+    bool is_stiff; /* P's weight times max_curvature > 1e5 min_mass; a decrease
+                      of E is then computed twice */
+    bool factor_is_inexact; /* P's weight times max_curvature > 1e10 min_mass:
+                               the residual is only an estimate */
     double start_energy;    /* J s^2, E at the start; NAN: not needed */
     double energy_limit; /* J s^2, upper limit of E: its value at the start plus
                             rounding; INFINITY: no limit */
-    double E;            /* J s^2, E at the iterate, if rounding is checked
-                            there; NAN: not evaluated yet */
+    double E;            /* J s^2, E at the iterate for
+                            rounding_confirms_change; NAN: not evaluated yet */
     double E_trial;      /* J s^2, E at the end of the trial step */
     double best_residual;    /* m/s, smallest residual of this minimisation */
     int stagnant_iterations; /* iterations since the smallest residual */
@@ -128,18 +127,18 @@ typedef struct Newton {
     NewtonRecord record; /* record of the last iteration */
     Status status;       /* RUNNING, or how the minimisation ended */
     long step;           /* number of the time step, for the records */
-    double tolerance;    /* m/s, tolerance of this minimisation */
+    double tolerance;    /* m/s, limit of the residual in this minimisation */
     const System *system;
-    double *memory;  /* memory block of all arrays */
+    double *memory;  /* memory that holds all arrays */
     Iterate iterate; /* E, u, x, g, p */
     double *u_tilde; /* [2n] m, x_tilde - x_n, written by the integrator */
-    /* [2n] m, end of a trial step; after an update that an observer sees, the
-     * iterate before the update */
+    /* [2n] m, point that the line search tries.  When the observer is called
+     * after an update: the iterate before the update. */
     double *u_trial, *x_trial;
     SearchDirection direction; /* the Hessian and its factor */
     bool has_gradient;         /* has the gradient at x in iterate.g */
     bool passes_test;          /* p of the last iteration passes the test */
-    int clamps_left;           /* number of iterations that still clamp */
+    int clamps_left;           /* number of next iterations that must clamp H */
     RoundingChecks rounding;
     Multigrid *multigrid; /* data of multigrid; NULL: not created yet */
     Solver active_solver; /* solver of the next iteration: NEWTON, MULTIGRID */
@@ -167,9 +166,9 @@ void newton_start(Newton *newton, const double *x_n, const double *u,
 /* Runs the loop of Algorithm 3 from newton_start or a pause to the end or the
  * next pause.  At least one update is made, if one lowers E.  u and x are the
  * last iterate; with a line search E is not higher there than at the start.
- * Returns RUNNING after a pause; OK if the last p passed the test, used or not,
- * or if a bound of the next p does (multigrid) or is negligible; otherwise how
- * the minimisation failed. */
+ * Returns RUNNING after a pause; OK if the last p passed the test, or if a
+ * bound shows that the next p passes (multigrid) or is negligible; otherwise
+ * how the minimisation failed. */
 Status newton_minimise(Newton *newton);
 
 /* Large squares take longer for an update and get fewer of them, at least

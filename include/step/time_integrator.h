@@ -16,10 +16,10 @@ typedef struct IntegratorMethod {
     const char *label;       /* name in the window */
     int order;               /* order of accuracy */
     bool supports_all_terms; /* works with every term: only backward Euler */
-    bool dissipates;   /* takes energy out of motion, which comes to rest */
-    bool only_by_name; /* is chosen by name only, and skipped by key M */
-    int memory_arrays; /* number of arrays [2n] kept between steps */
-    int stages;        /* minimisations of a step; 0: the method is explicit */
+    bool dissipates;         /* numerical damping brings motion to rest */
+    bool only_by_name;       /* is chosen by name only, and skipped by key M */
+    int memory_arrays;       /* number of arrays [2n] kept between steps */
+    int stages; /* minimisations of a step; 0: the method is explicit */
     /* Fills newton->u_tilde, without gravity, and the weight of the integrator
      * for the present stage.  The caller then adds gravity to u_tilde by
      * completing the square:
@@ -55,14 +55,14 @@ struct TimeIntegrator {
     double *v;       /* [2n] m/s, velocities */
     double *new_x;   /* [2n] m, x at the end of a step; before that workspace */
     double *new_v;   /* [2n] m/s, v at the end; before that workspace */
-    double *memory;  /* [arrays * 2n] arrays that the method remembers */
+    double *memory;  /* [memory_arrays * 2n] data that the method keeps */
     double memory_h; /* s, time step of `memory`; 0: `memory` is not valid */
     Newton *newton;  /* NULL for explicit methods */
     /* The following members describe an unfinished step. */
     int stage;                 /* 0 ... stages - 1 */
-    Status unconverged_status; /* OK, or the last other status of a stage */
-    double weight;             /* s^2, factor of P in E */
-    double remaining_fraction; /* fraction of the motion that is left */
+    Status unconverged_status; /* OK, or why a stage did not converge */
+    double weight;             /* s^2, factor of the potential P in E */
+    double remaining_fraction; /* fraction that is left to move; 0 if blocked */
     int parts_made;            /* number of parts of the motion that are done */
     long updates_before;       /* Newton's updates before this step */
     bool is_blocked; /* walls and pins cannot move on: a body is in their way */

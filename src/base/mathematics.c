@@ -14,7 +14,7 @@ double math_hypot(double x, double y)
     return scale * sqrt(large * large + small * small);
 }
 
-/* x = 2^k (1 + f) with |f| at most about 0.41.  With s = f / (2 + f)
+/* x = 2^k (1 + f) with |f| at most about 0.41.  With s = f / (2 + f),
  * log(1 + f) = 2 s + 2 s^3/3 + 2 s^5/5 + ..., computed as f minus small terms,
  * so that rounding errors are small, too (Tang 1990, and fdlibm). */
 double math_log(double x)

@@ -11,7 +11,7 @@
 #include "lesson/command_line.h"
 #include "scenes/small_scenes.h"
 
-/* A call of exit in lecture.c, which is included here, leaves the step. */
+/* Place in make_lecture_step to which a call of exit in lecture.c jumps. */
 static jmp_buf program_ended;
 
 #define exit(code) longjmp(program_ended, code)
@@ -109,10 +109,10 @@ static Status create_motion_simulation(const TimedMotion *motion, int segments,
 /* Measures a method with 8, 16, 32, ... steps, up to a run that takes too long
  * or is accurate enough.
  *
- * Tolerance: the last direction p of a step changes velocities by at most the
- * tolerance, so all steps change positions by at most
+ * Tolerance: the last p of a step changes velocities by at most the tolerance,
+ * so the last p of all steps together change positions by at most
  * steps * tolerance * time / 2.  The bound may equal the expected error of the
- * method, since a step also applies the last p. */
+ * method, since each step applies its last p and leaves a far smaller error. */
 static Status measure_method(bool quick, const TimedMotion *motion,
                              Simulation *simulation,
                              const IntegratorMethod *method,
@@ -197,7 +197,7 @@ static Status measure_errors(bool quick)
 
 /* ---- steps --------------------------------------------------------------- */
 
-/* The last bits decide which fold a buckling step takes.  Every program
+/* Rounding decides how the square folds when it buckles.  Every program
  * therefore runs from nine starts, whose stretches differ by 1e-9. */
 enum { STARTS = 9, STEPS_PER_START = 10, SOLVERS = 3 };
 
@@ -214,9 +214,9 @@ static const double time_limit = 60;
 /* Results of one program on one square, for each start. */
 typedef struct ProgramResults {
     double ms[STARTS];                 /* processor time a step */
-    double updates_per_step[STARTS];   /* number of updates of x a step */
+    double updates_per_step[STARTS];   /* number of updates of x per step */
     double end_energy_percent[STARTS]; /* % of the energy at the start */
-    long unconverged; /* steps of all starts that did not converge */
+    long unconverged; /* steps without convergence, of all starts together */
 } ProgramResults;
 
 /* Makes a step by step_forward of lecture.c, with the springs and masses of a

@@ -1,7 +1,7 @@
 /* check.c - compares the functions of a student's homework.c with those of
  * lecture.c on small cases, and explains each fault.
  *   check NOTE         prints a line for each function
- *   check NOTE NAME    prints one line of CSV: NAME, number right, first fault
+ *   check NOTE NAME    prints CSV: NAME, number of right checks, first fault
  * NOTE is a warning of the compiler, or "".  The output goes to stream 3, since
  * the student's file may print to stdout.  Each function runs in its own
  * process, which may crash, exit or hang.  student.c is compiled with
@@ -45,8 +45,8 @@ int main(int argc, char **argv);
 #undef exit
 
 enum {
-    MAX_SENTENCE = 400,       /* limit of the bytes of a sentence */
-    MAX_RESULT_NUMBERS = 400, /* limit of the numbers of a result */
+    MAX_SENTENCE = 400,       /* size of a sentence, bytes */
+    MAX_RESULT_NUMBERS = 400, /* largest count of numbers in a result */
     MAX_NODES = 9,            /* number of nodes of the largest case */
     MAX_UNKNOWNS = 2 * MAX_NODES
 };
@@ -93,13 +93,13 @@ static Vec2 *make_random_points(int n, double size)
 typedef enum ResultKind { NUMBER, POINTS, MATRIX, SEARCH, STATE } ResultKind;
 
 typedef struct Task {
-    int index; /* TASK_..., index in student[] */
+    int index; /* TASK_name of the function, its index in student[] */
     const char *name;
     TaskFunction *truth;       /* function of lecture.c */
     ResultKind kind;           /* kind of the result */
     const char *case_names[5]; /* name of each case for messages, then NULL */
-    int steps; /* calls of step_forward; table is NULL from the second on */
-    unsigned needed_tasks; /* bits of the tasks that this task calls */
+    int steps; /* calls of step_forward; only the first call gets a table */
+    unsigned needed_tasks; /* bit i: the task calls the function of task i */
 } Task;
 
 /* The arguments of the functions in a case. */
@@ -136,7 +136,7 @@ static void make_random_solid(int case_number, Solid *solid)
     }
 }
 
-/* Makes the start of a step: the lecture's, or in case 1 one with alpha < 1. */
+/* Makes the start of a step: stretched, in case 1 squeezed, where alpha < 1. */
 static void make_step_start(int case_number, TaskCase *c)
 {
     c->solid = square(1, 2, 1000, 1e5);
@@ -180,7 +180,7 @@ static void make_arguments(const Task *task, int case_number, TaskCase *c)
         make_random_solid(searches ? 0 : case_number, &c->solid);
     c->x_tilde = make_random_points(MAX_NODES, 0.7);
     c->p = make_random_points(MAX_NODES, 1);
-    c->p[1] = (Vec2){-1.5, -1.2}; /* the longest p of a node is negative */
+    c->p[1] = (Vec2){-1.5, -1.2}; /* longest p, with negative components */
     c->g = make_random_points(MAX_NODES, 900);
     memcpy(c->g_before, c->g, sizeof c->g_before);
     if (searches)
@@ -241,7 +241,7 @@ static void store_result(const Task *task, const TaskCase *c, FILE *table,
             break;
 }
 
-/* Calls a function with a case.
+/* Calls a function with the arguments of a case.
  *   result  [MAX_RESULT_NUMBERS] in/out, zeros, then the result */
 static void call_function(const Task *task, int case_number,
                           TaskFunction *function, double *result)
@@ -355,7 +355,7 @@ static int find_first_difference(const double *a, const double *b)
     return i;
 }
 
-/* Runs a function in a case.  Returns false if it ended the program. */
+/* Runs a function in a case.  Returns false if lecture.c's code calls exit. */
 static bool run_function(const Task *task, int case_number,
                          TaskFunction *function, double *result)
 {
@@ -516,7 +516,7 @@ int main(int argc, char **argv)
         FAIL(1, "not enough memory\n");
     for (int t = 0; t < TASK_COUNT; t++) {
         unsigned missing = tasks[t].needed_tasks & failed;
-        if (missing) { /* the lowest bit is that of the first task */
+        if (missing) { /* the lowest bit is the first wrong task */
             shared->case_name[0] = '\0';
             set_fault("not checked: it calls %s, which is not right",
                       tasks[__builtin_ctz(missing)].name);

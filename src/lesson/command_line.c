@@ -42,7 +42,7 @@ static ArgWord *find_word(ArgLine *line, const char *option)
 /* ---- values ------------------------------------------------------------- */
 
 /* Refuses a value with a message such as "is not X,Y, each from -1 to 1, in m".
- *   count  numbers that were expected */
+ *   count  in, number of numbers that the value needs */
 static Status refuse_value(const ArgLine *line, const ArgWord *word, int count)
 {
     const OptionRow *row = word->row;
@@ -76,7 +76,7 @@ static Status refuse_value(const ArgLine *line, const ArgWord *word, int count)
         row->low, row->high, row->unit[0] ? ", in " : "", row->unit, hint.text);
 }
 
-/* Stores a name or numbers.  In one dimension the start may be x without y. */
+/* Stores a name or numbers.  In one dimension the start is x without y. */
 static Status apply_option_numbers(const ArgLine *line, const ArgWord *word)
 {
     const OptionRow *row = word->row;
@@ -177,8 +177,8 @@ Status options_set(Options *options, const OptionRow *row, const char *text,
         options->number[row->slot] = value;
     if (status)
         return status;
-    /* The integrator must allow the new value.  An option that begins a new run
-     * must describe a valid body. */
+    /* The integrator must allow the new value.  If the value begins a new run,
+     * the body must be able to start. */
     bool is_start = row->effect == EFFECT_NEW_RUN &&
                     (row->needs_any_of & HAS_SQUARE) &&
                     (options->scene->parts & HAS_BODY);
@@ -188,8 +188,8 @@ Status options_set(Options *options, const OptionRow *row, const char *text,
 
 /* ---- words -------------------------------------------------------------- */
 
-/* Returns a hint if a text may end the word before it, as in "4 ms"; else "".
- *   before  in, or NULL */
+/* Returns a hint if a blank seems to split a value, as in "4 ms"; else "".
+ *   before  in, word before the text, or NULL */
 static Phrase hint_at_split_value(const ArgWord *before, const char *text)
 {
     Phrase hint = {""};
@@ -202,9 +202,9 @@ static Phrase hint_at_split_value(const ArgWord *before, const char *text)
     return hint;
 }
 
-/* Refuses the part of a word before its '='.
- *   hint   in
- *   where  end of the message if there is no hint: where to look */
+/* Refuses an unknown name, the part of a word before '='.
+ *   hint   in, end of the message, or ""
+ *   where  in, end of the message without a hint: where to look */
 static Status refuse_unknown(const ArgLine *line, const char *what,
                              const char *word, Phrase hint, const char *where)
 {
@@ -294,7 +294,7 @@ static Status refuse_unknown_scene(const ArgLine *line, const ArgWord *word)
     snprintf(name, sizeof name, "%.*s", (int)strcspn(text, "="), text);
     if (option_find(name))
         snprintf(hint.text, sizeof hint.text, "; did you mean --%s?", text);
-    else if (strncmp(text, "\u2013", 2) == 0) /* an editor's dash */
+    else if (strncmp(text, "\u2013", 2) == 0) /* long dash of an editor */
         hint = (Phrase){"; an option begins with two signs '-'"};
     else if (!hint.text[0])
         hint = hint_at_split_value(word > line->word ? word - 1 : NULL, text);
@@ -409,9 +409,9 @@ static Status check_pinned_nodes(const Options *options, Message message)
                             : suggest_name(name, "", pins_get_words()).text);
 }
 
-/* Checks that the body can start.  Triangles do not turn over anyway, so with
- * triangles the term cells is left out.  With cells, triangles or self-contact
- * the default projection is on-demand. */
+/* Checks that the options of the body allow a start.  A material's triangles
+ * cannot turn over, so --cells is switched off.  With cells, triangles or
+ * self-contact the default projection is on-demand. */
 static Status check_body_options(ArgLine *line)
 {
     Options *options = line->options;
@@ -486,7 +486,7 @@ Status lecture_make_options(const LecturePage *page, Options *options,
 {
     Status status = options_parse_line(page->command_line, options, message);
     const char *pin = strstr(page->command_line, "--pin ");
-    if (pin) /* the text of --pin has to stay valid */
+    if (pin) /* pin must not point into the parsed copy of the line */
         options->pin = pin + strlen("--pin ");
     lecture_apply_page(page, options);
     options->flips = page->switch_flips;

@@ -33,7 +33,7 @@ enum {
 
 /* Number of typing mistakes (Damerau 1964) between a text, of at most
  * NAME_LETTERS, and a name or its beginning, so that "seg" fits segments.  A
- * mistake is a letter too many, too few, another one, or two exchanged. */
+ * mistake is a letter too many, missing or wrong, or two letters exchanged. */
 static int count_typing_errors(const char *text, const char *name)
 {
     /* [i][j]: mistakes between i letters of the text and j of the name */
@@ -96,8 +96,8 @@ static const struct Synonyms {
     {"neo-hookean", " triangles solid "},
 };
 
-/* A text of 3 to 4 letters may have one mistake behind its first letter, of 5
- * to 7 letters two mistakes anywhere. */
+/* A text of n > 2 letters may have (n + 1)/3 mistakes, rounded down.  A text of
+ * at most SHORT_NAME_LETTERS must have the right first letter. */
 Phrase suggest_name(const char *text, const char *dashes, NameTable names)
 {
     Phrase hint = {""};
@@ -134,7 +134,7 @@ Phrase suggest_name(const char *text, const char *dashes, NameTable names)
 /* Options, and values of options, that an earlier version had; "": the whole
  * option.  A row stays for one release, so that users learn what to use. */
 static const struct RemovedOption {
-    const char *option, *value; /* removed option; its value, or NULL */
+    const char *option, *value; /* removed option; its value, or "" */
     const char *replacement;    /* end of a message: what to use now */
 } removed[] = {
     {"vtk", "", "--states and --springs write each step as CSV"},

@@ -11,9 +11,9 @@ typedef struct Phrase {
 /* Returns the names of a list: "clamp, none". */
 Phrase join_names(NameTable names);
 
-/* Returns a hint such as "; did you mean --timestep?": the name that other
- * programs or books have for the text, else the nearest name.  "": no name is
- * near.
+/* Returns a hint such as "; did you mean --timestep?": the name of which the
+ * text is a synonym in other programs or books, else the nearest name; "": no
+ * name is near.
  *   dashes  "--" or "", written before the name */
 Phrase suggest_name(const char *text, const char *dashes, NameTable names);
 

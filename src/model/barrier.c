@@ -20,7 +20,7 @@ double barrier_curvature(double s)
     return s < 1 ? (1 + s) / (s * s) : 0;
 }
 
-/* r = z/(2 + z): log1p(z) = 2 (r + r^3/3 + r^5/5 + ...), and 2r - z = -z r. */
+/* With r = z/(2 + z), log1p(z) = 2 (r + r^3/3 + ...) and 2r - z = -z r. */
 double log1p_minus_z(double z)
 {
     if (!(fabs(z) < 0.25))

@@ -34,9 +34,9 @@ Status boundary_create(const SquareMesh *mesh, Boundary *boundary)
 
 enum { IN_A_TRIANGLE = 1, ON_AN_EDGE = 2 };
 
-/* Triangle 4 c + k is corner k of cell c; corners k and k + 2 share a diagonal.
- * A single triangle is taken from the first diagonal only, so that the solid
- * part of a cell only shrinks when springs break. */
+/* Triangle 4 c + k is at corner k of cell c.  If both triangles 1 and 3 are
+ * solid, but not both 0 and 2, then 1 and 3 count, else the solid ones of 0 and
+ * 2.  As 1 or 3 never counts alone, the solid part of a cell only shrinks. */
 static void find_boundary(Boundary *boundary, const System *system)
 {
     const SquareMesh *shape = &boundary->mesh;
@@ -151,7 +151,7 @@ static int find_first_edge(const Boundary *boundary, double left)
     return low;
 }
 
-/* Finds boundary_next_edge's result by a search through the boxes. */
+/* Returns the result of boundary_next_edge by a search in the sorted boxes. */
 static int search_next_edge(const Boundary *boundary, const System *system,
                             int i, int *cursor)
 {

@@ -34,7 +34,7 @@ static double cell_value(const EvalPoint *at, const Element *element)
     return cells->c * barrier_value(element->s / CELL_J_HAT);
 }
 
-/* The gradient of J in (e1, e2) is (S e2, -S e1)/(2 A0), S v = (v_y, -v_x). */
+/* grad J = (S e2, -S e1)/(2 A0) for J = e1 x e2/(2 A0); S v = (v_y, -v_x). */
 static void cell_gradient(const EvalPoint *at, const Element *element,
                           double g[4])
 {
@@ -74,7 +74,7 @@ static double cell_line_remainder(const EvalPoint *at, const Element *element,
                        barrier_taylor_remainder(s, (J1 + J2) / CELL_J_HAT));
 }
 
-/* Returns the curvature where the barrier begins, with sides as at rest. */
+/* Returns the curvature of W at J = J_hat if e1 and e2 have rest length. */
 static double cell_curvature_bound(const EvalPoint *at)
 {
     const CellBarriers *cells = at->term->data;

@@ -150,8 +150,8 @@ static bool contact_hessian(const EvalPoint *at, const Element *element,
     return changed;
 }
 
-/* Returns the alpha at which the gap d has shrunk by F d.  For a ball, with D
- * from the centre to the node, |D + alpha P| = |D| - F d is the equation
+/* Returns the alpha at which the gap d has shrunk by F d, F = ELEMENT_LIMIT.
+ * With D from a ball's centre to the node, |D + alpha P| = |D| - F d becomes
  * a alpha^2 + 2 b alpha + c0 = 0; the smaller root is exact to rounding. */
 static double contact_max_step(const EvalPoint *at, const Element *element,
                                const double P[4])

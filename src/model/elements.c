@@ -27,10 +27,9 @@ bool elements_next(ElementIterator *walk)
     return false;
 }
 
-/* Adds factor times the gradient of an element to the nodes' gradient.
- *   g    [4] in, the element's gradient in its vectors a and b, which are
- *        weighted sums of node positions
- *   out  [2n] in/out, the nodes' gradient */
+/* Adds factor times g, a vector of an element, to out, a vector of all nodes.
+ *   g    [4] in, gradient or Hessian product in the element's vectors a and b
+ *   out  [2n] in/out, gradient or Hessian product in the nodes' positions */
 static void element_add_vector(const Element *element, double factor,
                                const double g[4], double *out)
 {
@@ -62,7 +61,7 @@ void elements_gradient(const EvalPoint *at, double *g)
     }
 }
 
-/* The pair of nodes of each 2x2 part of a block, diagonal parts first. */
+/* Number of 2x2 parts of a block of 3 nodes, and the two nodes of each part. */
 enum { NODE_PAIRS = 6 };
 static const int part[NODE_PAIRS][2] = {{0, 0}, {1, 1}, {2, 2},
                                         {0, 1}, {0, 2}, {1, 2}};
@@ -87,9 +86,9 @@ void elements_add_triplets(const EvalPoint *at, Triplets *triplets)
     }
 }
 
-/* Adds the entries of an element.  Entry (r, c) of the part of nodes k and l is
- * factor sum w_k w_l H_(r,c) over the pairs of vectors.  The function is inline
- * so that the compiler unrolls the loops for each number of vectors. */
+/* Adds an element's block: for nodes k and l, derivative_factor times the sum
+ * of w_mk w_nl H_mn over vectors m and n, with node weights w and 2x2 parts of
+ * H.  The function is inline so that the compiler unrolls the loops. */
 static inline void element_add_hessian(const Element *element, int vectors,
                                        double H[4][4], const int *slot,
                                        double *out)

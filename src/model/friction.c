@@ -63,7 +63,7 @@ static double compute_slip(const SlidingContact *contact, double h,
            contact->obstacle_travel;
 }
 
-/* Returns the evaluation point for the contact term of this friction. */
+/* Returns `at` with the contact term in place of its term of friction. */
 static EvalPoint select_contact_term(const EvalPoint *at)
 {
     bool obstacles = at->term->kind == &friction_energy;
@@ -204,7 +204,7 @@ static const ElementKind slips = {
     .count_blocks = count_slip_blocks,
 };
 
-/* The TermKind of both terms begins with these functions. */
+/* First members in the initialisers of both TermKinds of friction. */
 #define FRICTION                                                               \
     ELEMENTS(slips), .loss_name = "friction", .rank = RANK_FRICTION,           \
                      .begin_step = friction_begin_step,                        \

@@ -51,8 +51,8 @@ static void compute_stresses(const NeoHookean *data, double J, double *on_plus,
     *on_minus = 2 * data->mu - *on_plus;
 }
 
-/* dW/dF/A0 = on_plus F+ + on_minus F-, with F = F+ + F- (area.h).  Rounding is
- * proportional to the stress, while in mu F - mu F^-T it would be to mu. */
+/* Writes the gradient by dW/dF/A0 = on_plus F+ + on_minus F-
+ * (compute_stresses), a form with small rounding errors (neo_hookean.h). */
 static void neo_hookean_gradient(const EvalPoint *at, const Element *element,
                                  double g[4])
 {
@@ -121,8 +121,8 @@ static double neo_hookean_line_remainder(const EvalPoint *at,
             0.5 * data->lambda * (2 * math_log(J) * t + L * L));
 }
 
-/* Bounds the curvature at F = I, where the Hessian in F is
- * mu (I - K) + (lambda + mu) (K f)(K f)^T. */
+/* Returns a bound of the curvature at rest, F = I, where W/A0 has the Hessian
+ * mu (I - K) + (lambda + mu) f f^T in F; K and f are those of area.h. */
 static double neo_hookean_curvature_bound(const EvalPoint *at)
 {
     const NeoHookean *data = at->term->data;

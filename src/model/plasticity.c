@@ -141,9 +141,9 @@ static int plastic_hessian(const EvalPoint *at, Projection projection,
     return projected;
 }
 
-/* Writes B and C: along p the strain e changes by D = alpha B + alpha^2 C.
- * Beyond its slope V'(e) alpha B, V changes by V'(e) alpha^2 C, the part of the
- * line polynomial, and by R_V(e, D), the line remainder, both times k l2. */
+/* Writes B and C: along p the strain e changes by D = alpha B + alpha^2 C.  V
+ * then changes by three summands: V'(e) alpha B, the slope; V'(e) alpha^2 C,
+ * the line polynomial; R_V(e, D), the line remainder (each times k l2 in W). */
 static inline void compute_strain_polynomial(const FlowSpring *spring,
                                              const double *p, double *B,
                                              double *C)
@@ -167,7 +167,7 @@ static void plastic_line_polynomial(const EvalPoint *at, const double *p,
 
 /* R_V(e, t) = V(e + t) - V(e) - V'(e) t >= 0 is the integral over s from 0 to t
  * of (t - s) V''(e + s), mirrored so that t >= 0.  V'' is 1 + theta where the
- * spring is elastic, else flow less.  Only integral limits are subtracted. */
+ * spring is elastic, elsewhere 1 + theta - flow.  No summand is negative. */
 static double plastic_line_remainder(const EvalPoint *at, const double *p,
                                      double alpha)
 {

@@ -59,7 +59,7 @@ static double pull_curvature_bound(const EvalPoint *at)
     return fabs(pull->k);
 }
 
-/* The TermKind of both terms begins with these functions. */
+/* First members in the initialisers of central_field and hand_energy. */
 #define PULL                                                                   \
     .value = pull_value, .gradient = pull_gradient, .hessian = pull_hessian,   \
     .add_triplets = pull_add_triplets, .is_diagonal = true,                    \
@@ -92,7 +92,7 @@ void hand_begin_step(NodePull *hand, const double *x, const double *v, double m,
     double slow = fmin(MOST, h / TIME), part = slow;
     if (part * away > reach)
         part = reach / away;
-    /* A node at rest is pulled by mouse_k times its distance from the mouse. */
+    /* Within the limits, the pull at x is mouse_k times the distance `away`. */
     hand->k = fmin(fmax(hand->mouse_k / slow, INERTIA * m / (h * h)),
                    LIMIT * hand->mouse_k);
     if (free)

@@ -4,8 +4,8 @@
 #include "base/mathematics.h"
 #include "model/contact.h"
 
-/* In TIME s the distance to the hand falls by the factor e, but in one step by
- * at most the fraction MOST.  SLOW and FAST: limits of the speed, sides/s. */
+/* The distance to the hand falls by the factor e in TIME (s), in one step by at
+ * most the fraction MOST.  Limits of the speed: SLOW, FAST, in body sides/s. */
 static const double TIME = 0.06, MOST = 0.5, SLOW = 0.1, FAST = 5;
 
 /* In one time step the obstacle moves by at most FAST h sides of the body, but
@@ -19,9 +19,10 @@ static const double STRENGTH = 0.1;
 /* Least gap to pinned nodes, as a fraction of the barrier's width. */
 static const double KEPT = 0.3;
 
-enum { MAX_HALVINGS = 8, MAX_PATH_PARTS = 16 }; /* limits of a step's path */
+/* Largest numbers of halvings and of unhalved steps in find_free_fraction. */
+enum { MAX_HALVINGS = 8, MAX_PATH_PARTS = 16 };
 
-/* Writes the displacement of a free obstacle in a step of h seconds. */
+/* Writes the displacement in a step of h seconds if nothing is in the way. */
 static void plan_obstacle_path(const ObstaclePush *push, const double *o,
                                double h, double way[2])
 {
@@ -76,8 +77,8 @@ static bool obstacle_has_room(const Contact *contact, const System *system,
            square_mesh_find_cell(shape, x, obstacle->o, 0, shape->cells) >= 0;
 }
 
-/* Returns the fraction of the way up to the first place without room, found by
- * steps that are halved at this place. */
+/* Returns the fraction of the way before the first place without room.  A trial
+ * step to a place without room is halved and repeated. */
 static double find_free_fraction(const Contact *contact, const System *system,
                                  const double *x, const double way[2])
 {

@@ -27,7 +27,7 @@ static int compare_pairs(const void *one, const void *other)
     return a->node != b->node ? a->node - b->node : a->edge - b->edge;
 }
 
-/* Returns the block of a pair; -1: none. */
+/* Returns the index of the pair's block in the Hessian; -1: no block. */
 static int find_pair_block(const SelfContact *self, PointEdgePair pair)
 {
     const PointEdgePair *found =
@@ -80,7 +80,7 @@ static Status self_contact_begin_step(const TermStep *step)
     size_t bytes = (size_t)count * sizeof *fresh;
     if (grown || count != old || memcmp(self->pair, fresh, bytes) != 0) {
         system_mark_changed(system, true);
-        boundary->system_version = system->version; /* no spring has changed */
+        boundary->system_version = system->version; /* boundary stays valid */
     }
     memmove(self->pair, fresh, bytes);
     self->pair_count = self->start_pair_count = count;
@@ -137,7 +137,7 @@ static int count_point_edge_pairs(const EvalPoint *at)
     return self_contact_data(at)->boundary.point_count;
 }
 
-/* Writes s = d^2/d_hat^2, n and r of an element from its q and e. */
+/* Computes s = (d/d_hat)^2, the normal n and the place r from q and e. */
 static void set_point_edge_distance(const SelfContact *self, Element *element)
 {
     const double *q = element->v, *e = element->v + 2;
@@ -172,8 +172,8 @@ static bool distance_is_below_rounding(const SelfContact *self,
     return !(element->s > least * least);
 }
 
-/* Each call finds the next edge near point i.  The boxes of the boundary allow
- * for the motion, so `way` is not needed. */
+/* Finds the next edge near point i (element->search_cursor).  The boxes of the
+ * boundary cover the motion along p, so `way` is not needed. */
 static bool pair_get_element(const EvalPoint *at, int i, double way,
                              Element *element)
 {
@@ -215,7 +215,7 @@ static double pair_force(const SelfContact *self, double S)
     return -self->c * barrier_slope(S) * 2 * sqrt(S) / self->d_hat;
 }
 
-/* The change of d is n.(dq - r de). */
+/* The distance d changes by n.(dq - r de) if q, e change by dq, de. */
 static void pair_gradient(const EvalPoint *at, const Element *element,
                           double g[4])
 {
@@ -224,11 +224,11 @@ static void pair_gradient(const EvalPoint *at, const Element *element,
         g[i] = F * element->n[i % 2] * (i < 2 ? -1 : element->r);
 }
 
-/* With F = -W', w = dq - r de, the unit vector t along the edge and e_n = n.de,
- * the second derivative is W'' w_n^2 >= 0, plus
+/* The second derivative of W(d) along a change (dq, de) is W'' w_n^2 >= 0 plus
  *     F (2 w_t e_n/|e| + d e_n^2/|e|^2)   if p is beside the edge,
- *     -F/d w_t^2                          if p is beyond an end.
- * The sum is a 2x2 matrix in (w_t, e_n), which is projected. */
+ *     -F/d w_t^2                          if p is beyond an end,
+ * with F = -W', w = dq - r de, w_n = n.w, w_t = t.w, t across n, e_n = n.de.
+ * Only the added part, a 2x2 matrix in (w_t, e_n), is projected. */
 static bool pair_hessian(const EvalPoint *at, const Element *element,
                          Projection projection, double H[4][4])
 {
@@ -238,7 +238,7 @@ static bool pair_hessian(const EvalPoint *at, const Element *element,
     double F = pair_force(self, S), length = sqrt(dot2(e, e));
     double bend = self->c / (self->d_hat * self->d_hat) *
                   (4 * S * barrier_curvature(S) + 2 * barrier_slope(S));
-    double sign = copysign(1, cross(e, n)); /* t has the direction of e */
+    double sign = copysign(1, cross(e, n)); /* makes t.e >= 0 */
     const double t[2] = {sign * n[1], -sign * n[0]};
     bool beside = r > 0 && r < 1;
     double Q[3] = {beside ? 0 : -F / d, beside ? F / length : 0,
@@ -255,13 +255,13 @@ static bool pair_hessian(const EvalPoint *at, const Element *element,
     return changed;
 }
 
-/* A quadratic along a line, by its coefficients. */
+/* A quadratic function of a, the part of the step that is done. */
 typedef struct Quadratic {
-    double degree0, degree1, degree2; /* coefficients */
+    double degree0, degree1, degree2; /* coefficients of 1, a, a^2 */
 } Quadratic;
 
-/* Returns the change of top^2/l along the line without its linear part, which
- * is added to *first.  A negative top is replaced by 0 unless `always`. */
+/* Returns the change of top^2/l in the step (a = 1) without its linear part,
+ * which is added to *first.  A negative top counts as 0 unless `always`. */
 static double square_ratio_remainder(Quadratic top, Quadratic l, bool always,
                                      double *first)
 {
@@ -299,19 +299,19 @@ static double pair_line_remainder(const EvalPoint *at, const Element *element,
                   square_ratio_remainder(low, l, false, &first) +
                   square_ratio_remainder(high, l, false, &first);
     double S = element->s, slope = barrier_slope(S);
-    if (S < 1 && S + (first + rest) / d_hat2 >= 1) /* no contact at the end */
+    if (S < 1 && S + (first + rest) / d_hat2 >= 1) /* d ends above d_hat */
         return self->c * (-barrier_value(S) - slope * first / d_hat2);
     return self->c * (slope * rest / d_hat2 +
                       barrier_taylor_remainder(S, (first + rest) / d_hat2));
 }
 
-/* Finds the first alpha > 0 at which p lies on the edge: e x q = 0, a quadratic
- * equation, and r in [0, 1].  If p moves along the line of the edge, no root
- * shows the contact with its end; the other edge at this end has the root. */
+/* Finds the first alpha > 0 at which the point p is on the edge: the quadratic
+ * equation e x q = 0 holds, and the place r on the line is in [0, 1].  If p
+ * slides along this line, only the other edge at the edge's end has a root. */
 static double pair_max_step(const EvalPoint *at, const Element *element,
                             const double P[4])
 {
-    static const double ENDS = 1e-9; /* r in [-ENDS, 1 + ENDS] is on the edge */
+    static const double ENDS = 1e-9; /* tolerance of r at the ends 0, 1 */
     const double *q = element->v, *e = element->v + 2, *dq = P, *de = P + 2;
     double c0 = cross(e, q), c1 = cross(de, q) + cross(e, dq);
     double c2 = cross(de, dq), discriminant = c1 * c1 - 4 * c2 * c0;
@@ -332,7 +332,7 @@ static double pair_max_step(const EvalPoint *at, const Element *element,
     return ELEMENT_LIMIT * first;
 }
 
-/* Writes the tangent t: t.(dq, de) is the slip of the point on the edge. */
+/* Returns mu times the normal force; the slip along the edge is t.(dq, de). */
 static double pair_friction_limit(const EvalPoint *at, const Element *element,
                                   double t[4], double *speed)
 {
@@ -362,7 +362,7 @@ static const ElementKind near_pairs = {
 
 /* ---- the term ----------------------------------------------------------- */
 
-/* Returns the curvature at the start of the barrier, 16 c/d_hat^2. */
+/* Returns the largest eigenvalue of W's Hessian at d = d_hat, 16 c/d_hat^2. */
 static double pair_curvature_bound(const EvalPoint *at)
 {
     const SelfContact *self = self_contact_data(at);

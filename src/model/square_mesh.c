@@ -37,7 +37,7 @@ int square_mesh_find_body(const SquareMesh *shape, int node)
     return split_body_and_index(shape, shape->nodes, &node);
 }
 
-/* x_(i,j) = (-side/2 + i spacing, -high/2 + j spacing) */
+/* Node (i, j) rests at (-side/2 + i spacing, -height/2 + j spacing). */
 void square_mesh_rest_position(const SquareMesh *shape, int i, double x[2])
 {
     int stride = find_node(shape, 1, 0);
@@ -123,7 +123,7 @@ bool square_mesh_get_patch(const SquareMesh *shape, int c, int cells,
 static int get_outline_node(const SquareMesh *shape, int k)
 {
     int columns = shape->segments, rows = shape->rows;
-    if (k >= columns + rows) /* from the upper right back to the lower left */
+    if (k >= columns + rows) /* point reflection of the lower and right sides */
         return find_node(shape, columns, rows) -
                get_outline_node(shape, k - columns - rows);
     return k < columns ? find_node(shape, k, 0)

@@ -80,8 +80,8 @@ bool system_has_gravity(const System *system)
     return system->gravity[0] != 0 || system->gravity[1] != 0;
 }
 
-/* A sum smaller than its rounding, sqrt(n) times that of one summand, counts as
- * 0: a square with its centre at height 0 has no gravity potential. */
+/* A sum below its rounding error, about sqrt(n) DBL_EPSILON sum |m g.x|, counts
+ * as 0: a square with its centre at height 0 has no gravity potential. */
 double system_gravity_potential(const System *system, const double *x)
 {
     const double *a = system->gravity;
@@ -159,7 +159,7 @@ void system_acceleration(const System *system, const double *x, double *a)
 
 double system_curvature_bound(const System *system)
 {
-    /* u not NULL stands for a step, in which damping makes springs stiffer. */
+    /* An EvalPoint with u is inside a step, where damping stiffens springs. */
     const double u = 0;
     EvalPoint at = make_eval_point(system, NULL, &u, NULL);
     double most = 0;

@@ -16,7 +16,7 @@ enum { MAX_COORDINATE = 1 << 29 }; /* pixels, limit of clamped coordinates */
 enum { FIXED_BITS = 16, FIXED_ONE = 1 << FIXED_BITS };
 
 /* Blends two colours: below + (above - below) amount / 256.  Red and blue share
- * a multiplication; the mask removes borrowed bits. */
+ * a multiplication; masks remove bits that one colour puts into the next. */
 static inline uint32_t blend(uint32_t below, uint32_t above, uint32_t amount)
 {
     uint32_t red_blue = below & 0xff00ff, green = below & 0x00ff00;
@@ -76,11 +76,11 @@ void canvas_clear(Canvas *canvas, Colour colour)
                 colour | 0xff000000u);
 }
 
-/* The smaller or larger number, b if one is NaN; faster than fmin and fmax. */
+/* MIN and MAX are b if a or b is NaN, and are faster than fmin and fmax. */
 #define MIN(a, b) ((a) < (b) ? (a) : (b))
 #define MAX(a, b) ((a) > (b) ? (a) : (b))
 
-/* Returns the pixels of `clip` (corner >= 0) that a rectangle touches. */
+/* Returns the pixels of clip that a rectangle touches; clip.x, clip.y >= 0. */
 static Box find_touched_pixels(Box clip, double left, double top, double right,
                                double bottom)
 {
@@ -178,9 +178,9 @@ bool box_clip_line(const Box *box, double margin, double line[4])
     if (line[0] >= left && line[2] >= left && line[0] <= right &&
         line[2] <= right && line[1] >= top && line[3] >= top &&
         line[1] <= bottom && line[3] <= bottom)
-        return true; /* most lines lie inside: no division is needed */
+        return true; /* the line lies inside, as most lines do */
     double dx = line[2] - line[0], dy = line[3] - line[1], t0 = 0, t1 = 1;
-    /* The point at t = 0 ... 1 of the line is inside if p t <= q. */
+    /* The line's point at t = 0 ... 1 is inside if p[k] t <= q[k] for all k. */
     const double p[4] = {-dx, dx, -dy, dy};
     const double q[4] = {line[0] - left, right - line[0], line[1] - top,
                          bottom - line[1]};
@@ -200,8 +200,8 @@ bool box_clip_line(const Box *box, double margin, double line[4])
 }
 
 /* Blends the colour into the pixels of a column between low and high > low.
- *   across     distance of neighbouring pixels in memory
- *   low, high  fixed point */
+ *   across     distance in memory from a pixel of the column to the next
+ *   low, high  rows in fixed point */
 static inline void blend_column(uint32_t *column, ptrdiff_t across, int low,
                                 int high, Colour colour, uint32_t amount)
 {
@@ -219,7 +219,7 @@ static inline void blend_column(uint32_t *column, ptrdiff_t across, int low,
     *p = blend(*p, colour, part * amount >> FIXED_BITS);
 }
 
-/* Loops over columns, or rows if steep: axis k is along the loop, j across. */
+/* Loops along axis k: columns, or rows of a steep line; j is the other axis. */
 void canvas_line(Canvas *canvas, double x0, double y0, double x1, double y1,
                  double width, Colour colour)
 {
@@ -231,7 +231,7 @@ void canvas_line(Canvas *canvas, double x0, double y0, double x1, double y1,
     const double d[2] = {line[2] - line[0], line[3] - line[1]};
     const int first[2] = {clip->x, clip->y};
     const int behind[2] = {clip->x + clip->width, clip->y + clip->height};
-    /* Distance of neighbouring pixels in memory. */
+    /* Distance in memory to the next pixel along x and along y. */
     const ptrdiff_t next[2] = {1, canvas->width};
     int k = fabs(d[0]) >= fabs(d[1]) ? 0 : 1, j = 1 - k,
         back = d[k] > 0 ? 0 : 2;
@@ -306,11 +306,11 @@ void canvas_arrow(Canvas *canvas, double x0, double y0, double x1, double y1,
 
 /* ---- surfaces ----------------------------------------------------------- */
 
-/* Reduces [*left, *right) to the pixels i of a row with a i + b >= 0. */
+/* Shrinks [*left, *right) to the pixels i with a i + b >= 0; per_a is 1/a. */
 static inline void clip_to_half_plane(double a, double per_a, double b,
                                       int *left, int *right)
 {
-    double i = -b * per_a; /* not finite if a is 0 */
+    double i = -b * per_a; /* root of a i + b; not finite if a is 0 */
     if (a == 0 ? b < 0 : a > 0 ? i > *right : i < *left)
         *left = *right;
     else if (a > 0 && i > *left)
@@ -324,7 +324,7 @@ static inline void clip_to_half_plane(double a, double per_a, double b,
 void canvas_triangle(Canvas *canvas, const double c[6], bool smooth,
                      Colour colour)
 {
-    double edge[3][4]; /* a, b, c, 1/a; a x + b y + c is the distance inside */
+    double edge[3][4]; /* a, b, c, 1/a; a x + b y + c >= 0 is inside */
     double turn = (c[2] - c[0]) * (c[5] - c[1]) - (c[3] - c[1]) * (c[4] - c[0]);
     double reach = smooth ? 1 : 0;
     uint32_t full = find_opacity(colour);
@@ -339,7 +339,7 @@ void canvas_triangle(Canvas *canvas, const double c[6], bool smooth,
         double dx = q[0] - p[0], dy = q[1] - p[1];
         double n = turn > 0 ? 1 : -1;
         if (smooth)
-            n /= math_hypot(dx, dy);
+            n /= math_hypot(dx, dy); /* a x + b y + c is a distance */
         edge[k][0] = -dy * n;
         edge[k][1] = dx * n;
         edge[k][2] = (dy * p[0] - dx * p[1]) * n;
@@ -348,7 +348,7 @@ void canvas_triangle(Canvas *canvas, const double c[6], bool smooth,
     for (int j = box.y; j < box.y + box.height; j++) {
         uint32_t *row = get_pixel_row(canvas, j);
         int left = box.x, right = box.x + box.width;
-        double first[3]; /* a x + b y + c at the middle of pixel 0 */
+        double first[3]; /* a x + b y + c at the row's first pixel */
         for (int k = 0; k < 3; k++) {
             first[k] = edge[k][0] * 0.5 + edge[k][1] * (j + 0.5) + edge[k][2];
             clip_to_half_plane(edge[k][0], edge[k][3],
@@ -357,7 +357,7 @@ void canvas_triangle(Canvas *canvas, const double c[6], bool smooth,
         if (!smooth)
             blend_span(row, left, right, colour, full);
         for (int i = left; smooth && i < right; i++) {
-            double inside = 0.5; /* distance inside; 1/2: full coverage */
+            double inside = 0.5; /* distance from nearest edge, <= 1/2 */
             for (int k = 0; k < 3; k++)
                 inside = MIN(inside, edge[k][0] * i + first[k]);
             row[i] = blend(row[i], colour,

@@ -1,4 +1,4 @@
-/* card_energies.c - energies and orbits' radii over time; energy budget. */
+/* card_energies.c - energies over time, energy budget, radii of orbits. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -6,10 +6,10 @@
 #include "picture/cards.h"
 
 /* The axis covers the whole run, unless the largest energy of the run is more
- * than this many times the largest one until now. */
+ * than this many times the largest energy so far. */
 static const double MAX_AXIS_RATIO = 1000;
-/* The axis becomes logarithmic when the energy has grown by LOG_GROWTH. The
- * ends lie within LOG_LOW and LOG_HIGH times the energy at the start. */
+/* The axis becomes logarithmic when the energy has grown LOG_GROWTH times, and
+ * then shows at most LOG_LOW ... LOG_HIGH times the energy at the start. */
 static const double LOG_GROWTH = 1e6, LOG_HIGH = 1e9, LOG_LOW = 1e-12;
 static const double MIN_STEPS = 8; /* least length of the time axis, steps */
 /* Energies always below this fraction of the largest one have no curve. */
@@ -20,9 +20,9 @@ static const double LEGEND_SIZE = 0.85; /* ems, size of the legend's letters */
 static const double LEGEND_GAP = 1;     /* letters, gap between two entries */
 static const double MIN_PLOT = 4.7;   /* ems, least plot height with its axis */
 static const double MIN_HEIGHT = 9.6; /* ems, least height of the card */
-static const double ROW_HEIGHT = 1.2; /* ems, for each curve after the 4th */
+static const double ROW_HEIGHT = 1.2; /* ems, added for each of curves 5 to 7 */
 
-/* A quantity of a history over time. */
+/* A curve of a quantity of the history over time. */
 typedef struct EnergyCurve {
     const Simulation *simulation;
     const History *history;
@@ -36,11 +36,11 @@ typedef struct EnergyCurves {
     int count; /* number of curves */
     EnergyCurve curve[HISTORY_SERIES];
     int omitted;  /* number of curves for which the card has no room */
-    double t_max; /* s, time of the pane that has come farthest */
+    double t_max; /* s, latest time of all panes */
 } EnergyCurves;
 
-/* Whether the history has one energy for each run, followed by the runs'
- * positions, and not all energies of one run. */
+/* Whether quantity s of the history is the energy of run s; otherwise the
+ * quantities are the energies of a single run. */
 static bool series_are_runs(const Simulation *simulation)
 {
     PictureKind kind = simulation->scene->picture;
@@ -49,7 +49,7 @@ static bool series_are_runs(const Simulation *simulation)
 
 /* Finds the curves of the card.  With several panes or single masses, each pane
  * or run has one curve.  Otherwise the curves are the first three energies, and
- * all that were ever visible beside the largest one. */
+ * each energy that was ever visible beside the largest energy. */
 static EnergyCurves find_energy_curves(const FrameContent *content)
 {
     EnergyCurves all = {.t_max =
@@ -114,7 +114,7 @@ static double find_present_energy(const EnergyCurve *curve)
         return NAN;
     if (!runs && now > history->time[last] * (1 + 1e-12) &&
         !isfinite(simulation_get_energies(curve->simulation, 0).total))
-        return INFINITY; /* the history leaves out infinite energies */
+        return INFINITY; /* infinite energies are not in the history */
     double value = history->value[curve->series][point];
     for (int s = 0; s < history->series && !runs; s++) {
         size = fmax(size, fabs(history->value[s][point]));
@@ -138,15 +138,15 @@ static double find_energy_rounding(const Simulation *simulation)
 }
 
 /* Makes the axis of the energies.  The axis covers the whole run, unless the
- * energies so far would then be too small to see.  The axis is logarithmic on a
- * page with panes, or if the energy has grown a millionfold and none is far
- * below 0.
+ * energies so far would then be too small to see.  The axis is logarithmic if
+ * no energy is far below 0, on a page with several panes or after a growth by
+ * LOG_GROWTH.
  *   last  out, s, upper limit of the times of the curves */
 static Axis make_energies_axis(const Simulation *simulation,
                                const EnergyCurves *all, double *last)
 {
     double first = 0, least = INFINITY, low = 0, high = 0;
-    double lowest = 0, highest = 0; /* ends of the energies in the whole run */
+    double lowest = 0, highest = 0; /* extreme energies of the whole run */
     *last = MIN_STEPS * simulation->options.timestep;
     for (const EnergyCurve *curve = all->curve; curve < all->curve + all->count;
          curve++) {
@@ -172,7 +172,7 @@ static Axis make_energies_axis(const Simulation *simulation,
     double rounding = find_energy_rounding(simulation);
     high = high > rounding ? fmin(high, 1e300) : 1;
     low = fmax(low, -1e300);
-    if (!(first > rounding)) /* a start with E = 0, such as a fall from rest */
+    if (!(first > rounding)) /* the run began with E = 0: a fall from rest */
         first = -low;
     bool panes =
         simulation->options.page && all->count > 1 && all->curve[1].is_total;
@@ -202,7 +202,7 @@ static NumberText format_present_value(const EnergyCurve *one)
     return format_number(is_zero ? 0 : value);
 }
 
-/* Fills a row with the name and the present value of a curve. */
+/* Fills a row of the legend: name and present value of a curve. */
 bool energies_make_legend_row(const FrameContent *content, int row,
                               CardTableRow *cells)
 {
@@ -218,7 +218,7 @@ bool energies_make_legend_row(const FrameContent *content, int row,
 
 /* Writes the names and present values of the curves, or only measures them.
  * Returns the height in pixels.
- *   named  false: leaves the names out, as the panes have them */
+ *   named  false: writes only the values, since each pane shows its name */
 static int write_legend(const Plot *card, const EnergyCurves *all, bool named,
                         bool draw)
 {
@@ -248,7 +248,7 @@ static int write_legend(const Plot *card, const EnergyCurves *all, bool named,
     return used;
 }
 
-/* Leaves out the curve, not the first one, whose largest value is smallest. */
+/* Removes the curve with the smallest maximum; the first curve always stays. */
 static void omit_smallest_curves(EnergyCurves *all)
 {
     double least = INFINITY;
@@ -295,7 +295,7 @@ void draw_energies_card(const Plot *card)
 }
 
 /* Draws a bar for the energy at the start plus the work since then, and a bar
- * for each of its parts.  Each part's bar begins where the part before ends. */
+ * for each of its parts.  A part's bar begins where the bar above it ends. */
 void draw_energy_budget_card(const Plot *card)
 {
     static const double NAME = 7, VALUE = 5.2; /* ems, widths of columns */
@@ -334,8 +334,8 @@ void draw_energy_budget_card(const Plot *card)
     }
 }
 
-/* Draws the radius of each run on a logarithmic axis, and marks the step at
- * which the first run's radius has doubled, if h never changed. */
+/* Draws the radius of each run's orbit on a logarithmic axis.  Marks the step
+ * at which the first run's radius has doubled, if h was never changed. */
 void draw_radius_card(const Plot *card)
 {
     const Simulation *simulation = card->simulation;
@@ -343,7 +343,7 @@ void draw_radius_card(const Plot *card)
     const EnergyCurves all = find_energy_curves(content);
     double last =
         fmax(simulation_time(simulation), 100 * simulation->options.timestep);
-    double most = 0.4; /* powers of ten, half of the axis around 1 m */
+    double most = 0.4; /* decades, half the axis; the middle is 1 m */
     for (int r = 0; r < simulation->runs; r++)
         most =
             fmax(most, 1.1 * fabs(log10(vector_length(simulation->run[r].x))));

@@ -3,7 +3,7 @@
 
 #include "picture/cards.h"
 
-/* Blocks: zero; non-zero in the factor alone; non-zero in the Hessian, too. */
+/* Blocks: zero; non-zero only in the factor; non-zero also in the Hessian. */
 enum { NO_ENTRY, FILL_IN, OWN_ENTRY };
 
 /* Returns the row of a node: the node's number in natural order, else the
@@ -13,11 +13,11 @@ static int matrix_row(const System *system, int node, bool natural)
     return natural ? node : system->elimination_order[node];
 }
 
-/* Computes the pattern of the matrix of the first `springs` springs in natural
- * order, else of its factor (George and Liu 1981). Block [j n + i] is row i > j
- * of column j; block [i n + i] is the number of the node's springs.  Each
- * column of the factor adds its pattern to its parent's column; the parent is
- * the first non-zero row below the diagonal.  NULL: out of memory. */
+/* Returns the pattern of the Hessian of the first `springs` springs if natural,
+ * else of its factor in elimination order (George and Liu 1981).  Block
+ * [j n + i] is row i > j of column j; block [i n + i] counts a node's springs.
+ * Each column of the factor adds its pattern to its parent, the column of its
+ * first non-zero row below the diagonal.  NULL: out of memory. */
 static unsigned char *compute_matrix_pattern(const System *system, bool natural,
                                              int springs)
 {
@@ -41,8 +41,8 @@ static unsigned char *compute_matrix_pattern(const System *system, bool natural,
     return block;
 }
 
-/* Returns the box of the block in row i, column j of n, at least `least` pixels
- * large.  Large blocks have gaps between them. */
+/* Returns the box of the block in row i, column j of n x n blocks, at least
+ * `least` pixels a side.  Large blocks have gaps between them. */
 static Box find_block_box(Box square, int n, int i, int j, int least)
 {
     int side = square.width, gap = n * 5 < side;
@@ -53,8 +53,8 @@ static Box find_block_box(Box square, int n, int i, int j, int least)
                  high > least ? high : least};
 }
 
-/* Draws the matrix above the diagonal, and the factor with its fill below.
- * Marks the blocks of the spring under the mouse, or of a page's newest one. */
+/* Draws the Hessian's blocks; unless natural, also the factor's fill-in below
+ * the diagonal.  Marks the spring under the mouse, or a page's last spring. */
 static void draw_pattern(const Plot *card, Box square, bool natural,
                          int springs)
 {
@@ -91,9 +91,9 @@ static void draw_pattern(const Plot *card, Box square, bool natural,
     free(block);
 }
 
-/* Draws the patterns in the nodes' order and in the order of elimination; while
- * the Hessian is assembled only the first, with the newest spring's triplets at
- * the right of a high card. */
+/* Draws the patterns in natural order and in elimination order.  During the
+ * assembly of the Hessian draws only the first pattern, and on a high card the
+ * triplets of the newest spring at its right. */
 void draw_hessian_pattern_card(const Plot *card)
 {
     Paper *paper = card->paper;

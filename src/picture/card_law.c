@@ -1,8 +1,8 @@
-/* card_law.c - the law of a term as a curve, with a dot at the element
- * (contact, triangle or spring) with the largest force.
+/* card_law.c - the law of an energy term as a curve, with a dot at the most
+ * loaded element (contact, triangle or spring).
  *
- * The curve evaluates the term for this element while one of the element's
- * numbers varies along the axis.  Therefore the dot lies on the curve. */
+ * The curve evaluates the term for this element while its gap, area ratio, slip
+ * speed or strain varies along the x axis, so the dot lies on the curve. */
 #include <math.h>
 #include <string.h>
 
@@ -19,19 +19,19 @@ typedef struct LawPoint {
     EvalPoint eval;
     Element element;  /* contact or triangle */
     FlowLaw spring;   /* law of the spring */
-    double axis_unit; /* unit of axis_low and axis_high, such as d_hat */
+    double axis_unit; /* factor of axis_low and axis_high, such as d_hat */
     double x;         /* value on the axis; NaN: there is no element */
-    double load;      /* the card shows the element with the largest load */
+    double load;      /* measure of load; the largest is drawn */
 } LawPoint;
 
 typedef struct DrawnLaw {
     const char *name; /* value of Options.law_name */
     const char *x_label, *y_label;
     const TermKind *law_term;     /* term with the law */
-    const TermKind *element_term; /* term of the elements; NULL: springs */
+    const TermKind *element_term; /* term with the elements; NULL: springs */
     double (*evaluate)(const void *now, double x);
     double axis_low, axis_high; /* ends of the axis, in units of axis_unit */
-    bool is_milli;              /* the label's unit is mm or mm/s */
+    bool is_milli;              /* x_label is in mm or mm/s */
 } DrawnLaw;
 
 static double element_energy_at(const void *data, double d)
@@ -71,7 +71,7 @@ static double flow_force_at(const void *data, double s)
     return flow_law_slope(now->spring, s - now->spring.ep);
 }
 
-/* Returns the force over the force at the break; 0 after the break. */
+/* Returns force / breaking force for part = strain / strength; 0: broken. */
 static double breaking_force_ratio(const void *now, double part)
 {
     return part > 1 ? 0 : part;
@@ -117,9 +117,9 @@ static double evaluate_law(const DrawnLaw *law, const LawPoint *now)
                                                  : law->evaluate(now, now->x);
 }
 
-/* Finds the law that the scene draws, and the point of the most loaded element
- * on its curve; for friction the point of the mean slip speed of all contacts,
- * weighted by normal force.  Returns NULL if the scene has no law. */
+/* Finds the scene's law, and the point of the most loaded element on its curve.
+ * The point of friction is at the mean slip speed of all contacts, weighted by
+ * their normal forces.  Returns NULL if the scene has no law. */
 static const DrawnLaw *find_law(const Simulation *simulation, LawPoint *most)
 {
     const char *name = simulation->options.law_name;
@@ -150,7 +150,7 @@ static const DrawnLaw *find_law(const Simulation *simulation, LawPoint *most)
     }
     if (!law->element_term)
         return law;
-    double force = 0, mean = NAN; /* sum of normal forces, N; mean slip, m/s */
+    double force = 0, mean = NAN; /* sum of limits mu f_N, N; mean slip, m/s */
     most->eval.term = now.eval.term =
         system_find_term(system, law->element_term);
     for (ElementIterator walk = elements_begin(&now.eval, NULL, 0);

@@ -5,16 +5,16 @@
 
 enum { LINE_POINTS = 161 };
 
-/* The axis of alpha ends at AXIS_END times the first trial, or at PAGE_END
- * times if the curve of the projected p is drawn.  E is shown up to
- * MAX_ABOVE times the depth of the curves; MAX_UPHILL times if p is uphill. */
+/* The alpha axis ends at AXIS_END times the first trial step, at PAGE_END times
+ * with the curve of the projected p.  The E axis ends at MAX_ABOVE times the
+ * depth of the curves at most, at MAX_UPHILL times if p is uphill. */
 static const double AXIS_END = 1.42, PAGE_END = 1.1, MAX_ABOVE = 2.2,
                     MAX_UPHILL = 4;
 static const double WORD_SIZE = 0.88;  /* ems, size of words above the plot */
 static const double ROW_HEIGHT = 1.25; /* ems, height of a row of words */
-static const double WORDS_WIDTH = 28;  /* ems, room for all words in a row */
+static const double WORDS_WIDTH = 28;  /* ems, a narrower legend has two rows */
 
-/* The change of E along p as functions of alpha. */
+/* Changes of E along p as functions of alpha. */
 typedef struct LineCurves {
     double alpha[LINE_POINTS], exact[LINE_POINTS], model[LINE_POINTS];
     double projected[LINE_POINTS]; /* E along the projected p; NaN: none */
@@ -27,9 +27,9 @@ static double line_energy_at(const NewtonTrace *trace, double alpha)
     return isfinite(value) ? value : NAN;
 }
 
-/* Fills the curves and the ends of the axis, from the minimum of the curves to
- * slightly above 0. The quadratic model has its minimum at alpha = 1: since H^
- * p = -g, its curvature p H^ p is minus the slope. */
+/* Fills the curves, and the ends of the E axis from below the curves' minimum
+ * to above 0.  The quadratic model has its minimum at alpha = 1: by Newton's
+ * equation H p = -g its curvature p^T H p is minus its slope g^T p. */
 static void compute_line_curves(const NewtonTrace *trace,
                                 const NewtonTrace *other, LineCurves *curves)
 {
@@ -46,7 +46,7 @@ static void compute_line_curves(const NewtonTrace *trace,
         if (!isnan(curves->exact[i]))
             high = fmax(high, curves->exact[i]);
     }
-    /* If no curve falls, E by the quadratic model gives the depth: slope/2. */
+    /* If no curve falls, depth is the model's rise to alpha = 1, slope/2. */
     double depth = fmax(low < 0 ? -low : 0.5 * trace->slope, 1e-300);
     curves->low = -1.12 * depth;
     curves->high =
@@ -81,14 +81,14 @@ static void draw_trial_step(const Plot *plot, double alpha, double value,
                    format_number(value).text);
 }
 
-/* Writes the legend above the plot, in a room of fixed height. */
+/* Writes the legend in one or two rows, which are cut off from the plot. */
 static void draw_line_legend(const Plot *card, Box *rest)
 {
     Paper *paper = card->paper;
     int rows = card->box.width / paper->em < WORDS_WIDTH ? 2 : 1;
     int high = paper_pixels(paper, rows * ROW_HEIGHT), at[2] = {0, 0};
     TextLine line = text_begin(&card->pane->values, card_line.legend);
-    int air = paper_pixels(paper, 0.4); /* room for superscripts */
+    int air = paper_pixels(paper, 0.4); /* pixels above for superscripts */
     Box words = box_cut_off(rest, EDGE_TOP, high);
     words.y -= air;
     words.height += air;

@@ -4,9 +4,9 @@
 
 #include "picture/cards.h"
 
-/* Height of a row on a page of the lecture, and otherwise, ems. */
+/* Heights of a row (ems): on a page of the lecture; in a scene. */
 static const double PAGE_PITCH = 2.1, PITCH = 1.75;
-/* Height of the table of residuals over that of the main card. */
+/* Part of the main card's height that the table of residuals takes. */
 static const double TABLE_PART = 0.68;
 
 ShownRow listing_make_row(const Pane *pane, const ListingRow *row)
@@ -60,8 +60,8 @@ static void draw_listing_row(const Plot *card, Box box, const ListingRow *row,
                            ALIGN_RIGHT, now.value.text);
 }
 
-/* Draws the rows that are shown now, from the box `line` downwards, and counts
- * them.  With draw NULL only counts. */
+/* Draws the rows that are shown now, from the box `line` downwards; draw NULL:
+ * draws nothing.  Returns the number of these rows. */
 static int lay_out_listing(const FrameContent *content, const ListingRow *row,
                            const Plot *draw, Box line)
 {
@@ -98,7 +98,7 @@ void card_write_listing(const Plot *card, const ListingRow *row)
     lay_out_listing(card->content, row, card, line);
 }
 
-/* Fills a row for each update, and a last row: why the loop has ended. */
+/* Fills a row of an update, or the last row, which says why the loop ended. */
 bool residuals_make_row(const FrameContent *content, int row,
                         CardTableRow *cells)
 {
@@ -123,7 +123,7 @@ bool residuals_make_row(const FrameContent *content, int row,
     return true;
 }
 
-/* Draws the table; a page's main card also plots the residuals, below it. */
+/* Draws the table of residuals, and on a high card their plot below. */
 void draw_residual_log_card(const Plot *card)
 {
     static const int order[CARD_COLUMNS] = {0, 1, 3, 2};

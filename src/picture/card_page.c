@@ -7,17 +7,17 @@
 /* A text of the card, with a heading on its left side. */
 typedef struct PageText {
     const char *heading; /* word in bold letters at the left, or NULL */
-    const char *text;    /* a text of live_values.h, or NULL */
+    const char *text;    /* markup with live values, or NULL */
     Colour colour;       /* colour of the heading */
-    double letter_size;  /* size of the letters, times LETTERS */
+    double letter_size;  /* letters' size / size of the page's letters */
 } PageText;
 
-/* Sizes of a page's letters, ems: usual, on a page with much room, least, and
- * least if the text stays beside question and answer. */
+/* Sizes of a page's letters (ems): usual, largest on a wide card, smallest, and
+ * smallest with the introduction beside the answer. */
 static const double LETTERS = 1.2, LARGEST = 1.45, SMALLEST = 0.8, ALL = 1.1;
-static const double LINE_WIDTH = 24; /* least width of a line, in letters */
-/* Sizes over that of the letters: letters of a formula, width of the heading of
- * a text and of the heading "Tested". */
+static const double LINE_WIDTH = 24; /* card width / size of large letters */
+/* Lengths in multiples of the size of the page's letters: letters of a formula,
+ * width of a text's heading, width of the heading "Tested". */
 static const double FORMULA_SIZE = 1.25, HEADING_WIDTH = 3.2,
                     TESTED_WIDTH = 4.4;
 static const double GAP = 0.35; /* gap between two texts, in line heights */
@@ -25,7 +25,7 @@ static const double GAP = 0.35; /* gap between two texts, in line heights */
 /* Draws a text with its heading, or only measures the text.
  *   y     pixels, top of the text
  *   size  ems, size of the page's letters
- *   room  width for the heading, in sizes of a letter
+ *   room  width for the heading / size of the page's letters
  * Returns the top of the next text. */
 static int lay_out_text(Paper *paper, Box inside, int y, double size,
                         double room, const PageText *words,
@@ -54,7 +54,7 @@ static int lay_out_text(Paper *paper, Box inside, int y, double size,
 
 /* Draws the texts of a page one below the other, or only measures them.
  *   size        ems, size of the letters
- *   keeps_text  the page's text stays beside question and answer
+ *   keeps_text  the introduction stays beside question and answer
  * Returns the height of all texts in pixels. */
 static int lay_out_page(Paper *paper, Box inside, double size,
                         const FrameContent *content, bool keeps_text, bool draw)
@@ -82,8 +82,8 @@ static int lay_out_page(Paper *paper, Box inside, double size,
     return y - (int)(GAP * text_line_height(size * paper->em)) - inside.y;
 }
 
-/* Returns the height of the texts in pixels, before or after the answer,
- * whichever is higher: the letters keep their size when the answer comes. */
+/* Returns the larger height in pixels of the texts with the answer hidden and
+ * shown, so that the letters keep their size when the answer is shown. */
 static int measure_page(Paper *paper, Box inside, double size,
                         const FrameContent *content, bool keeps_text)
 {
@@ -95,7 +95,7 @@ static int measure_page(Paper *paper, Box inside, double size,
     lecture->hides_answer = false;
     lecture->heading[0] = '\0';
     if (lecture->page->answer && !lecture->verdict)
-        lecture->verdict = "0"; /* any text: the verdict's line gets room */
+        lecture->verdict = "0"; /* placeholder for the verdict's line */
     values_add_flag(values, "told", true);
     int after = lay_out_page(paper, inside, size, &other, keeps_text, false);
     lecture->hides_answer = true;
@@ -106,9 +106,9 @@ static int measure_page(Paper *paper, Box inside, double size,
     return before > after ? before : after;
 }
 
-/* The letters are as large as possible if all texts must fit.  The question
- * stays beside the answer; the page's text is left out then if it would make
- * the letters small. */
+/* Draws the texts of a page in the largest letters with which all texts fit.
+ * The question stays beside the answer; the introduction does not if it would
+ * make the letters smaller than ALL. */
 void draw_page_card(const Plot *card)
 {
     const double most =
@@ -139,13 +139,13 @@ Box page_draw_claim(Paper *paper, Box inside, const FrameContent *content)
     return inside;
 }
 
-/* Returns the height in ems of the whole card, in letters of this size. */
+/* Returns the card's height in ems for letters of this size (ems). */
 static double find_card_height(const FrameContent *content, double wide,
                                double em, double size, bool keeps_text)
 {
     Paper paper = {.text = content->fonts, .em = em, .min_letter = 1};
     Box box = {0, 0, (int)(wide * em + 0.5), 0};
-    const double around = 2.6; /* ems, title and margin */
+    const double around = 2.6; /* ems, height of title and margins */
     return measure_page(&paper, box, size, content, keeps_text) / em + around;
 }
 

@@ -11,21 +11,21 @@ enum {
 };
 
 static const double REACH = 1.87; /* m, half the width of the surface */
-static const double HEIGHT = 1.5; /* m, drawn height of the rim above E = 0 */
-/* The surface ends at the rim.  The rim's height is the inertia RIM_INERTIA
- * metres from x_tilde, plus RIM_PASS times the elasticity at the saddle. */
+static const double HEIGHT = 1.5; /* m, height at which the rim is drawn */
+/* The surface ends at a contour, the rim, where E is the inertia RIM_INERTIA
+ * metres from x_tilde + RIM_PASS times the elasticity at the saddle (0, 0). */
 static const double RIM_INERTIA = 1.5, RIM_PASS = 1.7;
-/* Cosine and sine of the angles of view: around the axis of E, above the plane.
- * The x axis points forwards and right, the y axis backwards and right. */
+/* Cosine and sine of the view's angles: TURN around the E axis, RISE above the
+ * xy plane.  The x axis points to the near right, y to the far right. */
 static const double TURN[2] = {0.85, 0.5268}, RISE[2] = {0.7, 0.7141};
 static const Colour LEVEL_COLOUR = 0x90606060u;
 static const double LIGHT[3] = {0.30, -0.45, 0.84}; /* unit vector to light */
 
-/* The surface and its projection. */
+/* The surface of E and its projection to pixels. */
 typedef struct Relief {
     const Simulation *simulation;
-    Plot plot;           /* plot of the projected surface, m */
-    double rim_E;        /* J s^2, height of the rim */
+    Plot plot;           /* maps the projected surface (m) to pixels */
+    double rim_E;        /* J s^2, E of the rim */
     double contour_step; /* J s^2, distance between two contour lines */
 } Relief;
 
@@ -84,7 +84,7 @@ static bool find_contour_piece(const Corner corner[3], double E, Corner end[2])
     return ends == 2;
 }
 
-/* Returns a colour: bright in the light, yellow where E is not convex. */
+/* Returns the colour: bright in the light, yellow where E is not convex. */
 static Colour shade_surface_face(const Relief *relief, const Corner corner[3])
 {
     const Corner *o = &corner[0], *a = &corner[1], *b = &corner[2];
@@ -182,7 +182,7 @@ static void draw_surface_point(const Relief *relief, const double *x,
         plot_label(&relief->plot, 1, at.xy, colour, "%s", word);
 }
 
-/* Draws the updates so far, and the next p as a thin line; uphill is red. */
+/* Draws the updates so far, and the next p as a thin line; red if uphill. */
 static void draw_newton_path(const Relief *relief)
 {
     const Descent *descent = &relief->simulation->descent;
@@ -199,7 +199,7 @@ static void draw_newton_path(const Relief *relief)
     draw_surface_point(relief, x, 6, COLOUR_TEXT, NULL);
 }
 
-/* Draws the minimisers for all h, and the minimiser for the current h. */
+/* Draws the curve of the minimiser as h varies, and a dot for the present h. */
 static void draw_dial_curve(const Relief *relief)
 {
     const DialCurve *dial = &relief->simulation->exhibit.dial;

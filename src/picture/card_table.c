@@ -24,7 +24,7 @@ bool card_make_row(const FrameContent *content, const Card *card, int row,
 
 void card_draw_table(const Plot *card, const Card *table, const int *order)
 {
-    /* Largest size of letters and height of a row, ems. */
+    /* Largest size of letters (ems), largest height of a row / letter size. */
     const double largest = 1.4, most = 2.2;
     Paper *paper = card->paper;
     const Box *box = &card->box;

@@ -6,16 +6,16 @@
 #include "model/inertia_energy.h"
 #include "picture/cards.h"
 
-/* Draws E and its parts along the line from x^n to x_tilde, and E at x, beside
- * the point of the line that is nearest to x. */
+/* Draws E and its parts along the line from x^n (t = 0) to x_tilde (t = 1), and
+ * E at x as a dot at the t of the line's nearest point. */
 void draw_step_energy_card(const Plot *card)
 {
-    enum { POINTS = 31, START = 5, END = 25 }; /* points with t = 0 and 1 */
+    enum { POINTS = 31, START = 5, END = 25 }; /* indices of x^n and x_tilde */
     static const struct {
         const char *name; /* name of the curve */
         Colour colour;
         int label_index;     /* index of the point with the label */
-        double label_factor; /* height of the label over that of the curve */
+        double label_factor; /* height of label / height of curve */
     } parts[] = {{"inertia", COLOUR_X_TILDE, 10, 1},
                  {"h\u00b2 P", COLOUR_SHADED, 20, 0.72},
                  {"E", COLOUR_X, 3, 1}};
@@ -36,7 +36,7 @@ void draw_step_energy_card(const Plot *card)
         along += (x[c] - from[c]) * (aim[c] - from[c]);
         square += (aim[c] - from[c]) * (aim[c] - from[c]);
     }
-    for (int i = 0; i <= POINTS; i++) { /* at last x */
+    for (int i = 0; i <= POINTS; i++) { /* i = POINTS: x */
         t[i] = i < POINTS ? 0.05 * (i - START) : along / fmax(square, 1e-300);
         for (size_t c = 0; c < count; c++)
             at[c] = i < POINTS ? from[c] + t[i] * (aim[c] - from[c]) : x[c];
@@ -69,7 +69,7 @@ void draw_step_energy_card(const Plot *card)
     }
 }
 
-/* Draws the residuals of the updates, and of the next update if p is known. */
+/* Draws the residual of each update, and of the next update if p is known. */
 void draw_residual_card(const Plot *card)
 {
     const NewtonTrace *trace = card->pane->shown_trace;
@@ -111,9 +111,9 @@ void draw_residual_card(const Plot *card)
     plot_label(&plot, 1, left, COLOUR_TEXT, "\u03b5");
 }
 
-/* Fills a row for each update so far.  The row of the current update has the
- * cells that are known at the present line.  Without projection the table has
- * the number of negative eigenvalues of the Hessian, and the slope along p. */
+/* Fills the row of an update.  The row of the current update has the cells that
+ * are known at the algorithm's present line.  Without projection the cells have
+ * the number of negative eigenvalues of the Hessian and the slope along p. */
 bool updates_make_row(const FrameContent *content, int row, CardTableRow *cells)
 {
     const Pane *pane = active_pane(content);
@@ -122,7 +122,7 @@ bool updates_make_row(const FrameContent *content, int row, CardTableRow *cells)
     if (!trace || row == 0)
         return trace;
     bool before = trace->at_line != LINE_NONE && trace->at_line < LINE_UPDATE;
-    /* Number of updates whose step alpha p is in the shown positions. */
+    /* Number of updates that are already added to the shown positions. */
     int made = before ? trace->iteration : trace->record_count;
     bool now =
         before && trace->at_line >= LINE_PROJECT && trace->projected >= 0;

@@ -70,7 +70,7 @@ int frame_find_row(const FrameContent *content, const Layout *layout, double x,
  * that is too wide even in the smallest letters loses its last words. */
 static void draw_list(Paper *paper, Box inside, const RowList *list)
 {
-    const double smallest = 0.85; /* smallest size over the usual size */
+    const double smallest = 0.85; /* smallest factor of the letters' size */
     const ListGrid grid = arrange_list_grid(list, inside, paper->em);
     double em = paper->em, size = fmin(0.95, grid.row_height / (1.3 * em));
     double key = 0, longest = 1, column = inside.width / (double)grid.columns;
@@ -103,7 +103,7 @@ static void draw_list(Paper *paper, Box inside, const RowList *list)
 
 /* ---- code --------------------------------------------------------------- */
 
-/* Counts the lines of a page's code.  Returns the letters of the widest one. */
+/* Counts the lines of the code.  Returns the letters in the longest line. */
 static double measure_code_width(const LecturePage *page, int *lines)
 {
     double widest = 0;
@@ -120,7 +120,7 @@ double code_find_width(const LecturePage *page)
 }
 
 /* Draws code in letters as large as fit; the lines being executed are lit.  If
- * the code is too long, lines after the first are left out, but no lit line. */
+ * the code is too long, leaves out lines, but never the last lit line. */
 static void draw_code(Paper *paper, Box inside, const FrameContent *content)
 {
     const char *const *code = content->lecture.page->code;

@@ -9,15 +9,15 @@ static const double MAIN_CARD_WIDTH = 40; /* ems, least width of a main card */
 static const double TITLE_BAR = 2.0;      /* ems, height of a card's title */
 static const double CARD_ROW = 1.45; /* ems, least height of a table's row */
 
-/* A line of an algorithm.  The strings are texts of live_values.h. */
+/* A line of an algorithm.  The strings are in the markup of live_values.h. */
 typedef struct ListingRow {
-    /* The row is shown if the text shown_if has a line with known values,
-     * struck out if crossed_out_if has one.  shown_if NULL: end of rows. */
+    /* Conditions for showing and crossing out the row: texts, fulfilled if all
+     * values in a line are known.  shown_if NULL: end of the rows. */
     const char *shown_if, *crossed_out_if;
     StepLine at_line; /* line of Algorithm 3 in this row */
-    bool is_indented; /* begins further right */
+    bool is_indented;
     const char *text;
-    const char *value; /* text at the right, once this line has been executed */
+    const char *value; /* text at the right, once the line is executed */
 } ListingRow;
 
 /* A row of a listing as the present frame shows it. */
@@ -35,7 +35,7 @@ extern const ListingRow rows_listing[];
 extern const char text_sentences[], text_methods[], text_states[],
     text_triplets[], text_undrawn[], text_node[], text_spring[];
 
-/* Functions of one kind have the same parameters; some use only one. */
+/* All functions of a type have the same parameters, which some do not use. */
 #pragma GCC diagnostic ignored "-Wunused-parameter"
 
 /* Functions that cards.txt names; picture.h describes each kind. */
@@ -71,7 +71,7 @@ extern CardMakeRow residuals_make_row, updates_make_row, iterates_make_row,
 extern CardHeight page_find_height, listing_find_height, energies_find_height,
     updates_find_height;
 
-/* Returns the height of the page's card with the smallest letters, ems. */
+/* Returns the height of the page's card in the smallest letters, ems. */
 CardHeight page_least_height;
 
 /* Writes the page's claim, which a test checks, at the bottom of the box.
@@ -103,25 +103,24 @@ bool law_find_slip(const Simulation *simulation, int body, double distance[2]);
 /* Whether the picture has a card of this name that is not hidden. */
 bool frame_has_card(const FrameContent *content, const char *name);
 
-/* Returns the text that a line of the page's code contains if the line is lit.
- * In a walk through Algorithm 3 the text depends on the present line. */
+/* Returns a text: lines of the page's code that contain the text are lit.
+ * During Algorithm 3 the text depends on the present line of the algorithm. */
 const char *lecture_find_highlight(const FrameContent *content);
 
-/* Returns the spring that the present step adds to the Hessian. */
+/* Returns the newest spring: each step adds a spring to the Hessian. */
 int find_newest_spring(const Simulation *simulation);
 
 /* Returns the box inside a card, below the title; em in pixels. */
 Box card_inner_box(Box card, double em);
 
 /* Writes all lines with known values into a card, in letters as large as fit:
- * up to the size of plain text, or 1.2 times on pages, 1.6 in main cards. */
+ * up to 1 em; on pages up to 1.2 ems, in main cards of pages up to 1.6 ems. */
 void card_write_text(const Plot *card, const LiveValues *values,
                      const char *text);
 
-/* Writes a line behind the one before, or in a new row if the card is too
- * narrow.  Returns the height of all rows, pixels.
- *   at    [2] in/out, pixels from the card's corner to the next line; at first
- *         0, 0
+/* Writes a line to the right of the last line, or in a new row if the card is
+ * too narrow.  Returns the height of all rows, pixels.
+ *   at    [2] in/out, pixels, place of the next line in the card; at first 0, 0
  *   gap   ems between two lines
  *   draw  false: the line is only measured */
 int card_write_lines(const Plot *card, int at[2], double size, double gap,
@@ -130,9 +129,9 @@ int card_write_lines(const Plot *card, int at[2], double size, double gap,
 /* Writes the first known line of a text in the middle of an empty card. */
 void card_write_hint(const Plot *card, const char *text);
 
-/* Draws a table with columns as wide as their widest cells; a row without a
- * first cell does not widen them.  If the card has not enough room, leaves out
- * the last columns in `order`, and rows after row 1.
+/* Draws a table.  A column is as wide as its widest cell; rows with an empty
+ * first cell do not count.  If the card has not enough room, leaves out the
+ * last columns in `order`, and rows after row 1.
  *   order  [CARD_COLUMNS] in, numbers of the columns; -1 ends them */
 void card_draw_table(const Plot *card, const Card *table, const int *order);
 
@@ -145,14 +144,14 @@ void card_write_listing(const Plot *card, const ListingRow *row);
 /* Returns the width that the code of a page needs, ems. */
 double code_find_width(const LecturePage *page);
 
-/* Fills a row of a table; row 0: the heads.  Returns false after the last. */
+/* Fills a table's row, headings in row 0.  Returns false after the last row. */
 bool card_make_row(const FrameContent *content, const Card *card, int row,
                    CardTableRow *cells);
 
 /* Draws the content of the picture's card with this index into a box. */
 void card_draw(Paper *paper, Box inside, const FrameContent *content, int card);
 
-/* Draws the cards of the layout, and the column's code or list. */
+/* Draws the layout's cards, and the code or list that the column may show. */
 void cards_draw(Paper *paper, const Layout *layout,
                 const FrameContent *content);
 

@@ -16,8 +16,8 @@ Colour colour_of_spring_kind(int kind)
     return colour_of_run(kind < 2 ? kind : 3);
 }
 
-/* The first TERM_COLOURS colours are those of letters and energies: the row of
- * a new energy raises TERM_COLOURS.  Then come words and methods. */
+/* The first TERM_COLOURS rows are terms (letters and energies); words and
+ * methods follow.  With a row for a new energy TERM_COLOURS grows by 1. */
 enum { TERM_COLOURS = 21 };
 static const struct {
     const char *name;
@@ -46,7 +46,7 @@ static const struct {
              {"faint", COLOUR_FAINT},
              {"grey", COLOUR_GREY},
              {"shaded", COLOUR_SHADED},
-             {"orange", 0xffd55e00u}, /* colour of run 0, 1, 2, 3 */
+             {"orange", 0xffd55e00u}, /* orange to purple: run 0 to run 3 */
              {"green", 0xff009e73u},
              {"blue", 0xff0072b2u},
              {"purple", 0xffb0559au},

@@ -12,13 +12,13 @@
 #define COLOUR_FAINT     0xff6a6a6au
 #define COLOUR_GREY      0xff9c9c9cu /* contours, ticks, inactive words */
 #define COLOUR_GRID      0xffe4e4e4u
-#define COLOUR_RULE      0xffdcdcdcu /* lines between zones */
+#define COLOUR_RULE      0xffdcdcdcu /* lines between zones of the window */
 #define COLOUR_BORDER    0xffcfcfcfu /* borders of cards and chips */
 #define COLOUR_CHIP      0xfff6f6f6u
-#define COLOUR_LIT       0xfffff1cdu /* behind the current row or chip */
-#define COLOUR_HIGHLIGHT 0xffffe14du /* behind the term under the mouse */
-#define COLOUR_PANEL     0xd8ffffffu /* behind words on a picture */
-#define COLOUR_NOTE      0xfffffff4u /* behind the note at the mouse */
+#define COLOUR_LIT       0xfffff1cdu /* background of the current row or chip */
+#define COLOUR_HIGHLIGHT 0xffffe14du /* background of the highlighted term */
+#define COLOUR_PANEL     0xd8ffffffu /* background of words on a picture */
+#define COLOUR_NOTE      0xfffffff4u /* background of the note at the mouse */
 #define COLOUR_WARNING   0xffd00000u
 #define COLOUR_VALUE     0xff0044b0u /* numbers that can be changed */
 #define COLOUR_BAR       0xffccd6eau /* bar of a step in the time line */
@@ -26,7 +26,7 @@
 /* Colours of the slides' letters and of their pictures. */
 #define COLOUR_X        0xff0000ffu /* positions, springs; as on the slides */
 #define COLOUR_FOLDED   0xff0a0a3cu /* faces of cells that have turned over */
-#define COLOUR_X_TILDE  0xff8e3fb0u /* x_tilde: a step without forces */
+#define COLOUR_X_TILDE  0xff8e3fb0u /* x_tilde, end of a step without forces */
 #define COLOUR_P        0xffc96a00u /* direction p, the quadratic model */
 #define COLOUR_ALPHA    0xff00796bu /* step lengths */
 #define COLOUR_PROJECT  0xffd3156bu /* springs with a projected block */
@@ -50,7 +50,7 @@
 /* Half plane of the directions that point downhill. */
 #define COLOUR_DOWNHILL 0x2656b4e9u
 
-/* Returns the colour of pane or run 0, 1, ... if there are several. */
+/* Returns the colour that tells pane or run number `run` from the others. */
 Colour colour_of_run(int run);
 
 /* Returns the colour of horizontal (0), vertical (1) and diagonal springs. */

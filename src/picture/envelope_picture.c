@@ -1,9 +1,9 @@
-/* envelope_picture.c - the map of h and k for which the square converges. */
+/* envelope_picture.c - map of convergence by time step and spring stiffness. */
 #include <math.h>
 
 #include "picture/cards.h"
 
-/* Shades from few updates (light) to many (dark), by powers of two. */
+/* Shade 0: up to 4 updates; each next, darker shade: up to twice as many. */
 enum { ENVELOPE_SHADES = 4 };
 
 static Colour colour_of_shade(int shade)
@@ -41,7 +41,7 @@ static Box find_cell_box(const Plot *stage, int column, int row)
                  pixel_from_coordinate(ceil(p[1])) - top - 1};
 }
 
-/* Draws the line h^2 k = ratio m of a constant ratio of stiffnesses. */
+/* Draws the line on which h^2 k / m is `ratio`, m being the mass of a node. */
 static void draw_ratio_line(const Plot *plot, double ratio)
 {
     double m = plot->simulation->system.m[0];
@@ -55,7 +55,7 @@ static void draw_ratio_line(const Plot *plot, double ratio)
     plot_label(plot, 1, ends[1], COLOUR_TEXT, "%s", format_number(ratio).text);
 }
 
-/* Draws the cells over the lines of the axes; the selected one has a border. */
+/* Draws axes, cells, a border around the selected cell, and the ratio lines. */
 void draw_envelope_picture(Plot *stage)
 {
     const EnvelopeMap *map = &stage->simulation->exhibit.envelope;

@@ -27,7 +27,7 @@ bool frame_has_card(const FrameContent *content, const char *name)
 static CardSets find_start_card_sets(const Simulation *simulation)
 {
     const Picture *picture = picture_of_scene(simulation->scene);
-    const char *open = simulation->options.open_cards; /* NULL: no page */
+    const char *open = simulation->options.open_cards; /* NULL: not on a page */
     CardSets sets = {.enlarged = -1};
     for (int c = 0; c < picture->count; c++) {
         /* strstr suffices: no card's name is part of another one. */

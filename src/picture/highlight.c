@@ -8,9 +8,9 @@
 
 #include "picture/cards.h"
 
-static const double HIGHLIGHT_RADIUS = 4; /* units of paper around each pixel */
+static const double HIGHLIGHT_RADIUS = 4; /* units of 1/14 em around a pixel */
 static const double MOUSE_REACH = 0.5;    /* ems, from mouse to term at most */
-static const double MIN_COVERAGE = 0.5;   /* least part of a term's colour */
+static const double MIN_COVERAGE = 0.5;   /* least share of colour in a pixel */
 
 static int get_channel(Colour colour, int k)
 {
@@ -110,7 +110,7 @@ void draw_highlight(Paper *paper, const FrameContent *content)
     bool plain =
         over == PICK_NODE || (over == PICK_SWITCH && !(layers & LAYER_KINDS));
     if (plain || (colour == COLOUR_X && stage) || layers & LAYER_CURVES)
-        colour = 0; /* a node, a switch, springs and curves are no terms */
+        colour = 0; /* the mouse highlights no node, switch, spring or curve */
     if (!colour && trace && frame_has_card(content, "listing"))
         colour = of_line[trace->at_line];
     if (colour)

@@ -5,12 +5,12 @@
 
 #include "picture/cards.h"
 
-/* Levels of the contours, J s^2; the bottom of both valleys is below 1. */
+/* Levels of the contours for h up to 0.2 s, J s^2; dense where E is small. */
 static const double map_levels[] = {0.1, 0.2, 0.4, 0.6, 1,  1.5, 2,
                                     3,   5,   7,   10,  15, 30,  50};
 enum { MAP_LEVELS = sizeof map_levels / sizeof *map_levels };
 
-/* Colours of g1 = 0 and g2 = 0, g = grad E; "green", "blue" in cards.txt. */
+/* Colours "green" and "blue" for the zeros of components 1 and 2 of grad E. */
 static const Colour curve_colour[2] = {0xff009e73u, 0xff0072b2u};
 
 /* ---- the map ------------------------------------------------------------ */
@@ -24,7 +24,7 @@ static double difference_to_contour(double value)
     return nearest;
 }
 
-/* Returns the factor of the contours' levels, which grows with elasticity. */
+/* Returns the factor of the contours' levels: elasticity grows as h^2. */
 static double find_contour_scale(const Simulation *simulation)
 {
     double h = simulation->run[0].h / 0.2;
@@ -43,9 +43,9 @@ bool landscape_is_convex(const LocalModel *E)
     return E->H[0] > 0 && E->H[0] * E->H[2] > E->H[1] * E->H[1];
 }
 
-/* Draws contours in the two by two pixels at (i, j), where the function is
- * nearly linear.  The distance to a contour in pixels is the difference from
- * the contour's level over the slope.
+/* Draws contours in the 2 x 2 pixels from (i, j) on, where the function is
+ * nearly linear: the distance to a contour in pixels is the difference from the
+ * contour's level divided by the slope.
  *   right, up  slopes per pixel
  *   zero       draws the contour of 0 instead of the map's levels */
 static void draw_contours(const Plot *plot, int i, int j, double value,
@@ -66,7 +66,7 @@ static void draw_contours(const Plot *plot, int i, int j, double value,
     }
 }
 
-/* Draws the region where E is not convex, contours, and g1 = 0 and g2 = 0. */
+/* Draws contours, zeros of grad E's components, and the nonconvex region. */
 static void draw_contour_map(const Plot *plot)
 {
     const Simulation *simulation = plot->simulation;
@@ -142,8 +142,8 @@ static Plot draw_landscape_map(const Plot *stage)
 
 /* ---- Newton's path ------------------------------------------------------- */
 
-/* Finds and marks the minima by Newton's method, and the saddle unless it would
- * cover the directions of LAYER_DOWNHILL. */
+/* Marks the minima and the saddle of E, found by Newton's method.  The saddle
+ * is left out with LAYER_DOWNHILL, as its label would cover the arrows. */
 static void mark_stationary_points(const Plot *plot)
 {
     const Simulation *simulation = plot->simulation;
@@ -166,8 +166,8 @@ static void mark_stationary_points(const Plot *plot)
     }
 }
 
-/* Draws the direction p of the run, red if uphill.  If `both`, and if inertia
- * and elasticity are on, also draws p with the other choice of projection. */
+/* Draws the direction p of the run, red if uphill, and if `both` also p with
+ * projection switched on or off.  For one part of E: the run's p if `both`. */
 static void draw_newton_directions(const Plot *plot, bool both)
 {
     const Simulation *simulation = plot->simulation;
@@ -201,7 +201,7 @@ static void draw_newton_directions(const Plot *plot, bool both)
                    raw ? "\u0124" : "H", format_digits(slope, 2).text);
 }
 
-/* Returns a length beyond the diagonal of the view, m. */
+/* Returns a length greater than the diagonal of the view, m. */
 static double find_length_beyond_view(const Plot *plot)
 {
     return 4 * (plot->box.width + plot->box.height) / plot->camera.scale[0];
@@ -226,7 +226,7 @@ static void draw_force_arrows(const Plot *plot, const LocalModel *E)
         plot_arrow(plot, x, E->g, -1, 2.2, COLOUR_TEXT);
 }
 
-/* Returns the sum of these parts of E at x; values below rounding become 0. */
+/* Returns the sum of the given parts of E at x; values below 1e-30 become 0. */
 static double energy_of_parts(const Simulation *simulation, unsigned parts,
                               const double *x)
 {
@@ -242,8 +242,8 @@ static void append_energy_part_name(unsigned parts, LiveValues *values)
                                              : "elasticity");
 }
 
-/* Adds the number of updates that Algorithm 1 makes from the descent's start,
- * and at the end of the descent the new velocity. */
+/* Adds live values: the number of updates that Algorithm 1 makes from the start
+ * of the descent, and after the last update the new velocity. */
 static void add_newton_values(const Simulation *simulation, LiveValues *values)
 {
     const Descent *descent = &simulation->descent;
@@ -333,8 +333,8 @@ static void draw_model_ellipses(const Plot *plot, const LocalModel *E)
     }
 }
 
-/* Draws lines where the linearised components of the gradient are 0, and after
- * the answer a ring where they meet. */
+/* Draws the lines on which a linearised component of the gradient is 0, and
+ * once the page shows its answer a ring at their crossing. */
 static void draw_linearised_zeros(const Plot *plot, const LocalModel *E)
 {
     const double *x = plot->simulation->descent.iterate;
@@ -419,7 +419,7 @@ void draw_landscape_picture(Plot *stage)
 
 /* ---- the dial ----------------------------------------------------------- */
 
-/* Draws the path of the minimiser over h, with discs at powers of ten of h. */
+/* Draws the curve of minimisers for all h, discs where h is a power of ten. */
 void draw_dial_picture(Plot *stage)
 {
     const Simulation *simulation = stage->simulation;
@@ -433,7 +433,7 @@ void draw_dial_picture(Plot *stage)
     plot_disc(&plot, simulation->run[0].x, 9, COLOUR_TEXT);
     plot_label(&plot, 1, simulation->exhibit.x_tilde, COLOUR_X_TILDE, "{xt}");
     for (int i = points - 11; i > 10 && plot.has_text; i -= 10) {
-        bool last = i == points - 11; /* the last label stands above its disc */
+        bool last = i == points - 11; /* the label of h[i] and all larger h */
         double at[2];
         plot_to_pixel(&plot, dial->point[i], at);
         paper_write_on_panel(

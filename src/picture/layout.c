@@ -7,8 +7,8 @@
 
 /* Heights of the zones, ems. */
 static const double STRIP = 3.1, SETTINGS = 2.6, TIME_LINE = 4.9, CHIPS = 3.0;
-/* Least height of a graph on a page: GRAPH_PART of the window's height, and in
- * ems GRAPH_AXES for title and axes and GRAPH_LEGEND for a legend. */
+/* Least height of a graph on a page: GRAPH_PART of the window's height, plus
+ * GRAPH_AXES ems for title and axes, plus GRAPH_LEGEND ems for a legend. */
 static const double GRAPH_PART = 0.17, GRAPH_AXES = 4.4, GRAPH_LEGEND = 1.5;
 /* Further sizes, ems. */
 static const double GAP = 0.9;     /* margins of the zones, gap between cards */
@@ -21,23 +21,23 @@ static const double HEADING = 2.2;      /* height of a group's heading */
 static const double MIN_COLUMN = 27;    /* least width of the column */
 static const double MIN_PAIR = 28;      /* least width for two cards in a row */
 
-static const double BOLD = 1.12; /* width of bold over normal letters */
-/* If the main card is on the stage and the column has no room, the picture has
- * this fraction of the stage's width beside the card or of its height below. */
+static const double BOLD = 1.12; /* factor by which bold letters are wider */
+/* The picture's fraction of the stage: of the width beside the main card, or of
+ * the height below the main card if the column has no room for the picture. */
 static const double PICTURE_PART = 0.45;
 /* A picture that would be narrower than MIN_BESIDE ems beside the main card is
  * placed below, in the fraction PICTURE_BELOW of the stage's height. */
 static const double MIN_BESIDE = 17, PICTURE_BELOW = 0.53;
-/* Largest height of a card below the picture over that of the stage; least
- * height of a main card over its min_height. */
+/* Largest height of a card below the picture, as a fraction of the stage's; and
+ * least height of a main card below the picture, in multiples of min_height. */
 static const double CARD_BELOW = 0.65, MAIN_CARD_GROWTH = 1.3;
-static const double MIN_SHRINK = 0.7; /* least height over the height needed */
-/* Width of the settings in a low window over that of the window. */
+static const double MIN_SHRINK = 0.7; /* least fraction of the needed heights */
+/* Fraction of a low window's width that the settings have. */
 static const double SETTINGS_PART = 0.75;
 
-/* Width of the column over that of the window: COLUMN_PART; for a page's texts
- * up to PAGE_PART, or BIG_PART in large type; for code and long lists up to
- * WIDE_PART.  Lists of more than MAX_LIST_ROWS rows are long. */
+/* The column's fraction of the window's width is COLUMN_PART.  The fraction
+ * grows up to PAGE_PART (BIG_PART in large type) until a page's texts fit.
+ * Code and lists of more than MAX_LIST_ROWS rows have up to WIDE_PART. */
 static const double COLUMN_PART = 0.38, PAGE_PART = 0.50, BIG_PART = 0.57,
                     WIDE_PART = 0.75, COLUMN_GROWTH = 0.01;
 enum { MAX_LIST_ROWS = 30 };
@@ -62,7 +62,7 @@ static Box get_box_column(Box box, int index, int count, int gap)
 }
 
 /* Places boxes of these widths from the left, `gap` apart, in at most `lines`
- * lines, each as high as the room.  Returns how many boxes fit. */
+ * lines.  room.height is the height of a line.  Returns how many boxes fit. */
 static int place_boxes(Box room, int lines, int gap, int count,
                        const int *width, Box *box)
 {
@@ -94,7 +94,7 @@ static int place_first_and_last(Box room, int gap, int count, const int *width,
     return fit;
 }
 
-/* Counts the characters of UTF-8, with those of the markup; 0 for NULL. */
+/* Counts the characters of a UTF-8 text, markup included; 0 for NULL. */
 static int count_letters(const char *text)
 {
     int letters = 0;
@@ -104,9 +104,9 @@ static int count_letters(const char *text)
 }
 
 /* Places the settings in one to three lines at the bottom of `rest`, which
- * loses their height.  In a low window places them in one line at the right of
- * the time line; the last setting, which may list all numbers, has room first.
- * Settings without room are left out. */
+ * loses their height.  In a low window the settings stand in one line at the
+ * right of the time line; room for the last setting, which may open the list of
+ * all settings, is kept.  Settings without room are left out. */
 static void place_settings(const SettingsRow *row, Layout *layout, bool low,
                            Box *rest)
 {
@@ -265,10 +265,11 @@ static int find_card_rows(const FrameContent *content, const Layout *layout,
 
 /* Gives each row its minimum height, lets the texts of a page grow to their
  * usual size, and shares the rest of the free height by the weights.
- * If the column is too low, closes rows from the last one on; cards in pairs
- * and a single open row close only if the cards would shrink too much.  If the
- * column is still too low, shrinks all heights but those of the page's texts.
- * Returns whether the column was high enough; in large type, for the texts. */
+ * If the column is too low, closes rows from the last one on.  Cards in pairs
+ * and a single open row are closed only outside of the lecture, if the cards
+ * would shrink below MIN_SHRINK.  If the column is still too low, shrinks all
+ * heights but those of the page's texts.  Returns whether the page's texts have
+ * their usual size; in large type, whether the smallest letters fit. */
 static bool place_cards(const FrameContent *content, Layout *layout)
 {
     CardRow rows[LAYOUT_MAX_CARDS] = {{0}};
@@ -323,12 +324,12 @@ static bool place_cards(const FrameContent *content, Layout *layout)
     return fits;
 }
 
-/* Places the panes in the number of columns that gives the largest panes. */
+/* Places the panes in as many columns as leave each pane the largest square. */
 static void place_panes(int count, Layout *layout)
 {
     int columns = 1, gap = ems_to_pixels(layout, 0.15);
     double best = 0;
-    for (int c = 1; c <= count; c++) { /* the larger square wins */
+    for (int c = 1; c <= count; c++) { /* c columns */
         int rows = (count + c - 1) / c;
         double side = fmin((double)layout->stage.width / c,
                            (double)layout->stage.height / rows);
@@ -390,7 +391,8 @@ static void place_overview(const FrameContent *content, Layout *layout)
     layout->cells = content->sheet.cells;
 }
 
-/* Places a card below the panes, at least `least` pixels high if they fit. */
+/* Places a card below the panes, at least `least` pixels high, but not higher
+ * than CARD_BELOW of the stage. */
 static void place_card_below(const FrameContent *content, Layout *layout,
                              int card, double least)
 {
@@ -412,7 +414,7 @@ static void place_card_below(const FrameContent *content, Layout *layout,
 static void place_main_card(const FrameContent *content, Layout *layout)
 {
     const int main_card = find_main_card(content);
-    double bar = 3 * layout->em; /* a closed card is lower */
+    double bar = 3 * layout->em; /* a lower card is closed */
     if (main_card < 0 || layout->cards == 0 || layout->panes != 1 ||
         layout->stage.height < 2 * bar ||
         (content->cards.enlarged >= 0 && content->cards.enlarged != main_card))
@@ -439,10 +441,10 @@ static void place_main_card(const FrameContent *content, Layout *layout)
     *stage = place;
 }
 
-/* On a page, places below the picture, in a part of the stage, the first card
- * that has no room in the column.  Exceptions: pages with a main or enlarged
- * card; if code is shown in normal type, also those with several switches or
- * panes, which need the whole stage. */
+/* On a page, places the first card that has no room in the column on the stage,
+ * below the picture.  Does nothing if a main or enlarged card exists, or if
+ * code is shown in normal type and several switches or panes need the whole
+ * stage. */
 static void place_card_without_room(const FrameContent *content, Layout *layout)
 {
     const Simulation *simulation = active_pane(content)->simulation;
@@ -461,13 +463,13 @@ static void place_card_without_room(const FrameContent *content, Layout *layout)
     const Box stage = layout->stage, title = layout->card[folded];
     place_card_below(content, layout, folded,
                      layout->has_list ? stage.height - 0.8 * stage.width : 0);
-    Box *first = &layout->card[0]; /* may grow into the moved card's place */
+    Box *first = &layout->card[0]; /* card 0 may grow into the free place */
     if (!layout->has_list && title.y <= first->y + first->height + layout->em)
         first->height = title.y + title.height - first->y;
 }
 
-/* On a page an em is at least the smaller one of height/55 and width/64; in
- * large type of height/35 and width/54. */
+/* The least em on a page is the smaller one of height/55 and width/64, in large
+ * type the smaller one of height/35 and width/54. */
 Layout layout_create(const FrameContent *content, int width, int height)
 {
     Layout layout = {.width = width, .height = height};
@@ -508,7 +510,7 @@ Layout layout_create(const FrameContent *content, int width, int height)
         }
         if (!page || content->column == COLUMN_CODE)
             layout.cards = picture->count;
-    } else if (!bare && page) { /* without room the column hides the stage */
+    } else if (!bare && page) { /* code or a list covers the stage */
         layout.column = layout.stage;
     }
     layout.has_list = page && layout.column.width > 0;

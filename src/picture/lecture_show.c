@@ -46,7 +46,7 @@ static void list_formula_letters(FrameContent *content)
     content->list.row_count = (int)(row - content->list.row);
 }
 
-/* Adds the lines of a text that have live values or, if not `live`, none. */
+/* Adds a text's lines with live values; live false: the lines without. */
 static void add_text_lines(const char *text, bool live, char *out, size_t size)
 {
     while (*text) {

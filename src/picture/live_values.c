@@ -106,7 +106,7 @@ static void add_setting_values(const Simulation *simulation, LiveValues *values)
     values_add_flag(values, "of a solid", get_neo_hookean(&simulation->system));
     values_add_flag(values, "done", simulation->is_over);
     if (simulation->is_over && scene->step == step_descent &&
-        descent->residual <= options->tolerance) { /* no slope at x */
+        descent->residual <= options->tolerance) { /* the gradient is 0 at x */
         const double *x = descent->iterate;
         int down = descent_classify_hessian(simulation, x[0], x[1]);
         values_add_flag(values, "saddle", down == 1);
@@ -144,8 +144,8 @@ static void add_trace_values(const Simulation *simulation,
     const NewtonRecord *last = count > 0 ? trace->record + count - 1 : NULL;
     if (simulation->scene->parts & HAS_TIME && last &&
         last->status == STATUS_OK) {
-        /* A bound shows that the next p is small enough, or rounding hides the
-         * change of E by the last p. */
+        /* negligible: a bound shows that the next p is small enough; hidden:
+         * p was left out, because rounding hides the change of E along p. */
         values_add_flag(values, "negligible",
                         last->residual > trace->tolerance);
         values_add_flag(values, "hidden",
@@ -391,7 +391,7 @@ bool text_has_known_line(const LiveValues *values, const char *text)
 
 /* ---- the title bar ------------------------------------------------------- */
 
-/* Fills an empty string with the first line whose values are known. */
+/* Fills an empty string with a text's first line whose values are known. */
 static void expand_text(const LiveValues *values, const char *text,
                         char *string, size_t size)
 {

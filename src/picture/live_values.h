@@ -2,8 +2,8 @@
  *
  * A text is lines of markup in which a name in braces stands for a live value:
  * "line 5: {alpha} = {length:/}".
- *   - A line that names an unknown value is left out: a flag is a value without
- *     words.  Many texts show only their first line with known values.
+ *   - A line with an unknown value is left out.  A flag adds no words, and is
+ *     unknown if false.  Many texts show only their first line of known values.
  *   - {-H} is the negative of H.  After a colon: the number of digits (else 3),
  *     / to write 1/4 instead of 0.25, ' to put a negative number in
  *     parentheses.  Braces of the markup (text.h) stay markup.

@@ -1,4 +1,4 @@
-/* mass_picture.c - pictures of masses: on a circle, with arrows of one step. */
+/* mass_picture.c - masses on a circle, and a mass with the arrows of a step. */
 #include <math.h>
 #include <string.h>
 
@@ -13,13 +13,13 @@ static const double MASS_REACH = 1.9;    /* m, least half side of the view */
 static const double CIRCLE_REACH = 1.75; /* m, least half side of the view */
 static const double CIRCLE_MAX = 4;      /* m, largest radius that is shown */
 static const double TWO_PI = 6.283185307179586;
-static const double EIGEN_REACH = 1.35; /* least half side of the plane */
-static const double EIGEN_MAX = 5;      /* largest eigenvalue that is shown */
+static const double EIGEN_REACH = 1.35; /* least half side of the shown plane */
+static const double EIGEN_MAX = 5;      /* largest |eigenvalue| that is shown */
 /* Room for the eigenvalues as numbers, ems. */
 static const double NUMBERS_WIDE = 16.4, NUMBERS_HIGH = 9;
 static const double origin[2] = {0, 0};
 
-/* Returns the colour of a run's method, or of x for the one mass of arrows. */
+/* Returns the colour of a run's method; one mass with arrows has COLOUR_X. */
 static Colour colour_of_mass(const Simulation *simulation, int run)
 {
     return simulation->runs == 1 && simulation->scene->picture == PICTURE_MASS
@@ -54,7 +54,7 @@ static double compute_energy(const double *x, const double *v)
     return 0.5 * (x[0] * x[0] + x[1] * x[1] + v[0] * v[0] + v[1] * v[1]);
 }
 
-/* Samples the radius (scene circle) or energy of each run, then positions. */
+/* Lists the radius (scene circle) or energy of each run, then x, y of each. */
 int mass_sample_energies(const Simulation *simulation, Energy *row)
 {
     static const char *const places[] = {"x0", "y0", "x1", "y1", "x2", "y2"};
@@ -292,8 +292,8 @@ static void draw_step_error(const Plot *stage, const MassStep *step, double h,
 }
 
 /* Draws what a page explains: the exact end of the step; for forward Euler the
- * error, whose labels have room in the first step; for symplectic Euler with
- * h < 2 the ellipse through the steps. */
+ * error, in the first step also with labels and with the error for h/2; for
+ * symplectic Euler with h < 2 the ellipse through the steps. */
 static void draw_step_explanation(Plot *stage, const MassStep *step)
 {
     double h = stage->simulation->run[0].h;
@@ -426,7 +426,7 @@ void list_mass_values(const Simulation *simulation, LiveValues *values)
                      step.moves_by_old_v ? step.v : step.new_v);
     double h = simulation->run[0].h;
     if (!step.moves_by_old_v && !backward) {
-        /* |x|^2 + |v|^2 - h x.v; growth for h > 2 makes the sum inexact */
+        /* Symplectic Euler keeps |x|^2 + |v|^2 - h x.v (h < 2: an ellipse). */
         double kept = 2 * compute_energy(step.x, step.v) -
                       h * (step.x[0] * step.v[0] + step.x[1] * step.v[1]);
         values_add_flag(values, "ellipse", h < 2);

@@ -49,7 +49,7 @@ NumberText format_power_of_ten(const char *value)
     }
     while (point && digits > 1 && strchr("0.", digit[digits - 1]))
         point = digit[--digits] != '.';
-    bool one = digits == 1 && *digit == '1'; /* 10^{6}, not 1 times it */
+    bool one = digits == 1 && *digit == '1'; /* 10^{6}, not 1*10^{6} */
     snprintf(out.text, sizeof out.text, "%s%.*s%s10^{%s%.*s}%.16s",
              digit > value ? "\u2212" : "", one ? 0 : digits, digit,
              one ? "" : "\u00b7", digit[length + 1] == '-' ? "\u2212" : "",

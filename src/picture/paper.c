@@ -8,7 +8,7 @@
 #include "picture/colour_map.h"
 #include "simulation/message.h"
 
-enum { PAPER_TEXT_SIZE = 768, PAPER_EM = 14 };
+enum { PAPER_TEXT_SIZE = 768, PAPER_EM = 14 }; /* bytes of a text; pixels */
 
 /* A line that is too wide shrinks to at least this fraction of its size. */
 static const double MIN_FIT = 0.6;

@@ -8,7 +8,7 @@ static const double LEGEND_ROOM = 1.8; /* ems, height of a line of the legend */
 /* Heights in ems.  On a page a pane lower than LOW_PANE keeps room for words
  * above the picture; a pane lower than MIN_TEXT has no words. */
 static const double LOW_PANE = 20, MIN_TEXT = 11;
-static const double HANDLE_REACH = 14;   /* pixels, from mouse to handle */
+static const double HANDLE_REACH = 14;   /* pixels, pick radius of a handle */
 static const double SWITCH_WIDTH = 13;   /* ems */
 static const double SWITCH_HEIGHT = 1.8; /* ems */
 
@@ -131,7 +131,7 @@ static Box box_of_switch(const Plot *stage, int i, int count)
     const Box *box = &stage->box;
     int wide = (int)(SWITCH_WIDTH * stage->em);
     int high = (int)(SWITCH_HEIGHT * stage->em), gap = (int)(0.4 * stage->em);
-    bool narrow = box->width < 3 * wide; /* the legend needs the upper edge */
+    bool narrow = box->width < 3 * wide; /* the legend fills the top */
     int top =
         narrow ? box->height - (count + 1) * (high + gap) : high + 3 * gap;
     return (Box){box->x + box->width - wide - gap,
@@ -163,8 +163,8 @@ static void draw_switches(const Plot *stage)
     }
 }
 
-/* Draws the user's guess as a cross, or along x alone as a vertical line, and
- * dashes to the place where the step has led. */
+/* Draws the user's guess as a cross, with a vertical line if only x is guessed,
+ * and a dashed line from the guess to the outcome of the step. */
 static void draw_guess(const Plot *stage)
 {
     const Prediction *guess = &stage->simulation->prediction;

@@ -10,7 +10,7 @@ enum {
     PLOT_MAX_Y_INTERVALS = 4,  /* most intervals between the numbers of y */
     PLOT_MAX_TICKS = 40,       /* most ticks of an axis */
     PLOT_GRAPH_POINTS = 400,   /* points of a graph */
-    PLOT_ELLIPSE_CORNERS = 120 /* corners of an ellipse */
+    PLOT_ELLIPSE_CORNERS = 120 /* corners of a polygon drawn for an ellipse */
 };
 
 static const double TURN = 6.283185307179586; /* 2 pi */
@@ -60,7 +60,7 @@ static void set_plot_camera(Plot *plot, int k, const Axis *axis)
         k ? box->y + box->height + scale * low : box->x - scale * low;
 }
 
-/* Returns the number at a tick; values below rounding become 0. */
+/* Returns the number at a tick; values below 1e-9 of the axis become 0. */
 static NumberText format_tick(const Axis *axis, double value)
 {
     double span = axis->high - axis->low;
@@ -96,7 +96,7 @@ static int find_ticks(const Axis *axis, bool upright, double ems, double *ticks)
     double step = plot_round_up((high - low) / intervals);
     if (!(high - low > 0) || !isfinite(high - low))
         return 0;
-    if (axis->scale == SCALE_LOG) /* whole powers of ten */
+    if (axis->scale == SCALE_LOG) /* step: a whole number of decades */
         step = ceil((floor(high + 1e-9) - ceil(low - 1e-9)) / intervals);
     if (axis->scale != SCALE_LINEAR)
         step = fmax(step, 1);

@@ -60,7 +60,7 @@ static inline int plot_pane_index(const Plot *plot)
 }
 
 /* A point or vector as the value of a function:
- * plot_line(plot, a, point_along(a, t, d).at, ...). */
+ * plot_line(plot, a, point_along(a, t, d).xy, ...). */
 typedef struct Point {
     double xy[2];
 } Point;
@@ -91,17 +91,17 @@ static inline double vector_length(const double *d)
 /* Rounds value > 0 up to 1, 2 or 5 times a power of ten. */
 double plot_round_up(double value);
 
-/* Rounds value > 0 up to a multiple of a tick: the end of an axis from 0. */
+/* Rounds value > 0 up to the last tick of an axis that begins at 0. */
 double plot_round_axis_end(double value);
 
 /* Makes the plot inside a card, and draws its axes with their numbers. */
 Plot plot_create(const Plot *card, Axis x, Axis y);
 
-/* Makes the plot inside a stage.  Draws its axes if the stage has text.  An
- * axis covers the range that the camera sees, unless y.high is not 0. */
+/* Makes the plot inside a stage.  Draws its axes if the stage has text.  The
+ * axes cover what the camera sees; y.high != 0: y covers y.low ... y.high. */
 Plot plot_create_on_stage(const Plot *stage, Axis x, Axis y);
 
-/* Maps a point to pixels, which are not finite for logarithms below 0. */
+/* Maps a point to pixels: not finite for values <= 0 on a logarithmic axis. */
 void plot_to_pixel(const Plot *plot, const double *at, double pixel[2]);
 
 /* Picks the point nearest to pixel (x, y), the last one if several are equally
@@ -111,8 +111,8 @@ bool plot_pick_point(const Plot *plot, int count, const double *at,
                      double reach, double x, double y, PickKind kind,
                      Pick *pick);
 
-/* Finds bounds of a square view around the origin: half a side is `least`
- * metres times the smallest power of `factor` that reaches `needed`. A view
+/* Finds bounds of a square around the origin.  Half a side is `least` metres,
+ * multiplied by `factor` until half a side is at least `needed` metres: a view
  * that grows by steps seldom moves. */
 void bounds_make_square(double least, double needed, double factor,
                         double bounds[4]);
@@ -179,15 +179,15 @@ void plot_label(const Plot *plot, int points, const double *at, Colour colour,
 
 /* ---- numbers (number_text.c) --------------------------------------------- */
 
-/* A number as markup, 100000 or 2.5 10^{7}; format_number: three digits. */
+/* A number as markup, such as 0.25 or 10^{7}.  format_number has 3 digits. */
 typedef struct NumberText {
     char text[48];
 } NumberText;
 NumberText format_digits(double value, int digits);
 NumberText format_number(double value);
 
-/* Returns a value as options write it, with 1e-06 as 10^{-6}; a value that is
- * being typed stays as it is. */
+/* Returns an option's value as markup: 1e-06 becomes 10^{-6}.  A value that the
+ * user is typing ends with "_" and stays as it is. */
 NumberText format_power_of_ten(const char *value);
 
 /* ---- stages (picture.c) -------------------------------------------------- */

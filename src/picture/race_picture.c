@@ -5,9 +5,9 @@
 
 #include "picture/cards.h"
 
-enum { HALVED_STEP_COLUMNS = 2 };        /* columns of halved h */
+enum { HALVED_STEP_COLUMNS = 2 };        /* columns for h/2 and h/4 */
 static const double NAMES_WIDTH = 20;    /* ems; a narrower plot has no names */
-static const double TARGET_ERROR = 0.01; /* m, limit for fast runs */
+static const double TARGET_ERROR = 0.01; /* m, largest accepted error */
 
 /* Returns bounds as powers of ten, of h or run time (ms) and of the error (m).
  * Errors below 1e-8 m and above 10 m may be outside. */
@@ -18,7 +18,7 @@ void find_race_bounds(const Plot *stage, double bounds[4])
     bounds[0] = over_h ? -1.8 : -3.4;
     bounds[1] = -7.4;
     bounds[2] = over_h ? 1.1 : 2.1; /* names */
-    bounds[3] = 1.2;                /* room for the switch above */
+    bounds[3] = 1.2;                /* room for the scene's switch */
     for (int i = 0; i < race->count; i++) {
         const RacePoint *point = &race->point[i];
         double x = log10(1e3 * (over_h ? point->h : point->seconds));
@@ -33,7 +33,7 @@ void find_race_bounds(const Plot *stage, double bounds[4])
 }
 
 /* Draws a curve through the points of each method; points of runs that explode
- * later are hollow.  Over h also draws the slopes of order 1 and 2. */
+ * later are hollow.  If x is h, also draws the slopes of order 1 and 2. */
 void draw_race_picture(Plot *stage)
 {
     const Simulation *simulation = stage->simulation;
@@ -105,7 +105,7 @@ void list_race_values(const Simulation *simulation, LiveValues *values)
     values_add_flag(values, "failed", simulation->status);
 }
 
-/* Writes a finite number into a cell of the table. */
+/* Writes a number into a cell, which stays as it is if value is not finite. */
 static void format_cell(char cell[CARD_CELL], const char *sign, double value)
 {
     if (isfinite(value))
@@ -113,8 +113,8 @@ static void format_cell(char cell[CARD_CELL], const char *sign, double value)
                  format_digits(value, 2).text);
 }
 
-/* Fills row 0 with heads, a method's row with its error (m) at the shown h and
- * with the factors by which the error falls when h is halved once and twice. */
+/* Fills a method's row with its error (m) at the shown h, and with the factors
+ * by which the error falls from h to h/2 and from h/2 to h/4. */
 bool race_make_row(const FrameContent *content, int row, CardTableRow *cells)
 {
     const Race *race = &active_pane(content)->simulation->exhibit.race;

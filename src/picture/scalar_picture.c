@@ -52,7 +52,7 @@ static ScalarUpdate find_scalar_update(const Simulation *simulation, int i)
     return update;
 }
 
-/* Returns f (or f') at x, for plot_graph. */
+/* Returns f at x, or f' if shows_derivative, for plot_graph. */
 static double evaluate_f(const void *data, double x)
 {
     const ScalarUpdate *update = data;
@@ -60,7 +60,7 @@ static double evaluate_f(const void *data, double x)
     return update->shows_derivative ? at.g[0] : at.energy;
 }
 
-/* Returns the model (or the tangent) at x, for plot_graph. */
+/* Returns the model at x, or the tangent of f' if shows_derivative. */
 static double evaluate_model_at(const void *data, double x)
 {
     const ScalarUpdate *update = data;
@@ -261,7 +261,7 @@ static void write_digits(double x, char text[DIGITS_TEXT_SIZE])
              x < 0 ? "\u2212" : "", fabs(x));
 }
 
-/* Fills a row for each iterate; digits unlike those of the zero are grey. */
+/* Fills a row with iterate row - 1; digits from the first wrong on are grey. */
 bool iterates_make_row(const FrameContent *content, int row,
                        CardTableRow *cells)
 {

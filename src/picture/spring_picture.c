@@ -40,7 +40,7 @@ static double force_at_length(const void *system, double d)
     return evaluate_spring((double[2]){d, 0}, system).force[0];
 }
 
-/* Returns minus the slope of P_root at a signed length d. */
+/* Returns minus the slope of the energy P_root at a signed length d. */
 static double root_force_at_length(const void *data, double d)
 {
     const System *system = data;
@@ -143,7 +143,7 @@ void list_spring_values(const Simulation *simulation, LiveValues *values)
     const double *d = simulation->run[0].x, k = system->k[0];
     double l2 = system->l2[0], H[3];
     SpringValues now = evaluate_spring(d, system);
-    /* Eigenvalues of the block. */
+    /* Nonzero eigenvalues of [[H, -H], [-H, H]], twice those of H. */
     double along = 2 * now.eigenvalue_along, across = 2 * now.eigenvalue_across;
     bool page = simulation->options.page;
     bool folds = simulation->options.projection == PROJECTION_ABS && !page;
@@ -183,7 +183,7 @@ void list_spring_values(const Simulation *simulation, LiveValues *values)
 
 typedef double SpringFunction(const void *system, double d);
 
-/* Draws a function of P and one of P_root, with dots at length d. */
+/* Draws of_p over the length, and of_root if the switch is on; dots at d. */
 static Plot plot_over_length(const Plot *card, double d, Axis y,
                              SpringFunction *of_p, SpringFunction *of_root)
 {

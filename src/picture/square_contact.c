@@ -8,11 +8,11 @@
 
 static const double SLAB = 1;         /* ems, thickness of a thin wall */
 static const double FORCE_ARROW = 4;  /* ems, arrow's length in the legend */
-static const double MIN_FORCE = 0.02; /* smallest drawn over largest force */
+static const double MIN_FORCE = 0.02; /* smallest drawn force / largest force */
 
-/* Computes the force of a contact on its node, with friction, from positions
- * and velocities alone, which the past keeps of each step.  Returns the slip
- * over the slip speed eps_v; NaN: the contact has no friction.
+/* Computes the force of a contact on its node, with friction, from x and v
+ * alone: the past stores no forces.  Returns the speed of the slip in units of
+ * the slip speed eps_v; NaN: the contact has no friction.
  *   at        evaluation point of the contact term
  *   force     [2] N, out
  *   friction  term of the friction at these contacts; NULL: none */
@@ -106,7 +106,7 @@ void square_write_friction(const SquarePen *pen)
         end[0] = fmax(end[0], pen->x[2 * (size_t)i]);
         end[1] = fmin(end[1], pen->x[2 * (size_t)i]);
     }
-    for (int k = 0; k < 2; k++) { /* first right, then left of the body */
+    for (int k = 0; k < 2; k++) { /* label places: right, left of the body */
         at[2 * k] = end[k] + (k ? -out : out);
         at[2 * k + 1] = wall->o[1] + slope * (at[2 * k] - wall->o[0]);
         plot_to_pixel(stage, at + 2 * k, p);
@@ -119,7 +119,7 @@ void square_write_friction(const SquarePen *pen)
 }
 
 /* Draws a wall as a half plane or a thin slab, and dashes at the distance
- * `reach` where the force begins, which a page enlarges and labels. */
+ * `reach` where the contact force begins; pages label the dashes. */
 static void draw_wall(const Plot *stage, const Obstacle *wall, double reach,
                       bool as_slab)
 {

@@ -96,7 +96,7 @@ static void draw_mouse_note(const Plot *stage, const LiveValues *values,
     card_write_text(&note, values, text);
 }
 
-/* Writes the note about a node; the force m g - grad P has no friction. */
+/* Writes the note about a node; its force m g - grad P is without friction. */
 static void describe_node(Plot *stage, const Pane *pane, int node)
 {
     const Simulation *simulation = pane->simulation;

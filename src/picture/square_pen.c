@@ -12,15 +12,15 @@
 
 enum { MAX_GHOST_SPRINGS = 700 }; /* most springs that a ghost shows */
 
-static const double FLOWN_VIEW = 30; /* sides, width of the widest usual view */
-static const double NODE_RADIUS = 0.1; /* radius of a node over the spacing */
+static const double FLOWN_VIEW = 30;   /* widest usual view / square's side */
+static const double NODE_RADIUS = 0.1; /* radius of a node / node spacing */
 static const double MIN_FACE = 4;      /* pixels, least side of a face */
 
 /* ---- sizes and colours -------------------------------------------------- */
 
-/* Returns the strain at the ends of the colour scale: half of the strain at the
- * start or of the largest plastic strain, at least 5 %.
- *   ep  [springs] in, plastic strain; NULL: the scale is for strain */
+/* Returns the strain at the ends of the colour scale: the scene's choice, or
+ * half of the strain at the start, at least 5 %.
+ *   ep  [springs] in; not NULL: half of the largest plastic strain instead */
 static double find_strain_range(const Simulation *simulation, const double *ep)
 {
     double most = ep ? 0 : fabs(fabs(simulation->options.stretch) - 1);
@@ -87,8 +87,8 @@ SquarePen square_pen_create(Plot *stage, int run)
     return pen;
 }
 
-/* Returns the colour of a spring or face by plastic strain or by strain; 0: no
- * colour.  While projection is shown, short springs have COLOUR_PROJECT. */
+/* Returns the colour of a spring or face by strain or plastic strain; without a
+ * scale COLOUR_PROJECT if compressed and projections are shown, 0 if not. */
 static Colour choose_spring_colour(const SquarePen *pen, double plastic,
                                    double strain, bool shorter)
 {
@@ -212,7 +212,8 @@ static Colour choose_face_colour(const SquarePen *pen, const int node[4],
                                  double side, int cell)
 {
     int corner[4], spring[6];
-    double l2 = 2 * side * side, plastic = 0, d[2]; /* l2, d of a diagonal */
+    /* Diagonals: l2 is the squared rest length, d the vector of the second. */
+    double l2 = 2 * side * side, plastic = 0, d[2];
     double other2 = spring_vector((int[2]){node[3], node[1]}, pen->x, d);
     double d2 = spring_vector((int[2]){node[2], node[0]}, pen->x, d);
     double strain = (sqrt(d2) + sqrt(other2)) / (2 * sqrt(l2)) - 1;
@@ -224,7 +225,7 @@ static Colour choose_face_colour(const SquarePen *pen, const int node[4],
     Colour colour =
         choose_spring_colour(pen, plastic, strain, d2 < l2 || other2 < l2);
     double seen = copysign(sqrt(fabs(strain) / pen->shade_strain), strain);
-    double turned = (d[1] - d[0]) / sqrt(d2); /* 0 in a face that is upright */
+    double turned = (d[1] - d[0]) / sqrt(d2); /* 0 in a face without rotation */
     return colour ? colour : shade_of_blue(0.55 + 0.9 * seen + 0.3 * turned);
 }
 

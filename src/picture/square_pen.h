@@ -13,7 +13,7 @@ typedef struct SquarePen {
     const double *x, *v; /* [2n] m, m/s */
     double spacing; /* pixels between nodes at rest; more if nodes flew apart */
     double width;   /* width of a spring */
-    double node_radius;     /* radius of a node */
+    double node_radius;
     double shade_strain;    /* strain of the lightest shade of faces */
     double colour_range;    /* strain of the end colours; 0: no colours */
     bool shows_plastic;     /* colours show plastic strain */

@@ -9,17 +9,17 @@
 
 enum {
     ARROW_SPACING = 16, /* pixels, least distance between two arrows */
-    MIN_CELL = 5,       /* pixels, least size of cells with drawn springs */
-    MAX_NUMBERED = 121  /* most nodes of a mesh with node numbers or forces */
+    MIN_CELL = 5,       /* pixels; smaller cells are drawn as faces */
+    MAX_NUMBERED = 121  /* largest mesh with node numbers or forces */
 };
 
-static const double MIN_ARROW = 1.5; /* ems; shorter arrows of p are scaled */
-static const double MAX_GROWTH = 1e303; /* limit of the view's growth */
-/* Sizes of the first view over that of the square: with words, and bare. */
+static const double MIN_ARROW = 1.5; /* ems; shorter directions are enlarged */
+static const double MAX_GROWTH = 1e303; /* largest growth factor of the view */
+/* Width of the first view / width of the square: with words, and without. */
 static const double VIEW_SIZE = 1.14, BARE_VIEW_SIZE = 1.75;
 static const double MAGNIFIER_SIDE = 11; /* ems */
-/* Distances up to which balls, grounds and a pull are shown, in halves of the
- * view, unless the user asks for all. */
+/* Distances up to which balls, grounds and the target of a pull are shown, in
+ * half widths or heights of the view; the user may ask for all obstacles. */
 static const double BALL_REACH = 4, GROUND_REACH = 2, PULL_REACH = 16;
 
 /* ---- how much of the world is seen -------------------------------------- */
@@ -35,8 +35,8 @@ typedef struct Extent {
     double middle[2], half_size[2];
 } Extent;
 
-/* Returns the view that the scene sets, else the square at the start, at most
- * twice as wide as at rest; a compressed square has room to bulge. */
+/* Returns the view that the scene sets, or a view that fits the square at the
+ * start, up to twice its rest width; compressed squares have room to bulge. */
 static Extent find_default_view(const FrameContent *content,
                                 const Simulation *simulation)
 {
@@ -98,10 +98,9 @@ static void widen_to_circle(const Extent *seen, const double at[2],
     }
 }
 
-/* Widens the view to show the balls in reach, of each ground in reach a strip
- * that is wide enough for the mouse, and the place to which a script pulls. The
- * obstacle that the hand pushes is in reach wherever it is, and so are all when
- * the user asks for all. */
+/* Widens the view to show each ball in reach, a strip of each ground in reach
+ * (wide enough for the mouse), and the place to which a script pulls.  The
+ * pushed obstacle is always in reach, and with shows_all every obstacle. */
 static void widen_to_obstacles(const Plot *stage, Extent *view)
 {
     const Simulation *simulation = stage->simulation;
@@ -185,7 +184,7 @@ static double find_view_growth(const double box[4], const Extent *view,
 
 /* Starts from the first view, which follows a free body.  While nodes are
  * outside, the view grows by factors of 1.5 and moves with the nodes.  At last
- * the view widens to show obstacles in reach, and the target of the hand. */
+ * the view widens to obstacles in reach and to the place of a script's pull. */
 void find_square_bounds(const Plot *stage, double bounds[4])
 {
     static const double GROWTH = 1.5;
@@ -402,7 +401,7 @@ static void draw_node_arrows(const SquarePen *pen, const double *d,
     for (int i = 0; i < nodes; i++)
         longest = fmax(longest, vector_length(d + 2 * i));
     factor = factor == 0 ? most / longest : factor;
-    for (int k = 0; k < 2 * nodes; k++) { /* the white rims come first */
+    for (int k = 0; k < 2 * nodes; k++) { /* white rims of the arrows first */
         const double *di = d + k % nodes * 2;
         plot_arrow(pen->stage, pen->x + k % nodes * 2, di,
                    fmin(factor, most / fmax(vector_length(di), 1e-300)) *
@@ -441,7 +440,7 @@ static void draw_page_arrows(const SquarePen *pen)
     for (int i = 0; i < 2 * system->nodes; i++)
         arrow[i] *= system->m[i / 2];
     draw_node_arrows(pen, arrow, 0, COLOUR_FORCE, "force on each node");
-    if (!(layers & LAYER_KINDS)) /* the page's text names the last node */
+    if (!(layers & LAYER_KINDS)) /* pages without kinds mention the node */
         plot_label(pen->stage, 1, pen->x + 2 * system->nodes - 2, COLOUR_TEXT,
                    "node %d", system->nodes - 1);
 }
@@ -509,7 +508,7 @@ static void draw_magnifier(const SquarePen *pen)
 /* Draws how far a body has slid, and how far a rigid body would slide. */
 static void draw_slid_distance(const Plot *stage, int body)
 {
-    static const double ABOVE = 0.04; /* m, from the body up to the arrow */
+    static const double ABOVE = 0.04; /* m, arrow's height above the body */
     const SquareMesh *mesh = &stage->simulation->mesh;
     const double *x = stage->simulation->run[0].x;
     double gone[2], from[2] = {INFINITY, -INFINITY};
@@ -602,9 +601,9 @@ int find_newest_spring(const Simulation *simulation)
     return simulation->steps < last ? (int)simulation->steps : last;
 }
 
-/* For the spring of the present step adds h^2 H, kg, H projected, as entries
- * xx, xy and yy, and the numbers of the four rows that its block [[H, -H], [-H,
- * H]] has in the whole matrix. */
+/* Adds values of the spring that the present step puts into the matrix: entries
+ * xx, xy, yy of B = h^2 H, kg (H: projected 2x2 Hessian), and the numbers of
+ * the four rows of its block [[B, -B], [-B, B]]. */
 static void add_block_values(const Simulation *simulation, LiveValues *values)
 {
     static const char *const names[] = {"Bxx", "Bxy", "Byy"};

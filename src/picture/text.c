@@ -104,7 +104,7 @@ void text_free(Text *text)
     if (!text)
         return;
     forget_glyphs(text);
-    FT_Done_FreeType(text->library); /* frees the fonts, too */
+    FT_Done_FreeType(text->library); /* also frees the fonts */
     free(text);
 }
 

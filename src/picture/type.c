@@ -21,7 +21,7 @@ static const double LINE_ASCENT = 0.93, LINE_DESCENT = 0.37;
 static const double LETTER_ASCENT = 0.76, LETTER_DESCENT = 0.24;
 static const double SCRIPT_SIZE = 0.8;
 static const double MARK_SIZE = 1.3;            /* size of a hat or tilde */
-static const double RAISE = 0.36, LOWER = 0.18; /* super-, subscripts */
+static const double RAISE = 0.36, LOWER = 0.18; /* shift of ^{...} and _{...} */
 static const double FRACTION_SIZE = 0.9; /* size of a fraction's letters */
 static const double AXIS_HEIGHT = 0.28;  /* height of a fraction's line */
 static const double SPACE = 0.12; /* space around fractions and in brackets */
@@ -339,7 +339,7 @@ double text_line_height(double size)
     return (LINE_ASCENT + LINE_DESCENT) * size;
 }
 
-/* Returns the extent of a pen's letters, at least that of a line of words. */
+/* Returns the extent of a pen's letters, at least as high as plain words. */
 static TextExtent find_line_extent(const Pen *pen)
 {
     const TextStyle *style = &pen->style;

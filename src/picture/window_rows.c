@@ -5,9 +5,9 @@
 #include <stdio.h>
 
 enum {
-    MIN_STEPS = 60, /* least number of steps that the time line has room for */
-    MIN_BAR = 3,    /* pixels, least width of a bar; narrower bars are merged */
-    FULL_BAR_UPDATES = 12 /* updates of a full bar, unless a step has more */
+    MIN_STEPS = 60,       /* least number of steps of a time line */
+    MIN_BAR = 3,          /* pixels, width below which bars are merged */
+    FULL_BAR_UPDATES = 12 /* least number of updates at a bar's full height */
 };
 
 static const double TOPIC_SIZE = 1.3; /* ems, letters of the topic */

@@ -1,4 +1,4 @@
-/* words.c - words of a plot: texts, legend, scale, labels on free ground. */
+/* words.c - words of plots: texts, legend, scale bar, labels in free places. */
 #include <limits.h>
 #include <math.h>
 
@@ -39,7 +39,7 @@ void card_write_text(const Plot *card, const LiveValues *values,
     Paper *paper = card->paper;
     Box box = card->box;
     double height = 0, size = 1;
-    if (card->content->lecture.page) /* a page is read from a distance */
+    if (card->content->lecture.page) /* larger letters for an audience */
         size = box.width > MAIN_CARD_WIDTH * paper->em ? 1.6 : 1.2;
     const TextLine begin = text_begin(values, text);
     for (TextLine line = begin; text_next_line(&line);) {

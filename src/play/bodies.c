@@ -97,6 +97,6 @@ Status obey_drag_handle(Player *player, const Command *command)
     if (!status)
         status = player_edit_step(player, command, ALL_PANES, false);
     if (past->current > now)
-        past->branch[now].left_step = step; /* undo shows this step again */
+        past->branch[now].left_step = step; /* undo returns to `step` */
     return status;
 }

@@ -179,7 +179,7 @@ void command_format(const Command *command, char *line, size_t size)
     for (const char *at = row->args; at; at = skip_to_next_argument(at)) {
         char word[COMMAND_TEXT_SIZE];
         if (*at == 'V' && command->number < 0)
-            continue; /* an unknown option: its text has the value */
+            continue; /* `text` has name and value of an unknown option */
         if (*at == 'N')
             snprintf(word, sizeof word, "%ld", command->number);
         else if (*at == 'X' || *at == 'Y')
@@ -209,7 +209,7 @@ Status script_add(Script *script, long step, const Command *command,
     ScriptLine line = {step, *command, gesture};
     ScriptLine *last = script->lines ? script->line + script->lines - 1 : NULL;
     bool same = gesture && last && last->gesture == gesture;
-    if (gesture) /* a drag needs no & to join its grab */
+    if (gesture) /* drag and release join their grab without "&" */
         line.command.joins_gesture = same && command->kind != COMMAND_DRAG &&
                                      command->kind != COMMAND_RELEASE;
     if (same && last->due_step == step &&

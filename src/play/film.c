@@ -18,7 +18,7 @@ static const struct FilmKind {
     {".mp4", 60, COMMON},
     {".webm", 60,
      COMMON " -c:v libvpx-vp9 -crf 30 -b:v 0 -deadline realtime -cpu-used 5"},
-    {".gif", 50, /* each frame has its own palette */
+    {".gif", 50, /* stats_mode=single makes a palette for each frame */
      "-vf 'split[a][b];[a]palettegen=stats_mode=single[p];"
      "[b][p]paletteuse=new=1'"},
     {".apng", 60, "-pix_fmt rgb24 -plays 0"},

@@ -10,7 +10,7 @@
 #include "play/playing.h"
 
 static const double LONG_WORK = 0.3;  /* longer work is reported, s */
-static const double SMALL_LETTER = 9; /* pixels, smallest letters in files */
+static const double SMALL_LETTER = 9; /* smallest font without window, pixels */
 
 /* ---- the list of keys ---------------------------------------------------- */
 
@@ -47,7 +47,7 @@ static void build_key_list(FrameContent *content)
         const CommandRow *command = &command_rows[kind];
         if (!command->label)
             continue;
-        if (command->label[0]) /* "": the keys belong to the row above */
+        if (command->label[0]) /* empty label: the keys join the row above */
             snprintf((row++)->text, SENTENCE_SIZE, "%s", command->label);
         for (const char *at = command->keys; *at; at += *at == '|') {
             char key[VALUE_SIZE], *keys = row[-1].key;
@@ -276,8 +276,8 @@ static void build_time_line(const Player *player, FrameContent *content)
     const Past *past = &player->past;
     const char *turn = player_simulation(player)->scene->step_name;
     char *text = content->time_line.label;
-    double time = 0, longest = -1; /* time of the pane with the longest h, s */
-    bool shared = true;            /* true if panes share one h */
+    double time = 0, longest = -1; /* time of the pane of longest timestep, s */
+    bool shared = true;            /* all panes have the same time step */
     for (int p = 0; p < past_pane_count(past); p++) {
         const Simulation *now = &past->pane[p].simulation;
         bool goes = past_find_made_step(past, p, past->step) == past->step;
@@ -315,8 +315,8 @@ static void build_time_line(const Player *player, FrameContent *content)
              player_active_pane(player)->outcome.updates);
 }
 
-/* If the page is changed, writes a heading for Look with the page's own
- * options: "The page's own answer, with h = 1 s:". */
+/* If the user has changed the page, writes a heading of the answer with the
+ * page's own values: "The page's own answer, with h = 1 s:". */
 static void write_page_heading(const Player *player, LectureContent *lecture)
 {
     const OptionRow *row[OPTIONS_MAX_ROWS];
@@ -333,7 +333,7 @@ static void write_page_heading(const Player *player, LectureContent *lecture)
                             sizeof value);
         size_t comma = strcspn(value, ",");
         if (player_simulation(player)->descent.scalar)
-            value[comma] = '\0'; /* y is left out: one unknown */
+            value[comma] = '\0'; /* only x: the scene has one unknown */
         append(text, sizeof text,
                value[comma] ? "%s%s = (%.*s)%s" : "%s%s = %.*s%s", before,
                option_get_label(row[i]), (int)strcspn(value, " "), value,
@@ -408,7 +408,7 @@ static void build_frame_content(const Player *player, WindowFrame *frame)
     frame_expand_texts(content);
 }
 
-/* Finds again what is under the mouse if a body was, which may have moved. */
+/* Updates the object under the mouse, as nodes and obstacles may have moved. */
 static void update_hovered_object(Player *player)
 {
     const FrameContent *content = &player->screen.frame.content;
@@ -436,7 +436,7 @@ void player_build_frame(Player *player)
 Paper *player_prepare_paper(Player *player)
 {
     static bool is_warned; /* the user was told that the font is missing */
-    const char *font = getenv("ELASTO_FONT"); /* "": pictures have no words */
+    const char *font = getenv("ELASTO_FONT"); /* empty: no words in pictures */
     Paper *paper = &player->screen.paper;
     const Canvas *canvas = &paper->canvas;
     int size[2] = {player->screen.paper_size[0], player->screen.paper_size[1]};

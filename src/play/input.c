@@ -30,7 +30,7 @@ static MouseTarget find_mouse_target(Player *player)
     const Paper *paper = player_prepare_paper(player);
     const FrameContent *content = &player->screen.frame.content;
     DragBounds *held = &player->screen.view.drag_bounds;
-    if (player->screen.must_redraw) /* the frame can be of a discarded step */
+    if (player->screen.must_redraw) /* the frame may show a discarded step */
         player_build_frame(player);
     MouseTarget target = {
         .layout = layout_create(content, paper ? paper->canvas.width : 1,
@@ -133,8 +133,8 @@ static Status accept_typed_text(Player *player)
 
 /* ---- the stage ----------------------------------------------------------- */
 
-/* Sets the dragged number by the distance to the start of the drag; a dragged
- * edge of the square sets the stretch, in hundredths. */
+/* Sets the dragged number by the distance from the start of the drag.  A
+ * dragged edge of the square sets the stretch, rounded to 0.01. */
 static Status drag_number(Player *player, const MouseTarget *target)
 {
     const Mouse *mouse = &player->hands.mouse;
@@ -147,12 +147,12 @@ static Status drag_number(Player *player, const MouseTarget *target)
         fmax(rint(200 * fabs(target->point[0]) / now.side), 2) / 100;
     if (!row)
         return STATUS_OK;
-    if (row->count > 1) /* refused: several numbers */
+    if (row->count > 1) /* change_number refuses an option of several numbers */
         return change_number(player, row, 1);
     if (row->display.notch_increment > 0 || row->kind == OPTION_NAME)
         notches = rint(notches);
     else if (notches == rint(notches))
-        notches += 1e-9; /* keeps option_find_value_after_wheel from rounding */
+        notches += 1e-9; /* whole notches would lead to round values */
     if (!edge)
         wanted =
             option_find_value_after_wheel(row, &mouse->start_options, notches);
@@ -230,8 +230,8 @@ static Status begin_press(Player *player, const MouseTarget *target)
     }
 }
 
-/* Adds a ball with a radius of 1/8 of the square, at least of 0.7 cells so that
- * the ball cannot slip between two nodes, and less if a node is near. */
+/* Adds a ball.  Its radius is 1/8 of the square, in a coarse mesh 0.7 cells so
+ * that the ball cannot slip between nodes, and smaller beside a node. */
 static Status add_ball(Player *player, const double at[2])
 {
     const Simulation *simulation = player_simulation(player);
@@ -251,8 +251,8 @@ static Status add_ball(Player *player, const double at[2])
     return status;
 }
 
-/* Moves an obstacle with the mouse: pushes the obstacle while time goes on; in
- * a pause, places it as far on the way to `at` as all panes have room. */
+/* Pushes the dragged obstacle to `at` while time goes on.  In a pause, places
+ * the obstacle at `at`, or on the way if a body in a pane blocks the way. */
 static Status drag_obstacle(Player *player, const double at[2])
 {
     Past *past = &player->past;
@@ -288,7 +288,7 @@ static Status continue_drag(Player *player)
     mouse->has_moved = mouse->has_moved || math_hypot(dx, dy) > CLICK_TOLERANCE;
     if (mouse->dragged_id >=
         player_count_targets(player, player->active, mouse->drag_command))
-        mouse->drag_command = COMMAND_NONE; /* an undo removed the part */
+        mouse->drag_command = COMMAND_NONE; /* undo removed the dragged part */
     switch (mouse->has_moved ? mouse->drag_command : COMMAND_NONE) {
     case COMMAND_GRAB: /* a drag frees a pinned node */
         if (!player->hands.is_holding) {
@@ -328,7 +328,7 @@ static Status continue_drag(Player *player)
 
 /* ---- events -------------------------------------------------------------- */
 
-/* Stores what is under the mouse; runs a cell of the envelope at once. */
+/* Stores the object under the mouse.  A cell of the envelope is computed. */
 static Status describe_hovered_object(Player *player)
 {
     FrameView *view = &player->screen.view;
@@ -388,7 +388,7 @@ static Status press_left_button(Player *player, const MouseTarget *target,
         return obey(player, COMMAND_CARD, index);
     case ZONE_CARD:
         return obey(player, COMMAND_ENLARGE, index);
-    case ZONE_TIME: /* a click goes to the step under the mouse, too */
+    case ZONE_TIME: /* a click, like a drag, shows the step under the mouse */
         player->hands.mouse.drag_command = COMMAND_GOTO;
         player->hands.mouse.has_moved = true;
         return continue_drag(player);
@@ -472,7 +472,7 @@ static Status release_button(Player *player)
         return player_show_refusal(player, player_obey_queue(player, false));
     }
     if (drag == COMMAND_SET && mouse->has_moved)
-        player_deselect(player); /* only a click leaves the number selected */
+        player_deselect(player); /* after a click the selection stays */
     if (drag == COMMAND_SET && !mouse->has_moved && mouse->dragged_id >= 0 &&
         player->hands.selected && player->hands.selected->kind == OPTION_NAME)
         return change_number(player, player->hands.selected, 1);
@@ -517,7 +517,7 @@ static Status obey_mouse_input(Player *player, const Input *input)
     return rests ? STATUS_OK : describe_hovered_object(player);
 }
 
-/* A drag is one gesture.  Successive turns of the wheel are one, too. */
+/* A key, a drag, and successive turns of the wheel are one gesture each. */
 Status player_obey_input(Player *player, const Input *input)
 {
     Mouse *mouse = &player->hands.mouse;

@@ -118,7 +118,7 @@ Status obey_set_option(Player *player, const Command *command)
             continue;
         status =
             options_set(&options[p], row, command->text, command->x, message);
-        if (!status && row->max_times) /* no obstacle may overlap a body */
+        if (!status && row->max_times) /* bodies and obstacles: no overlap */
             status = simulation_check_clearance(
                 &player->past.pane[p].simulation, &options[p], message);
     }
@@ -128,7 +128,7 @@ Status obey_set_option(Player *player, const Command *command)
     change.x = options[player->active].number[row->slot];
     const SavedState *state =
         past_entry(&player->past, 0, player->past.step)->state;
-    bool is_set = state && state->is_set; /* by the user, not by a step */
+    bool is_set = state && state->is_set; /* the user has set the state */
     bool again = (!is_set || player_active_pane(player)->has_failed) &&
                  (row->effect == EFFECT_REPEAT ||
                   (player_active_options(player)->law_name &&
@@ -155,14 +155,14 @@ Status player_enqueue_notches(Player *player, const OptionRow *row, int notches)
 Status obey_change_number(Player *player, const Command *command)
 {
     const OptionRow *number[OPTIONS_MAX_ROWS];
-    player_list_options(player, false, number); /* each scene has numbers */
+    player_list_options(player, false, number); /* finds at least one number */
     player->hands.selected =
         player->hands.selected ? player->hands.selected : number[0];
     return player_enqueue_notches(player, player->hands.selected,
                                   command->kind == COMMAND_RAISE ? 1 : -1);
 }
 
-/* Sets an option to its value on the page, the command line or in the scene. */
+/* Sets an option to its default (player_find_defaults). */
 Status obey_reset_option(Player *player, const Command *command)
 {
     const OptionRow *row = find_command_option(command);

@@ -73,7 +73,7 @@ static Command resolve_key_command(const Player *player, const Command *asked)
     return meant;
 }
 
-/* Stores what a command of the page has set among the page's own options. */
+/* Stores the change by a page's command in the page's own options. */
 static void store_page_option(Player *player, const Command *command)
 {
     Options *own = &player->tour.page_options[player->active];
@@ -129,8 +129,8 @@ static bool command_waits_for_goal(const Past *past, CommandKind kind)
            (kind == COMMAND_PAUSE || kind == COMMAND_PLAY);
 }
 
-/* Abandons the step being made, and obeys the commands that waited for it.  A
- * pause in the journal then belongs to the step that is shown. */
+/* Abandons the step being made, and obeys the commands that waited for it.
+ * Pause and play at the end of the journal become due at the shown step. */
 static Status abandon_unfinished_step(Player *player)
 {
     int gesture = player->commands.gesture;
@@ -168,9 +168,8 @@ static void begin_command(Player *player, const Command *command)
         player->note[0] = '\0';
 }
 
-/* Whether a command does nothing but wait for the work.  While a step is loaded
- * or made, "next" leads to this step.  While a step is made, a drag goes into
- * the queue. */
+/* Whether a command only waits for the present work: "next" for the step that
+ * is loaded or made, and, while a new step is made, a drag in the queue. */
 static bool command_waits_for_step(Player *player, const Command *command)
 {
     bool drags =
@@ -227,7 +226,7 @@ Status player_obey(Player *player, const Command *command)
         return STATUS_OK;
     if (player_hides_answer(player) &&
         (meant.kind == COMMAND_NEXT || meant.kind == COMMAND_PLAY)) {
-        status = player_reveal_answer(player, NULL); /* instead of a step */
+        status = player_reveal_answer(player, NULL); /* no step is made yet */
         return status ? status : player_obey_queue(player, false);
     }
     if (past_is_working(past) && !(flags & KEEPS_STEP)) {
@@ -245,7 +244,7 @@ Status player_obey(Player *player, const Command *command)
                    player->commands.gesture))
         return STATUS_OUT_OF_MEMORY;
     bool worked = past_is_working(past);
-    player_sample_line_energy(player); /* a card may draw E along p now */
+    player_sample_line_energy(player); /* a card may need the samples now */
     if (past_is_working(past) && (!worked || !(flags & KEEPS_STEP))) {
         Status shown = do_work(player);
         status = status ? status : shown;

@@ -1,8 +1,8 @@
 /* panes.c - changes the method of a pane; adds and closes panes. */
 #include "play/playing.h"
 
-/* Returns the next method for a pane that key M can choose, that all terms
- * allow and no pane has.  NULL: no method is left; the command is refused. */
+/* Returns the next method for a pane: key M can choose the method, all terms of
+ * the energy allow it, and no pane has it.  NULL: the command is refused. */
 static const IntegratorMethod *find_next_method(Player *player, int pane)
 {
     const Simulation *simulation = &player->past.pane[pane].simulation;
@@ -36,8 +36,8 @@ Status obey_next_method(Player *player, const Command *command)
     return STATUS_OK;
 }
 
-/* Adds a pane with the run of the last pane and the next method.  A page keeps
- * the method, since further commands of the page set what differs. */
+/* Adds a pane with the run of the last pane and the next method.  For a page
+ * the method stays: further commands of the page set the differences. */
 Status obey_add_pane(Player *player, const Command *command)
 {
     int panes = past_pane_count(&player->past);

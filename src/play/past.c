@@ -117,7 +117,7 @@ static void drop_entry(Past *past, PastEntry *entry)
     *entry = (PastEntry){0};
 }
 
-/* Reserves an entry of each pane; without states only two entries stay. */
+/* Reserves each pane's next entry.  Unless states are stored, only two stay. */
 static Status reserve_entry(Past *past, Branch *branch)
 {
     size_t row = (size_t)branch->panes * sizeof(PastEntry);
@@ -154,8 +154,8 @@ static void drop_branches(Past *past, int from)
 
 /* ---- states -------------------------------------------------------------- */
 
-/* Whether an entry keeps its state when its pane leaves the step.  In a thinned
- * branch entry 0 keeps only a state that the user set. */
+/* Whether an entry keeps its state when its pane leaves the step.  With a
+ * stride above 1, entry 0 keeps only a state that the user set. */
 static bool branch_keeps_state(const Branch *branch, const PastEntry *entry)
 {
     long i = (entry - branch->entry) / branch->panes;
@@ -201,7 +201,7 @@ void past_fill_history(const Past *past, int pane, History *history)
     }
 }
 
-/* Stores a pane's state in an entry; drops others beyond the memory's limit. */
+/* Stores a pane's state in an entry; drops other states if memory is short. */
 static Status store_state(Past *past, int p, bool set, PastEntry *entry)
 {
     const PastPane *pane = &past->pane[p];
@@ -316,7 +316,7 @@ static bool observe_newton(void *user, const NewtonRecord *record)
     if (!pane->is_iterating)
         return false;
     pane->outcome.updates += record->alpha != 0;
-    if (pane->simulation.scene->step) /* a step of this scene is one update */
+    if (pane->simulation.scene->step) /* a scene whose step is one update */
         pane->outcome.energy_change = record->change;
     const Newton *newton = find_newton_to_trace(&pane->simulation);
     if (newton && pane->trace.x_length > 0 && record->iteration >= 0)
@@ -437,8 +437,8 @@ static Status pane_seek(Past *past, int p, long goal)
 
 /* ---- steps --------------------------------------------------------------- */
 
-/* Ends the present work at the last whole step.  A pane that has left this step
- * must load its state again. */
+/* Abandons the present work.  A pane that is in the middle of a step or ahead
+ * of the newest whole step must load a stored state again (has_state). */
 static void abandon_past_work(Past *past)
 {
     if (past->work_stage == WORK_DONE)
@@ -453,7 +453,7 @@ static void abandon_past_work(Past *past)
         if (!past_makes_step(past))
             continue;
         drop_state(past, find_entry(past, p, new));
-        /* Copied entries belong to the branch below, too. */
+        /* A copied entry keeps its control, to make the step again. */
         if (present_branch(past)->entries >= present_branch(past)->copied)
             drop_entry(past, find_entry(past, p, new));
     }
@@ -708,7 +708,7 @@ void past_set_goal(Past *past, long step, bool again)
 /* ---- edits --------------------------------------------------------------- */
 
 /* Marks rows of the tables as invalid: the rows of later steps, the energies of
- * this step and, if its state has changed, all its rows. */
+ * this step and, if the state has changed, all rows of this step. */
 static void invalidate_tables(Past *past, long step, bool changed)
 {
     if (past->written_step > step - changed)
@@ -848,7 +848,7 @@ Status past_edit(Past *past, const Command *edit, int pane, bool again,
     Branch *branch = present_branch(past);
     const int panes = branch->panes + (edit->kind == COMMAND_ADD_PANE) -
                       (edit->kind == COMMAND_END_PANE);
-    bool counts = panes != branch->panes; /* adds or removes a pane */
+    bool counts = panes != branch->panes; /* the edit adds or removes a pane */
     bool joins = gesture && branch->gesture == gesture &&
                  !branch->from_options && !counts && !again &&
                  past->step == past_newest(past) &&
@@ -858,7 +858,7 @@ Status past_edit(Past *past, const Command *edit, int pane, bool again,
                            .copied = 1 + again,
                            .panes = panes,
                            .gesture = gesture};
-    if (joins) /* the present branch goes on, undone branches end */
+    if (joins) /* the edit joins the present branch; undone branches end */
         drop_branches(past, past->current + 1);
     else
         branch = push_new_branch(past, wanted, edit);

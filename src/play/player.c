@@ -13,7 +13,7 @@ enum {
     FRAME_SIZE = 900,       /* pixels of a frame without a window */
     WINDOWLESS_STEPS = 100, /* default number of steps without a window */
     FRAME_RATE = 60,        /* frames a second at most */
-    MAX_IDLE_WAIT = 200     /* longest wait, ms; then signals are noticed */
+    MAX_IDLE_WAIT = 200     /* longest wait for an input or a signal, ms */
 };
 
 static const double EARLY = 0.002; /* s by which a frame may be drawn early */
@@ -238,7 +238,7 @@ Status player_create(const Options *options, char *const *words,
                 player->setup.is_attended && options->steps < 0, &player->past);
     if (!status)
         status = player_begin_runs(player, options, options->panes, &begin);
-    /* A script does not begin paused, so the journal begins with the pause. */
+    /* Scripts begin unpaused: a paused run's journal begins with `pause`. */
     if (!status && player_is_stopped(player))
         status = script_add(&player->commands.journal, 0, &pause, 0);
     bool nodes = !status && player_simulation(player)->mesh.nodes > 0;

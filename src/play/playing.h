@@ -8,12 +8,12 @@
 /* The functions of commands have the same parameters; some use only one. */
 #pragma GCC diagnostic ignored "-Wunused-parameter"
 
-/* Time for steps in a frame, until inputs are read, s */
+/* Time that a frame may spend on steps before inputs are read, s */
 static const double SLICE = 0.05;
 
 /* ---- session.c ----------------------------------------------------------- */
 
-/* Return the active pane, its simulation and its present options. */
+/* Three getters: the active pane, its simulation, its present options. */
 const PastPane *player_active_pane(const Player *player);
 const Simulation *player_simulation(const Player *player);
 const Options *player_active_options(const Player *player);
@@ -25,7 +25,7 @@ Options player_shown_options(const Player *player);
 /* Whether the scene uses this option, and its value is a number or a choice. */
 bool player_shows_number(const Player *player, const OptionRow *row);
 
-/* Lists the row of numbers, or all numbers of the scene; returns the count. */
+/* Lists the options of the scene, or only the shown ones; returns the count. */
 int player_list_options(const Player *player, bool all,
                         const OptionRow *found[OPTIONS_MAX_ROWS]);
 
@@ -39,7 +39,7 @@ bool player_has_changed_page(const Player *player);
 
 /* Finds the default options of a page or, if `page` is NULL, of a scene.  The
  * scene of the command line has the options given there.
- *   options  [options->panes] out, room for OPTIONS_MAX_PANES; a page has 1 */
+ *   options  [OPTIONS_MAX_PANES] out, a page fills 1, a scene options->panes */
 Status player_find_defaults(Player *player, const char *scene,
                             const LecturePage *page, Options *options);
 
@@ -56,11 +56,11 @@ bool player_is_slow(const Player *player);
  * make the shown step once more (player_obey) if its samples are missing. */
 void player_sample_line_energy(Player *player);
 
-/* Returns log_speed for the start of a run: from the options; from the scene if
- * the run is attended without page; 0, or UPDATE_SPEED without time. */
+/* Returns the first log_speed of a run: by --speed; else by the scene of an
+ * attended run without page; else 0, or UPDATE_SPEED in scenes without time. */
 int player_find_first_speed(const Player *player, const Options *options);
 
-/* Whether a list of pages or numbers is open, from which a number chooses. */
+/* Whether the list of pages, the list of options, or the sheet is open. */
 bool player_shows_list(const Player *player);
 void player_deselect(Player *player);
 
@@ -75,7 +75,7 @@ void player_note(Player *player, const char *format, ...);
 #define player_refuse(player, ...)                                             \
     refuse((Message){(player)->message, sizeof(player)->message}, __VA_ARGS__)
 
-/* Shows the reason of INVALID_INPUT and returns OK; else returns the status. */
+/* Turns INVALID_INPUT into a shown message and OK; returns other statuses. */
 Status player_show_refusal(Player *player, Status status);
 
 /* Pauses the run unless it has stopped already. */
@@ -84,8 +84,8 @@ void player_pause(Player *player);
 /* Pauses an attended run after a failure.  Returns OK, or what ends the run. */
 Status player_pause_after_failure(Player *player, Status status);
 
-/* Returns the command that sets an option as a part of the present gesture.  A
- * name of -1 stands for name 0. */
+/* Returns the command that sets an option as a part of the present gesture.
+ *   value  in, for OPTION_NAME the index of a name; -1 sets name 0 */
 Command make_set_command(const OptionRow *row, double value);
 
 /* Queues a command if there is room.  A drag's new place replaces its old. */
@@ -120,8 +120,8 @@ Status player_edit_step(Player *player, const Command *change, int pane,
 Status player_finish_work(Player *player, Status status, long before,
                           bool made);
 
-/* Sets the step to show, cut to 0 ... newest + 1.  player_obey then makes it
- * unless KEEPS_STEP keeps a step that is being made. */
+/* Sets the step to show, clamped to 0 ... newest + 1.  player_obey then works
+ * until the step is shown, unless the command has the flag KEEPS_STEP. */
 Status player_seek(Player *player, long step, ActionAfterWork after);
 
 /* Edits a pane, or each one.  player_obey then makes the shown step, or the
@@ -164,7 +164,7 @@ Status player_reveal_answer(Player *player, const char *typed);
 /* Returns why a number has no effect now, or NULL. */
 const char *player_find_idle_reason(const Player *player, const OptionRow *row);
 
-/* Puts the value of a number after some notches of the wheel into the queue. */
+/* Queues the command that changes a number by some notches of the wheel. */
 Status player_enqueue_notches(Player *player, const OptionRow *row,
                               int notches);
 
@@ -191,7 +191,7 @@ typedef Status CommandFunction(Player *player, const Command *command);
 
 /* ---- obey.c -------------------------------------------------------------- */
 
-/* Counts the nodes, obstacles, cards or others that a command can name. */
+/* Returns how many targets (nodes, cards, ...) a command's number can name. */
 long player_count_targets(const Player *player, int pane, CommandKind kind);
 
 /* Obeys the queue until a command must wait: each command waits for the end of

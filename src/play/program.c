@@ -14,7 +14,7 @@
 #include "lesson/pages.h"
 #include "scenes/scenes.h"
 
-/* Prints a failure as one line.  The value is the exit code. */
+/* Prints a failure as one line.  The macro's value is the exit code. */
 #define print_error(code, format, ...)                                         \
     (print_line(stderr, "elasto: " format, __VA_ARGS__), (int)(code))
 
@@ -215,7 +215,7 @@ static void print_old_frames(const Recording *recording)
 
 int program_end(Player *player, Status status)
 {
-    /* The report comes first, since player_finish may leave the failed step. */
+    /* The report comes first: player_finish can change the simulations. */
     int failed = status ? report_failure(player, status) : EXIT_FINE;
     status = player_finish(player, status);
     if (failed)
@@ -248,7 +248,7 @@ static const char *find_option_file(const Options *options,
                : NULL;
 }
 
-/* Refuses a file name that two options have, since files replace each other. */
+/* Refuses a file name of two options: one file would replace the other. */
 static Status check_file_names(const Options *options, Message message)
 {
     for (const OptionRow *row = option_rows; row->name; row++)
@@ -265,7 +265,7 @@ static Status check_file_names(const Options *options, Message message)
     return STATUS_OK;
 }
 
-/* Warns that after --state springs begin whole and the ceiling at its start. */
+/* Warns that --state alone restores neither broken springs nor the ceiling. */
 static void warn_of_reset_terms(const Options *options)
 {
     const Scene *scene = options->scene;

@@ -19,7 +19,8 @@ typedef struct RunAtStep {
     double step, time;
     int run_index; /* index of the run in its simulation */
     int pane;      /* number of the pane, from 1 */
-    int first_run, first_node, first_spring; /* numbers in the tables */
+    /* Numbers in the tables: of the run, of its first node and first spring. */
+    int first_run, first_node, first_spring;
 } RunAtStep;
 
 static void add_state_rows(CsvTable *table, const RunAtStep *at)
@@ -67,7 +68,7 @@ static void add_energy_rows(CsvTable *table, const RunAtStep *at)
     table_add_row(table, row);
 }
 
-/* Returns the text of a number in a column of the log. */
+/* Returns the name of a code in a column of the log: a status, a solver, ... */
 static const char *get_log_code_name(const char *column, int number)
 {
     static const char *const kinds[] = {"value", "estimate"};
@@ -98,7 +99,7 @@ static const struct {
      add_spring_rows},
 };
 
-/* Writes red, green, blue of each pixel; libpng keeps errno of a failure. */
+/* Writes a picture as PNG.  After FILE_FAILED errno of libpng says why. */
 static Status png_write(FILE *file, const Canvas *canvas)
 {
     size_t count = (size_t)canvas->width * (size_t)canvas->height;

@@ -141,8 +141,8 @@ static Status save_journal(Player *player, const char *name, const char *line)
     return status;
 }
 
-/* Reports the hash of the state and the command line that leads to it, and
- * saves the script of this line if there were commands.  The command waits
+/* Reports the hash of the state and a command line that leads to the state;
+ * after commands also saves the script that the line plays.  The command waits
  * for the end of a step being made, during which panes are at two steps. */
 Status obey_report_hash(Player *player, const Command *command)
 {

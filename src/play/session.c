@@ -7,7 +7,7 @@
 #include "lesson/pages.h"
 
 enum {
-    MAX_QUICK_NODES = 50000, /* most nodes that are factorised within SLICE */
+    MAX_QUICK_NODES = 50000, /* largest mesh factorised within SLICE, nodes */
     UPDATE_SPEED = -5        /* log_speed if a step is a Newton update */
 };
 

@@ -20,7 +20,7 @@ typedef struct Sheet {
     int cells;     /* number of cells */
     int next_cell; /* index of the cell that gets the next step */
     int next_page; /* index of the page that the first cell shows next */
-    int turns[LAYOUT_MAX_CELLS]; /* frames in which the cell had its turn */
+    int turns[LAYOUT_MAX_CELLS]; /* turns of each cell, one a frame at most */
     Simulation simulation[LAYOUT_MAX_CELLS];
 } Sheet;
 

@@ -83,15 +83,15 @@ Status player_restart_runs(Player *player, const Options *options, int panes,
 {
     const UserControl *before = control_retain(past_control(&player->past, 0));
     const LecturePage *page = options->page;
-    Options own; /* the page's own; on_open names nodes of their mesh */
+    Options own; /* defaults of the page; on_open names nodes of its mesh */
     bool opens = edit->kind == COMMAND_RESTART && page && page->on_open &&
                  !lecture_make_options(page, &own, MESSAGE(player->message)) &&
                  own.segments == options->segments;
     Status status = player_begin_runs(player, options, opens ? 1 : panes, edit);
     if (opens)
         player->play.walk_unit = UNIT_STEP;
-    if (!status && opens &&
-        player->setup.asks_guess) { /* a script has the page's commands */
+    /* A script contains the opening commands of its pages. */
+    if (!status && opens && player->setup.asks_guess) {
         player->commands.queue.pins = before;
         return player_enqueue_page(player);
     }
@@ -101,9 +101,9 @@ Status player_restart_runs(Player *player, const Options *options, int panes,
     return status;
 }
 
-/* Begins the run again with the present numbers, pins and obstacles.
- * COMMAND_START begins the run at another point, in a pause; a page begins in a
- * pause, as it has opened.  Any other run that had ended plays again. */
+/* Begins the run again with the present numbers, pins and obstacles; in a
+ * window a page pauses.  COMMAND_START also moves the start, and pauses.  Any
+ * other run that had ended plays again unless its scene starts paused. */
 Status obey_restart(Player *player, const Command *command)
 {
     Options options[OPTIONS_MAX_PANES];
@@ -181,8 +181,9 @@ Status player_reveal_answer(Player *player, const char *typed)
     return player_enqueue_lines(player, page->on_answer);
 }
 
-/* Opens a page by its name, the next page, or the previous page.  Outside of
- * the lecture: the last open page, the page after it, or the first page. */
+/* Opens a page by its name, the next page, or the previous page.  From a scene,
+ * "previous" is the last open page, "next" the page after the last open page;
+ * if no page was open, both are the first page. */
 Status obey_open_page(Player *player, const Command *command)
 {
     Options options;

@@ -60,7 +60,7 @@ void step_trace_begin(StepTrace *trace, const Simulation *simulation, bool all,
     trace->x_length = 2 * simulation->system.nodes;
 }
 
-/* Stores E along p of the newest iterate; samples E unless it is polynomial. */
+/* Stores E along p of the newest iterate: polynomial, and samples if needed. */
 static void store_line_energy(StepTrace *trace, const Iterate *at)
 {
     TraceIterate *iterate = &trace->iterate[trace->records.count];
@@ -243,8 +243,8 @@ int step_trace_find_position(const StepTrace *trace, int iterate, StepLine line)
     return trace->position_count - 1;
 }
 
-/* The rounding error of `sum` is some units in the last place of the highest E,
- * far less than a tenth of E, the limit for a peak. */
+/* E is the sum of its changes.  The rounding error of the sum is tiny against a
+ * tenth of the highest E, the limit for a peak. */
 int step_trace_find_peak(const StepTrace *trace)
 {
     enum { EXPLOSION_FACTOR = 10 };
@@ -261,7 +261,7 @@ int step_trace_find_peak(const StepTrace *trace)
     return far ? step_trace_find_position(trace, iterate, LINE_UPDATE) : -1;
 }
 
-/* Fills the values that the lines up to a position have computed at x^i. */
+/* Fills the values that Algorithm 3 has computed at x^i up to a position. */
 static void show_iterate_values(const StepTrace *trace, const TracePosition *at,
                                 NewtonTrace *shown)
 {

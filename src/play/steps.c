@@ -28,9 +28,9 @@ static Status record_iterations(Player *player, long step)
     return status;
 }
 
-/* Writes the shown step to the tables, or, where the step is there already, the
- * energies that were not known then.  Does nothing unless the step is the next
- * to be written and all panes have its records. */
+/* Writes the shown step to the tables, but only its energies if the tables have
+ * its states already.  Does nothing unless the step is the next one to write
+ * and all panes have the records of the step. */
 static Status record_step(Player *player)
 {
     Past *past = &player->past;
@@ -177,7 +177,7 @@ Status player_edit_step(Player *player, const Command *change, int pane,
 
 /* ---- where a run stops by itself ----------------------------------------- */
 
-/* Reports that the run is at rest, and why cells may stay folded. */
+/* Reports that the run is at rest, possibly with folded cells of the mesh. */
 static void report_at_rest(Player *player)
 {
     const Past *past = &player->past;
@@ -261,15 +261,15 @@ static void stop_run_if_over(Player *player)
 
 /* ---- inside a step ------------------------------------------------------- */
 
-/* Shows a line of Algorithm 3 in each pane whose step has lines: the first
- * line, the last one, or the update at which E was highest if E exploded. */
+/* Shows a line of Algorithm 3 in each pane whose step has iterations: the first
+ * line, the last line, or, if E exploded, the update at which E was highest. */
 static void begin_line_walk(Player *player, ActionAfterWork after)
 {
     for (int p = 0; p < past_pane_count(&player->past); p++) {
         const StepTrace *trace = &player->past.pane[p].trace;
         NewtonTrace shown;
         double far = 0;
-        int place = trace->position_count <= 2  ? -1 /* without an update */
+        int place = trace->position_count <= 2  ? -1 /* no iteration */
                     : after == AFTER_SHOW_FIRST ? 0
                     : after == AFTER_SHOW_LAST  ? trace->position_count - 1
                                                 : step_trace_find_peak(trace);
@@ -469,7 +469,7 @@ Status obey_go_forward(Player *player, const Command *command)
         return STATUS_OK;
     if (after == AFTER_SHOW_END &&
         player->view_of_pane[player->active].trace_index >= 0) {
-        show_end_of_steps(player); /* to the end of the step */
+        show_end_of_steps(player);
         return STATUS_OK;
     }
     return player_seek(player, player->past.step + 1, after);

@@ -7,7 +7,7 @@
 
 #include "play/window.h"
 
-/* Usual size of the window, and room for its borders, points. */
+/* Default size of the window, and screen left for its borders (points). */
 enum {
     WINDOW_WIDTH = 1280,
     WINDOW_HEIGHT = 800,
@@ -17,7 +17,7 @@ enum {
 
 static SDL_Window *window;
 
-/* Tab and mouse when the event was sent; SDL tells only where they are now. */
+/* Tab and mouse at the event that is read; SDL's own state is newer. */
 static bool tab_alone; /* Tab is down, and no other key was pressed since */
 static bool tab_held;
 static SDL_Point mouse;
@@ -29,8 +29,8 @@ static const char *sdl_get_failure_reason(void)
 
 /* ---- opening and closing ------------------------------------------------- */
 
-/* Starts SDL's video without Wayland if XDG_RUNTIME_DIR is missing, since its
- * library would print an error.  Returns false if there is no screen. */
+/* Starts SDL's video, without Wayland if XDG_RUNTIME_DIR is missing, since the
+ * Wayland library would print an error.  Returns false without a screen. */
 static bool open_video(void)
 {
 #ifdef __linux__
@@ -55,8 +55,8 @@ static bool sdl_is_full_screen(void)
     return (SDL_GetWindowFlags(window) & SDL_WINDOW_FULLSCREEN_DESKTOP) != 0;
 }
 
-/* Without acceleration X11 shows a frame of 900 x 900 pixels in 6 ms, with
- * OpenGL computed by the processor in 14 ms (measured). */
+/* Opens the window, on X11 without acceleration: a frame of 900 x 900 pixels
+ * takes 6 ms, with OpenGL computed by the processor 14 ms (measured). */
 static bool sdl_open(const int size[2], bool full)
 {
     SDL_Rect area = {0, 0, WINDOW_WIDTH, WINDOW_HEIGHT};
@@ -137,13 +137,13 @@ static Status sdl_show(const Canvas *canvas)
 /* ---- keys ---------------------------------------------------------------- */
 
 /* Reads a key with "Ctrl+", "Shift+", "Tab+" before its name.  Signs and digits
- * come as texts, whatever the keyboard; Tab is a key when it is released,
- * unless it was a part of Tab+M. */
+ * are read from text events, for every keyboard layout.  Tab is read at its
+ * release, unless another key was pressed with Tab. */
 static void read_key_event(const SDL_KeyboardEvent *event, Input *input)
 {
     SDL_Keycode key = event->keysym.sym;
     SDL_Scancode place = event->keysym.scancode;
-    if (key >= 128 && !(key & SDLK_SCANCODE_MASK) && /* not a Latin letter */
+    if (key >= 128 && !(key & SDLK_SCANCODE_MASK) && /* non-Latin letter */
         place >= SDL_SCANCODE_A && place <= SDL_SCANCODE_Z)
         key = SDLK_a + (SDL_Keycode)(place - SDL_SCANCODE_A);
     SDL_Keymod mod = (SDL_Keymod)event->keysym.mod;
@@ -204,7 +204,7 @@ static Input read_event(const SDL_Event *event)
     } else if (event->type == SDL_TEXTINPUT &&
                isgraph((unsigned char)text[0]) &&
                !isalpha((unsigned char)text[0]) && text[1] == '\0') {
-        input.kind = INPUT_KEY; /* a sign or a digit */
+        input.kind = INPUT_KEY; /* the key of a sign or a digit */
         snprintf(input.key, sizeof input.key, "%s", text);
     } else if (event->type == SDL_WINDOWEVENT) {
         input.kind = read_window_event(&event->window);
@@ -242,11 +242,11 @@ static Input sdl_read_input(void)
     return input;
 }
 
-/* SDL_WaitEventTimeout would end the program after the window is closed: on X,
- * SDL sends itself an event by a second connection. */
+/* Polls for events.  SDL_WaitEventTimeout would end the program after the
+ * window is closed: SDL sends itself an event by a second connection to X. */
 static void sdl_wait_for_input(int milliseconds)
 {
-    enum { POLL_MS = 8 }; /* between two looks for an event, ms */
+    enum { POLL_MS = 8 }; /* time between two polls, ms */
     for (; milliseconds > 0; milliseconds -= POLL_MS) {
         SDL_PumpEvents();
         if (SDL_HasEvents(SDL_FIRSTEVENT, SDL_LASTEVENT))

@@ -23,7 +23,7 @@ EM_JS(void, page_paint, (const void *pixels, int width, int height, int card), {
 });
 /* clang-format on */
 
-/* The page reads red, green, blue and alpha of each pixel. */
+/* Converts the pixels to bytes red, green, blue, alpha for the page. */
 Status page_show_card(const Canvas *canvas, int card)
 {
     static uint32_t *rgba; /* [room] */
@@ -52,11 +52,11 @@ static Status page_show_frame(const Canvas *canvas)
 
 enum { INPUT_QUEUE_SIZE = 256 };
 
-/* Queue of the inputs that were not read yet. */
+/* Queue of the inputs that are not yet read. */
 static Input inputs[INPUT_QUEUE_SIZE];
 static int first_input, input_count;
 
-/* Appends an input; a movement replaces a movement before it. */
+/* Appends an input; a mouse movement replaces the movement just before it. */
 static void queue_input(const Input *input)
 {
     int last = (first_input + input_count - 1) % INPUT_QUEUE_SIZE;

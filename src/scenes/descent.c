@@ -25,7 +25,7 @@ static const double DIAL_FIRST = 1e-3, DIAL_LAST = 10, DIAL_PER_TEN = 10;
 /* Length of p below which the search for a minimiser ends, m */
 static const double DIAL_SHORT_P = 1e-14;
 
-/* Smallest distance of a start from the line through the pins, m */
+/* Smallest distance of a search's start from the line through the pins, m */
 static const double DIAL_OFF_LINE = 1e-9;
 
 /* ---- the functions ------------------------------------------------------- */
@@ -123,7 +123,7 @@ static double tangent_direction(double g, double H)
     return -g / H;
 }
 
-/* Computes p = -H^-1 g.  Returns g . p. */
+/* Computes p = -H^-1 g.  Returns the slope g . p of E along p. */
 static double newton_direction(const LocalModel *E, bool scalar, double p[2])
 {
     const double *g = E->g, *H = E->H;
@@ -173,9 +173,9 @@ static LocalModel evaluate_local_model(const Simulation *simulation)
 }
 
 /* Computes E, p, slope and residual at a new iterate.  If the status is
- * RUNNING, tests the residual: OK if it is small enough; DIVERGED if E is then
- * above E at the start, as may happen without a line search.  Returns a failure
- * if there is no p here.  After any other failure p stays visible. */
+ * RUNNING, tests the residual: OK if it is small enough, DIVERGED if E is then
+ * above E at the start, as may happen without a line search; a failure if p is
+ * not finite.  p is set to 0 if OK or not finite, and else kept for drawing. */
 static Status update_iterate_values(Simulation *simulation, Status status)
 {
     TimeIntegrator *run = &simulation->run[0];
@@ -217,7 +217,7 @@ void descent_update_direction(Simulation *simulation)
 {
     Descent *descent = &simulation->descent;
     choose_stopping_test(simulation);
-    descent->start_value = INFINITY; /* E at the start is computed below */
+    descent->start_value = INFINITY; /* no upper limit of E yet */
     Status status = update_iterate_values(simulation, STATUS_RUNNING);
     simulation->status = simulation->is_over ? status : STATUS_OK;
     if (!descent->scalar)
@@ -243,8 +243,8 @@ Status step_descent(Simulation *simulation)
         Status found =
             line_search_backtrack(descent_energy_difference, simulation,
                                   &record.alpha, &record.trials);
-        /* Along an uphill p, E grows by about slope (alpha - alpha^2/2): if a
-         * very short step lowers E, this is rounding. */
+        /* Along an uphill p, E grows by about slope (alpha - alpha^2/2).  Only
+         * rounding can make a very short step seem to lower E. */
         bool rounding = record.slope > 0 && record.alpha < 1e-3;
         if (found || rounding) {
             status = record.slope > 0 ? STATUS_NOT_DESCENT
@@ -337,8 +337,8 @@ static void minimise_landscape(const Simulation *simulation, double h,
     memcpy(point, newton->iterate.x, 2 * sizeof *point);
 }
 
-/* Each search begins at the previous minimiser, so that the curve is
- * continuous.  Node 0 moves to the minimiser of the present h. */
+/* Computes the curve of minimisers.  A search begins at the last minimiser, so
+ * that the curve is continuous.  Puts node 0 at the minimiser for h. */
 void dial_restart(Simulation *simulation)
 {
     DialCurve *dial = &simulation->exhibit.dial;
@@ -364,7 +364,7 @@ Status create_dial_scene(Simulation *simulation)
     Status status = create_landscape_scene(simulation);
     if (status)
         return status;
-    simulation->run[0].newton->settings.observer = NULL; /* shows no updates */
+    simulation->run[0].newton->settings.observer = NULL; /* hides the updates */
     dial_restart(simulation);
     simulation->is_over = simulation->options.timestep >= DIAL_LAST;
     simulation->status = STATUS_OK;

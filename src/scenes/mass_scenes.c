@@ -7,7 +7,8 @@
 #include "model/pull_energy.h"
 #include "model/spring_law.h"
 
-static const double CIRCLE_OMEGA = 6.283185307179586; /* a turn a second, 1/s */
+/* Angular frequency in the scene `circle`: one turn per second, 1/s */
+static const double CIRCLE_OMEGA = 6.283185307179586;
 static const double MASS_OMEGA2 = 1; /* omega2 in the scene `arrows`, 1/s^2 */
 static const double SPRING_STIFFNESS = 100; /* J/m^2 */
 static const double SPRING_LENGTH = 1;      /* rest length, m */

@@ -22,13 +22,13 @@ static Obstacle make_squeeze_ceiling(const Options *options)
         .motion = {2, {down, back}, {{0, -speed}, {0, 2 * speed}}}};
 }
 
-/* Small random velocities to the side let the square buckle. */
+/* Small random sideways velocities cause buckling (Numerical Recipes, 7.1). */
 static Status create_squeeze_scene(Simulation *simulation)
 {
     Status status = create_square_scene(simulation);
     unsigned state = 1;
     for (int i = 0; i < simulation->mesh.nodes && !status; i++) {
-        state = state * 1664525u + 1013904223u; /* Numerical Recipes, 7.1 */
+        state = state * 1664525u + 1013904223u;
         simulation->run[0].v[2 * i] +=
             1e-3 * ((double)(state >> 8) / 8388608 - 1);
     }
@@ -47,7 +47,7 @@ static Obstacle make_bend_ball(const Options *options)
                       .node = shape.nodes};
 }
 
-/* The ball weighs 60 kg and falls. */
+/* Creates `bend`: a ball of 60 kg falls on a beam, at first with 3 m/s. */
 static Status create_bend_scene(Simulation *simulation)
 {
     const SquareMesh *mesh = &simulation->mesh;
@@ -55,7 +55,7 @@ static Status create_bend_scene(Simulation *simulation)
     if (status)
         return status;
     simulation->system.m[mesh->nodes] = 60;
-    if (!simulation->options.state) /* --state has its own velocities */
+    if (!simulation->options.state) /* a state file has its own velocities */
         simulation->run[0].v[2 * mesh->nodes + 1] = -3;
     return STATUS_OK;
 }
@@ -89,8 +89,8 @@ const Scene scenes[] = {
      "the squeezed square: without projection Newton is stuck", SQUARE,
      "--timestep 0.02 --stretch 0.5 --projection none", create_square_scene,
      .starts_paused = true},
-    /* Nodes fly 1.7 km in the first step, in which E rises to 2e16 J s^2;
-     * projection or line search prevents that.  It is the worst of 2560 starts
+    /* Without projection and line search, nodes fly 1.7 km in the first step,
+     * in which E rises to 2e16 J s^2.  The start is the worst of 2560 starts
      * that were tried. */
     {"explosion", "Newton's method explodes",
      "one step without projection and line search: nodes fly", SQUARE,
@@ -117,7 +117,7 @@ const Scene scenes[] = {
           "--at -0.08636008618973134,0.2372723867484419 "
           "--friction 0.36397023426620234 "
           "--ground -0.3420201433256687,0.9396926207859084,0,0",
-     /* friction = tan(20 degrees): a block just stays at rest. */
+     /* friction = tan(20 degrees): on this slope a block just stays at rest. */
      create_square_scene, .view = {-2.3, -2.75, 0.9, 2.0}, .body.runs = 3,
      .body.height_step = 2.6, .body.friction_factor = {0.5, 0.9, 1.1}},
     {"squeeze", "Contact: pressed flat",

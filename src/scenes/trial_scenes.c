@@ -30,9 +30,8 @@ static Status make_trial_run(const Options *options,
 
 /* ---- run time against error ---------------------------------------------- */
 
-enum {
-    RACE_COARSEST_STEPS = 8
-}; /* steps of a run with the longest time step */
+/* Number of steps of a run with the longest time step */
+enum { RACE_COARSEST_STEPS = 8 };
 
 const IntegratorMethod *race_get_method(int i)
 {
@@ -44,7 +43,7 @@ const IntegratorMethod *race_get_method(int i)
 /* Returns an upper bound of the angular frequencies, 1/s.  The curvature of a
  * spring's energy is largest along the spring; a compressed spring counts as a
  * spring at rest.  A node has at most eight springs, so by Gershgorin omega^2
- * is below twice eight times the largest curvature over m. */
+ * is at most 2 * 8 times the largest curvature, divided by m. */
 static double find_frequency_bound(const System *system, const double *x)
 {
     double most = 0;
@@ -60,9 +59,9 @@ static double find_frequency_bound(const System *system, const double *x)
 /* Moves a run by H seconds almost exactly, by extrapolation (Gragg 1965).
  * Verlet makes 1, 2, ... 6 steps; the results are extrapolated to steps of
  * length 0.  Verlet's error has even powers of the step only, so an error of
- * O(H^12) remains.  By Lagrange the polynomial in 1/n^2 through the results has
- * the value sum over j of w_j times result j at 0, with w_j = product over i of
- * n_j^2 / (n_j^2 - n_i^2).
+ * O(H^12) remains.  The extrapolated value is the sum over j of w_j times the
+ * result of j steps.  The weight w_j (Lagrange's formula) is the product of
+ * j^2 / (j^2 - i^2) over all i other than j.
  *   from, to  scratch, [2 size] */
 static Status advance_exactly(TimeIntegrator *run, double H, double *from,
                               double *to)
@@ -115,7 +114,7 @@ Status create_race_scene(Simulation *simulation)
     Status status = create_square_scene(simulation);
     if (!status)
         status = race_make_reference(simulation, RACE_TIME);
-    if (status == STATUS_NOT_FINITE) { /* without a reference the race ends */
+    if (status == STATUS_NOT_FINITE) { /* no exact end to compare runs with */
         simulation->is_over = true;
         simulation->status = status;
         return STATUS_OK;
@@ -201,7 +200,7 @@ Status step_race_scene(Simulation *simulation)
     TimeIntegrator run = {0};
     double seconds;
     RacePoint *point = &race->point[race->count];
-    /* The run with 2h is timed twice: the shorter time counts. */
+    /* The method's last run (2h) is timed again; the shorter time counts. */
     if (race->count >= RACE_METHODS) {
         RacePoint *before = point - RACE_METHODS;
         measure_run_time(simulation, method, before->h, steps / 2, &run,
@@ -232,7 +231,7 @@ double envelope_stiffness(int row)
     return pow(10, row - 6);
 }
 
-/* Returns the index of the column or row with the nearest logarithm. */
+/* Returns the column or row whose value is nearest on a logarithmic scale. */
 static int find_nearest_index(double value, double first, double per_ten,
                               int count)
 {

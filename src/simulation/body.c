@@ -18,8 +18,8 @@
 /* A word of --pin, and where its nodes are. */
 static const struct PinWord {
     const char *word;
-    int needed_sides;  /* bits: each node is on all of them; 0: any node */
-    int allowed_sides; /* bits: each node is on one of them; 0: any node */
+    int needed_sides;  /* bits: a node must be on each of these sides */
+    int allowed_sides; /* bits: a node must be on one of these, if any */
 } pin_words[] = {{"top-corners", MESH_TOP, MESH_LEFT | MESH_RIGHT},
                  {"top", MESH_TOP, 0},
                  {"bottom", MESH_BOTTOM, 0},
@@ -76,7 +76,7 @@ SquareMesh body_make_mesh(const Options *options)
                               options->side, (int)fmax(options->bodies, 1));
 }
 
-/* Returns the body's last node, the centre of the scene's ball; none: -1. */
+/* Returns the node at the centre of the scene's ball, or -1 without a ball. */
 static int find_ball_node(const Options *options)
 {
     return options->scene->body.make_obstacle
@@ -84,9 +84,9 @@ static int find_ball_node(const Options *options)
                : -1;
 }
 
-/* Creates masses, springs, gravity and pins (slide simulator.py).  Each node
- * has an equal part of the body's mass, and the scene's ball has the mass of a
- * node; l2 = |d|^2 in the rest positions. */
+/* Creates masses, springs, gravity and pins (slide simulator.py).  The nodes of
+ * a body share its mass equally, and the scene's ball has the mass of a node.
+ * l2 is the squared length of each spring at rest. */
 static Status create_body_system(const Options *options, System *system)
 {
     const SquareMesh shape = body_make_mesh(options);
@@ -124,7 +124,7 @@ static Status create_body_system(const Options *options, System *system)
     for (int i = 0; i < shape.nodes && numbers; i++) {
         double rest[2];
         square_mesh_rest_position(&shape, i, rest);
-        if (system->pinned[i]) /* pins set later stand still */
+        if (system->pinned[i]) /* nodes that are pinned later do not move */
             system->pin_v[2 * i] = copysign(pin_speed, rest[0]);
     }
     return STATUS_OK;
@@ -160,7 +160,7 @@ static int list_obstacles(const Options *options,
     }
     if (options->ceiling[1] != 0) {
         const double *ceiling = options->ceiling;
-        /* A blocked ceiling stops when an unblocked one would have arrived. */
+        /* The ceiling stops at time `end` (s), even if a body delayed it. */
         double end = (ceiling[2] - ceiling[0]) / ceiling[1];
         list[count++] = (Obstacle){.kind = OBSTACLE_WALL,
                                    .n = {0, -1},
@@ -176,7 +176,7 @@ static int list_obstacles(const Options *options,
 }
 
 /* Returns the barrier of the options; by default kappa = 4 k and d_hat =
- * side/100.  A node counts for one segment of the boundary. */
+ * side/100.  Each node stands for a boundary of length side/segments. */
 static Barrier make_barrier(const Options *options)
 {
     double d_hat = options->barrier[0], kappa = options->barrier[1];
@@ -534,8 +534,8 @@ double simulation_find_free_fraction(const Simulation *simulation,
                                      const double to[2])
 {
     enum { MAX_HALVINGS = 20 };
-    static const double MIN_GAP = 0.999;     /* gap to a body over d_hat */
-    static const double MIN_PART = 1.0 / 64; /* least step over the whole way */
+    static const double MIN_GAP = 0.999;     /* least gap divided by d_hat */
+    static const double MIN_PART = 1.0 / 64; /* least fraction tried first */
     Options moved = *options;
     double *at = options_obstacle_point(&moved, number), free = 0, from[2];
     memcpy(from, at, sizeof from);
@@ -543,7 +543,7 @@ double simulation_find_free_fraction(const Simulation *simulation,
     if (!check_clearance(simulation, &moved, 0, -1, (Message){0}))
         return 1;
     double step = 0.5, length = math_hypot(to[0] - from[0], to[1] - from[1]);
-    if (number >= options->grounds) /* half its radius jumps over no body */
+    if (number >= options->grounds) /* a ball must not jump over a body */
         step = fmin(fmax(0.5 * at[2] / length, MIN_PART), step);
     for (int i = 0; i < MAX_HALVINGS;) {
         for (int c = 0; c < 2; c++)

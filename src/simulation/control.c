@@ -64,7 +64,7 @@ void simulation_locate_obstacle(const Simulation *simulation, int run,
 void control_store_obstacle(UserControl *control, int number,
                             const Simulation *simulation)
 {
-    static const double SAME = 1e-9; /* tolerance, in sides of the square */
+    static const double SAME = 1e-9; /* largest distance divided by the side */
     double place[2], other[2];
     simulation_locate_obstacle(simulation, 0, number, place);
     for (int r = 1; r < simulation->runs; r++) {
@@ -163,7 +163,7 @@ static void stop_node(TimeIntegrator *run, int node)
  * body's springs: the node follows the mouse, and the body gives way. */
 static Status apply_pull(Simulation *simulation, const UserControl *control)
 {
-    static const double STIFFER = 1000; /* hand's stiffness over the body's */
+    static const double STIFFER = 1000; /* stiffness ratio of hand and body */
     System *system = &simulation->system;
     const SquareMesh *mesh = &simulation->mesh;
     EvalPoint at = make_eval_point(system, NULL, NULL, NULL);
@@ -222,7 +222,7 @@ Status control_apply(Simulation *simulation, const UserControl *control)
     memcpy(system->pinned, control->pinned, (size_t)system->nodes);
     for (int r = 0; r < simulation->runs; r++)
         if (!simulation->run[r].newton)
-            simulation->run[r].memory_h = 0; /* Verlet's a_n has changed */
+            simulation->run[r].memory_h = 0; /* stored acceleration is wrong */
     if (!status)
         status = apply_pull(simulation, control);
     apply_push(simulation, control);

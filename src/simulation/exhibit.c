@@ -66,7 +66,7 @@ int exhibit_list_switches(const Simulation *simulation,
         has_kinds ? kinds : simulation->scene->switch_labels;
     const Options *options = &simulation->options;
     /* On pages where the key N shortens a spring (NEXT_SHORTENS_SPRING),
-     * switches are listed only if the page itself turns one over. */
+     * switches are listed only if the page's option `flips` is not 0. */
     bool none = options->next_action == NEXT_SHORTENS_SPRING && !options->flips;
     int count = 0;
     for (; !none && count < SCENE_MAX_SWITCHES && label[count]; count++)
@@ -97,7 +97,7 @@ void exhibit_flip_switch(Simulation *simulation, int number)
             if (exhibit_find_spring_kind(simulation, s) == number)
                 system->k[s] = k;
         system_mark_changed(system, false);
-        simulation->run[0].memory_h = 0; /* a_n is not valid any more */
+        simulation->run[0].memory_h = 0; /* memory of the method is invalid */
         simulation->ledger[0].work +=
             simulation_get_energies(simulation, 0).total - before;
         return;

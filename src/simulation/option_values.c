@@ -19,7 +19,7 @@ static const char *read_decimal(const char *text, double *number)
     return end;
 }
 
-/* Whether a text is the row's unit, "J/m^2", "J/m\u00b2"; "deg" for angles. */
+/* Whether a text is the row's unit: "J/m^2", "J/m\u00b2"; "deg" for degrees. */
 static bool is_option_unit(const OptionRow *row, const char *text)
 {
     size_t length = strcspn(row->unit, " ");
@@ -124,7 +124,7 @@ void option_write_short(const OptionRow *row, const Options *options,
     if (row->max_times)
         last = (int)fmax(options->number[row->count_slot] - 1, 0);
     const double *value = options->number + row->slot + last * count;
-    /* a value below the range means that there is none */
+    /* only a default can be below the range; it means "none" */
     if (*value < row->low || (row->count && (row->term || row->max_times) &&
                               !option_is_on(row, options)))
         snprintf(text, size, "none");

@@ -1,7 +1,7 @@
 /* options.c - the table of options.
  *
- * A new option is a field in options.h and a row in this table, from which all
- * that is said about it, its reading and its term come. */
+ * A new option is a field in options.h and a row in this table.  The row gives
+ * the option's description, range, label and energy term. */
 #include "simulation/options.h"
 
 #include <math.h>
@@ -118,7 +118,7 @@ REASON(why_nothing_drawn,
 #define IDLE(why)               .idle_reason = why
 #define SHOWN(n, longest, adds) .display = {n, longest, adds}
 
-/* In these ranges products of two numbers stay finite and keep all digits. */
+/* Within most ranges a product of two numbers does not over- or underflow. */
 const OptionRow option_rows[] = {
     {SECTION("the body (flat: density in kg/m^2, stiffness in J/m^2):")},
     {WHOLE(segments, "N", "number of springs along a side", "", 4, 1,
@@ -386,8 +386,8 @@ const char *option_get_label(const OptionRow *row)
     return row->label ? row->label : row->name;
 }
 
-/* Lists the options of the row of numbers by their place.  A number that a
- * notch multiplies is left out while the number is 0. */
+/* Lists the options by their position in the window's row.  An option whose
+ * number a notch multiplies is left out while the number is 0. */
 int options_list_visible_rows(const Options *options,
                               const OptionRow *found[OPTIONS_MAX_ROWS])
 {

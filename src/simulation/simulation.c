@@ -8,7 +8,7 @@
 #include "model/neo_hookean.h"
 #include "model/self_contact.h"
 
-/* Most iterations of a minimisation; large squares get fewer. */
+/* Limit of a minimisation's iterations; large squares have a lower limit. */
 enum { MAX_NEWTON_ITERATIONS = 10000 };
 
 void options_fill_newton_settings(const Options *options,
@@ -81,7 +81,7 @@ static Status finish_simulation_step(Simulation *simulation, Status status)
     if (status_is_failure(status))
         return status;
     simulation->steps++;
-    if (simulation->steps > guess->guess_step + 1) /* a guess is for one step */
+    if (simulation->steps > guess->guess_step + 1) /* the guess is outdated */
         *guess = (Prediction){0};
     if (status) {
         simulation->unconverged_steps++;
@@ -90,7 +90,7 @@ static Status finish_simulation_step(Simulation *simulation, Status status)
     return status;
 }
 
-/* Books the energy that backward Euler has gained in a step of the present run.
+/* Adds the energy that backward Euler gained in a run's step to the ledger.
  * A gain below 1e-8 of all energies is due to rounding and the tolerance. */
 static void book_energy_gain(Simulation *simulation)
 {
@@ -182,11 +182,11 @@ ChangeEffect simulation_find_option_effect(const Simulation *simulation,
  * away.  The unit is the shortest spring. */
 static const double STILL = 1e-6, BALANCED = 1e-3, FRAME = 1.0 / 60;
 
-/* Whether the nodes are close to places where the forces f vanish.  The
- * distance is p = (M/T^2 + H_P)^-1 f, the direction of Algorithm 3 for a step
- * from rest that is so long that masses hardly matter.  With a T^2 above 1e10 m
- * over the curvature of P rounding would make p inaccurate.  A separate Newton
- * object computes p, so that the run is not changed.
+/* Whether the forces f vanish close to the nodes' positions.  The distance is
+ * p = (M/T^2 + H_P)^-1 f, with H_P the projected Hessian of P: the direction of
+ * Algorithm 3 for a time step T from rest, so long that masses hardly matter.
+ * For T^2 above 1e10 (smallest mass / curvature of P) p would be inaccurate.
+ * A separate Newton object computes p, so that the run is not changed.
  *   l  m, length of the shortest spring */
 static bool forces_balance(const Simulation *simulation, double l)
 {
@@ -243,7 +243,7 @@ bool simulation_has_newton_updates(const Simulation *simulation)
     return simulation->run[0].newton && (simulation->scene->parts & HAS_TIME);
 }
 
-/* The springs' Hessian must be used, and the scene must show its projection. */
+/* A projection needs springs, a Newton object, and a scene with HAS_SPRINGS. */
 bool simulation_has_projection(const Simulation *simulation)
 {
     return simulation->system.springs > 0 && simulation->run[0].newton &&
@@ -266,7 +266,7 @@ bool simulation_projects_springs(const Simulation *simulation)
 
 /* ---- the fastest small oscillation: M q'' = -H q ------------------------ */
 
-/* Iterations of the power method; capacity of arrays of a mode. */
+/* Number of iterations of the power method; limit of a mode's coordinates. */
 enum { POWER_ITERATIONS = 1200, MODE_COORDINATES = 2 * SIMULATION_MODE_NODES };
 
 double simulation_find_fastest_mode(const Simulation *simulation,

@@ -16,7 +16,7 @@ enum { MAX_COLUMNS = 7 };
  * has the names of the columns; wanted columns are found by name, others are
  * skipped.  The second wanted column numbers the rows of a step from 0. */
 typedef struct TableReader {
-    const char *option;             /* option with the table, for messages */
+    const char *option;             /* name of the option that gives the path */
     const char *path;               /* name of the file */
     const char *element_name;       /* "node" or "spring" */
     const char *names[MAX_COLUMNS]; /* names of wanted columns, up to NULL */
@@ -24,10 +24,10 @@ typedef struct TableReader {
     int run;                        /* index of the run that is read */
     FILE *file;
     char *line_text;  /* line that was read last, then cut into fields */
-    size_t capacity;  /* bytes that line_text has */
+    size_t capacity;  /* allocated size of line_text, bytes */
     long line_number; /* number of the line in line_text, from 1 */
     int columns;      /* number of columns of the table */
-    int column_index[MAX_COLUMNS]; /* [wanted column] or -1: missing */
+    int column_index[MAX_COLUMNS]; /* column number of each name; -1: missing */
     bool has_panes;                /* the table has a column "pane" */
     char failure[200];             /* why the table cannot be read, or "" */
 } TableReader;
@@ -122,7 +122,7 @@ static bool read_next_row(TableReader *reader, TableRow row)
 }
 
 /* Reads the rows of one run at the step options->state_step; -1: at the last
- * step.  If the user went back, a step's newest rows are used.
+ * step.  If the table has a step twice, the later rows are used.
  *   row  [reader->rows] out */
 static void read_run_rows(TableReader *reader, const Options *options,
                           TableRow *row)
@@ -162,7 +162,7 @@ static void read_run_rows(TableReader *reader, const Options *options,
 }
 
 /* Reads the rows of a run.
- *   reader  in/out, with the members up to `run`
+ *   reader  in/out; the caller sets the members up to `run`
  *   row     out, [reader->rows], to be freed by the caller in any case
  * Returns OK, INVALID_INPUT, OUT_OF_MEMORY. */
 static Status read_table(TableReader *reader, const Options *options,

@@ -125,7 +125,7 @@ Status cholesky_factor(Cholesky *cholesky)
 
 /* ---- definite: in panels ---- */
 
-/* y = L^-T L^-1 y; w [n] workspace. */
+/* Overwrites y [n] with L^-T L^-1 y.  w [n] is workspace. */
 static void solve_by_panels(const cholmod_factor *L, double *y, double *w)
 {
     const int *column = L->super, *rows = L->pi, *values = L->px;
@@ -145,7 +145,7 @@ static void solve_by_panels(const cholmod_factor *L, double *y, double *w)
 
 /* ---- indefinite: the first entry of each column is that of D ---- */
 
-/* y = L^-T D^-1 L^-1 y */
+/* Overwrites y [n] with L^-T D^-1 L^-1 y. */
 static void solve_by_columns(const cholmod_factor *L, double *y)
 {
     const int *start = L->p, *count = L->nz, *row = L->i;
@@ -160,9 +160,9 @@ static void solve_by_columns(const cholmod_factor *L, double *y)
     }
 }
 
-/* Without pivoting an indefinite factor can be inaccurate, and pivots near 0
- * were replaced.  Iterative refinement with the matrix itself,
- * x += (L D L^T)^-1 (b - A x), restores the accuracy. */
+/* An indefinite A is solved by iterative refinement with A itself,
+ * x += (L D L^T)^-1 (b - A x), because its factor can be inaccurate: CHOLMOD
+ * does not pivot, and replaces pivots near 0 (cholesky_factor). */
 Status cholesky_solve(Cholesky *cholesky, const double *b, double *x)
 {
     enum { MAX_SOLVES = 21 };

@@ -6,9 +6,9 @@
 /* Iterations in which projection on demand clamps after a failed factor. */
 enum { CLAMPS_AFTER_FAILURE = 4 };
 
-/* Shifts that are tried: 1e-15, 1e-13, ... 1e-5 of the largest entry.  A shift
- * changes few directions, so conjugate gradients need few solves until r.z has
- * fallen to ALL_DIGITS of its first value. */
+/* Shifts to try: 1e-15, 1e-13, ... 1e-5 of the largest diagonal entry.  A shift
+ * matters for few eigenvectors, so conjugate gradients need few solves.  They
+ * end when r.z is at most ALL_DIGITS times its first value. */
 enum { SHIFT_TRIES = 6, CG_MAX_SOLVES = 59 };
 static const double ALL_DIGITS = 1e-28;
 
@@ -23,10 +23,10 @@ void direction_free_matrix(SearchDirection *direction)
 
 /* Assembles A, the Hessian at x.  The pattern and the symbolic analysis are
  * made again only if the system's pattern or the kind of factor has changed, or
- * if x needs new entries.  With NONE the factor is L D L^T, which allows
- * negative eigenvalues.  With ON_DEMAND it is L L^T, of a Hessian that is not
- * projected.
- *   projected  out, number of blocks projected
+ * if x needs new entries.  PROJECTION_NONE asks for a factor L D L^T, which
+ * allows negative eigenvalues, every other projection for L L^T.  With
+ * PROJECTION_ON_DEMAND A is not projected.
+ *   projected  out, number of projected blocks
  * Returns OK, TOO_LARGE, OUT_OF_MEMORY. */
 static Status assemble_hessian(Newton *newton, Projection projection,
                                int *projected)
@@ -57,7 +57,7 @@ static Status assemble_hessian(Newton *newton, Projection projection,
     return status;
 }
 
-/* Returns the largest entry of A's diagonal, whose slots are the first 2n. */
+/* Returns the largest diagonal entry of A (slots of the first 2n triplets). */
 static double largest_diagonal(const Newton *newton)
 {
     const SearchDirection *direction = &newton->direction;
@@ -118,8 +118,8 @@ static Status assemble_and_factor(Newton *newton)
     return assemble_and_factor(newton);
 }
 
-/* Computes z = (H + shift I)^-1 r; r and z are in the order of the nodes.
- * Returns OK, NOT_FINITE, SINGULAR. */
+/* Solves (H + shift I) z = r with the last factor; r and z are in the order of
+ * the nodes, not of elimination.  Returns OK, NOT_FINITE, SINGULAR. */
 static Status apply_inverse_factor(Newton *newton, const double *r, double *z)
 {
     const int *order = newton->system->elimination_order;
@@ -140,7 +140,6 @@ static Status apply_inverse_factor(Newton *newton, const double *r, double *z)
 
 /* ---- conjugate gradients ---- */
 
-/* Returns a . b. */
 static double dot(int n, const double *a, const double *b)
 {
     double sum = 0;
@@ -149,13 +148,13 @@ static double dot(int n, const double *a, const double *b)
     return sum;
 }
 
-/* The state of conjugate gradients for H p = -g, preconditioned with a factor
- * (Golub, Van Loan: 11.5): directions d, residual r = -g - H p, z = factor^-1
- * r.  H is applied term by term, and so keeps small masses that the assembled
- * matrix has lost to rounding. */
+/* State of conjugate gradients for H p = -g (Golub, Van Loan: 11.5) with
+ * directions d, residual r = -g - H p, and z = factor^-1 r, where the Cholesky
+ * factor of H is the preconditioner.  Products with H are summed term by term:
+ * in the assembled matrix small masses are lost to rounding. */
 typedef struct ConjugateGradients {
     Projection projection;
-    double tolerance; /* limit of r.z/first_rz at which the loop ends */
+    double tolerance; /* the loop ends at r.z <= tolerance * first_rz */
     double rz;        /* r.z, squared size of the residual */
     double first_rz;  /* r.z before the first step */
 } ConjugateGradients;
@@ -218,11 +217,11 @@ static Status solve_with_factor(Newton *newton)
 }
 
 /* Bounds the error of p, with H applied term by term.
- *   error  out, kg^(1/2) m, bound of |p - exact p|_M: |g + H p|_(M^-1) if H - M
- *          is positive semi-definite, else 2 |factor^-1 (g + H p)|_M with the
- *          factor of H itself.  (An earlier H may be far stiffer, since a
- *          contact has opened.)  If projection on demand has clamped H, the
- *          bound is one for the clamped H.
+ *   error  out, kg^(1/2) m, bound of |p - exact p|_M
+ * For a projected H the bound is |g + H p|_(M^-1), as H - M is positive
+ * semi-definite.  For an unprojected H with its own factor the bound is
+ * 2 |factor^-1 (g + H p)|_M.  With the factor of an earlier H, which may be far
+ * stiffer if a contact has opened, H is clamped before the bound is computed.
  * Returns OK, NOT_FINITE, SINGULAR. */
 static Status direction_error_bound(Newton *newton, double *error)
 {
@@ -246,9 +245,9 @@ static Status direction_error_bound(Newton *newton, double *error)
     return status;
 }
 
-/* Makes linear momentum exact.  Internal forces cannot move the centre of mass,
- * so sum m (u + p) = sum m u_tilde, as H p = -g summed over all nodes says.
- * Rounding of a stiff H hides this sum; a shift of all nodes mends it. */
+/* Makes linear momentum exact by an equal shift of all nodes.  Internal forces
+ * cannot move the centre of mass, so sum m (u + p) is sum m u_tilde for the
+ * exact p; rounding of a stiff H makes p miss this sum. */
 static void correct_momentum(Newton *newton)
 {
     const System *system = newton->system;
@@ -264,8 +263,8 @@ static void correct_momentum(Newton *newton)
         p[i] += missing[i % 2] / mass;
 }
 
-/* Computes p = -H^-1 g where each coordinate stands alone in all terms, such as
- * masses without springs: H is diagonal, and H times ones is its diagonal. */
+/* Computes p = -H^-1 g if H is diagonal, such as for masses without springs.
+ * The product of H with a vector of ones is its diagonal. */
 static void solve_diagonal(Newton *newton)
 {
     const Iterate *at = &newton->iterate;
@@ -291,7 +290,7 @@ static double largest_row_sum(int nodes, const double *p)
     return largest;
 }
 
-/* A direction is negligible if its bound passes the test and is at most this
+/* A negligible direction passes the test, and moves no node by more than this
  * fraction of the shortest spring. */
 static const double NEGLIGIBLE = 1e-6;
 
@@ -334,15 +333,15 @@ static bool refine_with_last_factor(Newton *newton)
     return dot(n, g, p) <= 0;
 }
 
-/* Each node has m |p_i|^2 <= |p|_M^2, and |p_x| + |p_y| <= sqrt(2) |p_i|. */
+/* norm is |p|_M >= sqrt(m) |p_i|, and |p_x| + |p_y| <= sqrt(2) |p_i|. */
 double bound_largest_movement(const Newton *newton, double norm)
 {
     return sqrt(2 / newton->rounding.min_mass) * norm;
 }
 
-/* Computes the residual of p, and tests it.
+/* Computes the residual of p and tests it against the tolerance.
  *   exact  whether p solves H p = -g up to rounding.  Otherwise the test adds
- *          a bound of p's error, but not g's rounding. */
+ *          a bound of the error of p, which leaves out the rounding of g. */
 static Status find_residual(Newton *newton, bool exact)
 {
     NewtonRecord *record = &newton->record;
@@ -380,9 +379,9 @@ double negligible_direction_size(const Newton *newton)
                 NEGLIGIBLE * newton->rounding.shortest_spring);
 }
 
-/* The projected Hessian is M plus something positive semi-definite, so
- * |p|_M <= |g|_(M^-1): the gradient alone bounds p.  With projection on demand
- * the bound is that of p with the clamped Hessian. */
+/* The projected Hessian minus M is positive semi-definite, so |p|_M is at most
+ * |g|_(M^-1), a bound without the Hessian.  With projection on demand the bound
+ * holds for the direction of the clamped Hessian. */
 bool next_direction_is_negligible(Newton *newton)
 {
     if (newton->settings.projection == PROJECTION_NONE)
@@ -413,8 +412,8 @@ static Status solve_with_new_factor(Newton *newton)
     if (status != STATUS_OK)
         return status;
     correct_momentum(newton);
-    /* A factor is not exact where springs outweigh the masses too much, or if
-     * its pivots were replaced. */
+    /* The factor is inexact if springs hide the masses by rounding, if A has a
+     * shift, or if pivots were replaced. */
     return find_residual(newton,
                          !newton->rounding.factor_is_inexact &&
                              newton->direction.shift == 0 &&

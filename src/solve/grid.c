@@ -74,7 +74,7 @@ void grid_lay_out(int segments, ArrayArena *memory, Grid *grid)
 }
 
 /* Removes rows that equal the row before them.
- *   shift  [nodes] out, distance from a row's place to its stored numbers */
+ *   shift  [nodes] out, index shift from each row to its stored row */
 static void remove_equal_rows(const RowLayout *rows, double *const *array,
                               int arrays, int *shift)
 {

@@ -1,22 +1,22 @@
 /* grid.h - the square of masses and springs as planes of numbers, and E on it.
  *
  * A step's problem is: minimise
- *   E = |x - x_tilde|_M^2 / 2 + sum over springs of c/4 (|d|^2 - l2)^2,
- * d = x_i - x_j, c = 2 w k/l2 (spring_law.h).
+ *   E = |x - x_tilde|_M^2 / 2 + sum over springs of c/4 (|d|^2 - l2)^2
+ * with d = x_i - x_j and c = 2 w k/l2 for a spring of stiffness k and squared
+ * rest length l2 (spring_law.h); w is the weight of P, h^2 for implicit Euler.
  *
  * A row stores its nodes in even columns first, then those in odd columns.  The
- * nodes of a row that are `even` or `odd` are therefore contiguous, no two of
- * them share a spring, loops go through them several nodes at once, and the
- * even ones of even rows are a coarser grid.  Around the nodes are ghosts,
- * whose springs have stiffness 0.  A vector has two planes, all x and then all
- * y; outside the nodes it is 0.  Lengths and masses have units of the grid,
- * powers of two near those of a cell, which change no bit: its numbers are
- * about 1.
+ * even nodes of a row are contiguous and share no spring, and so are the odd
+ * ones; loops handle several of them at once.  The even nodes of even rows are
+ * a coarser grid.  Around the nodes are ghosts, whose springs have stiffness 0.
+ * A vector has two planes, all x and then all y; outside the nodes it is 0.
+ * Lengths and masses are scaled by powers of two, so that numbers are about 1;
+ * the scaling changes no bit of a mantissa.
  *
- * Sums have one shape whatever the width of the registers: each of LANES
- * neighbours has its own partial sum, the partial sums of a band of rows are
- * added in a fixed order, and then the bands are.  The bits are therefore the
- * same everywhere. */
+ * The order of additions does not depend on the width of the registers: each of
+ * LANES neighbours has its own partial sum, the partial sums of a band of rows
+ * are added in a fixed order, and then the bands.  Results therefore have the
+ * same bits everywhere. */
 #pragma once
 
 #include <stddef.h>
@@ -36,7 +36,7 @@ enum { BAND_ROWS = 8 };
 
 /* Layout of a plane: where the number of each node is stored. */
 typedef struct RowLayout {
-    int nodes;      /* number of nodes in a row, and of rows: n + 1 */
+    int nodes;      /* number of nodes in a row, and of rows */
     int count[2];   /* number of even and of odd columns */
     int odd_offset; /* distance from a row's even columns to its odd ones */
     int pitch;      /* distance from one row to the next */
@@ -53,18 +53,18 @@ static inline int node_index(const RowLayout *rows, int i, int j)
 
 typedef struct Grid {
     RowLayout rows;
-    int segments, bands; /* segments a side; bands of rows (grid_loops.h) */
+    int segments, bands; /* number of segments a side, of bands of rows */
     double length_unit, mass_unit,
-        energy_unit; /* grid units per m, kg, J s^2 */
-    /* Equal rows of masses are stored once, and so are equal rows of springs.
-     * Node q in row i has the mass m[q + mass_shift[i]]; the springs that start
-     * there have the index q + spring_shift[i + 1]; [0] is for row -1. */
-    int *mass_shift, *spring_shift; /* [nodes + 1] added to q, by row */
-    double *c[SPRING_KINDS]; /* [plane] 2 w k/l2, w weight of P; 0: no spring */
+        energy_unit; /* grid units per m, kg, J s^2 (unit of E) */
+    /* Equal rows of masses or springs are stored once.  Node q of row i has the
+     * mass m[q + mass_shift[i]], and the springs that start at node q have the
+     * index q + spring_shift[i + 1]; spring_shift[0] is for row -1 (ghosts). */
+    int *mass_shift, *spring_shift; /* [nodes + 1] index shift of each row */
+    double *c[SPRING_KINDS];  /* [plane] Hessian factor 2 w k/l2; 0: none */
     double *l2[SPRING_KINDS]; /* [plane] squared rest length */
     double *m, *inverse_m; /* [plane] mass and 1/mass; inverse_m is 0 at pins */
     double min_mass;       /* smallest mass of a node that moves */
-    double max_stiffness;  /* largest 8 c l2 of a spring, bound for a node */
+    double max_stiffness;  /* largest 8 c l2, stiffness of 8 springs at rest */
     float *float_c[SPRING_KINDS];  /* [plane] c in single precision */
     float *float_l2[SPRING_KINDS]; /* [plane] l2 in single precision */
     float *float_m;                /* [plane] mass of each node; 0 at pins */
@@ -90,7 +90,7 @@ void *memory_take_piece(ArrayArena *memory, size_t bytes);
  * caller frees base. */
 Status memory_create(ArrayArena *memory);
 
-/* Places the arrays for segments x segments cells; sets the rest to 0. */
+/* Sets sizes and places arrays for segments x segments cells; all else is 0. */
 void grid_lay_out(int segments, ArrayArena *memory, Grid *grid);
 
 /* Returns the power of two that scales a to about 1. */

@@ -9,9 +9,9 @@
 
 #include "solve/grid.h"
 
-/* Marks a function that is compiled for several widths of registers; the
- * program takes the version of its processor when it starts.  Sums have one
- * shape and products are not contracted, so all versions agree in every bit. */
+/* Marks a function that is compiled for several widths of registers; at its
+ * start the program selects the version for the processor.  All versions give
+ * the same bits: they add in one order, and have no fused multiply-add. */
 #ifndef FAST
 #if defined(__x86_64__) && defined(__GLIBC__) && defined(__OPTIMIZE__) &&      \
     !defined(__clang__)
@@ -45,9 +45,9 @@ INLINE NodeRun nodes_in_row(const RowLayout *rows, int i, int odd)
                      .after = before + 1};
 }
 
-/* EACH_OF loops over nodes, counted by e, none of which changes what another
- * one reads.  The compiler vectorises the loop; AT_ONCE keeps the compiler from
- * unrolling the loop before. */
+/* EACH_OF is a loop with counter e over independent nodes: no node changes what
+ * another node reads.  The compiler vectorises the loop; AT_ONCE keeps the
+ * compiler from unrolling the loop first. */
 #ifdef __clang__
 #define AT_ONCE _Pragma("clang loop vectorize(assume_safety) unroll(disable)")
 #else
@@ -55,9 +55,9 @@ INLINE NodeRun nodes_in_row(const RowLayout *rows, int i, int odd)
 #endif
 #define EACH_OF(lanes) AT_ONCE for (int e = 0; e < (lanes); e++)
 
-/* NEXT is the number of nodes that a loop handles next: `lanes`, even past the
- * end of the run, where all numbers stay 0.  In a browser, where registers are
- * narrow, it is as many as are left, in whole vectors. */
+/* NEXT is the number of nodes that a loop handles next: always `lanes`, because
+ * numbers past the end of the run stay 0.  In a browser, where registers are
+ * narrow, NEXT is at most the nodes left, rounded up to whole vectors. */
 #ifdef __wasm_simd128__
 #define AT_MOST(lanes, left)                                                   \
     ((left) < (lanes) ? ((left) + (lanes) / 4 - 1) & -((lanes) / 4) : (lanes))
@@ -66,11 +66,11 @@ INLINE NodeRun nodes_in_row(const RowLayout *rows, int i, int odd)
 #endif
 #define NEXT(at, lanes) AT_MOST(lanes, (at).end - (at).first)
 
-/* Floats and Doubles are what EACH_FLOATS and EACH_DOUBLES handle at once.  In
- * a browser they are four numbers in single and two in double precision, and
- * contributions of springs have to be added one after the other (IN_ORDER) to
- * stay in registers.  Elsewhere they are one number, and the compiler
- * vectorises the loop. */
+/* Floats and Doubles are the numbers of one iteration of EACH_FLOATS and
+ * EACH_DOUBLES.  In a browser they are vectors of four floats or two doubles.
+ * IN_ORDER makes the browser's code add one spring after the other, so that the
+ * sums stay in registers.  Elsewhere Floats and Doubles are single numbers, and
+ * the compiler vectorises the loop. */
 #ifdef __wasm_simd128__
 typedef float Floats __attribute__((vector_size(16), aligned(4)));
 typedef double Doubles __attribute__((vector_size(16), aligned(8)));
@@ -99,7 +99,7 @@ enum { HIGH_OFFSET = 0 };
 /* Converts `low` to single precision; in a browser also `high`. */
 INLINE Floats narrow_to_single(Doubles low, Doubles high)
 {
-#ifdef __wasm_simd128__ /* clang does not find this instruction by itself */
+#ifdef __wasm_simd128__ /* clang does not generate `demote` by itself */
     v128_t few = wasm_f32x4_demote_f64x2_zero((v128_t)low);
     v128_t more = wasm_f32x4_demote_f64x2_zero((v128_t)high);
     return (Floats)wasm_i32x4_shuffle(few, more, 0, 1, 4, 5);
@@ -121,9 +121,9 @@ INLINE void narrow_array(const double *from, double factor, double middle,
                 factor * (DOUBLES(from, e + HIGH_OFFSET) - middle));
 }
 
-/* Calls F for springs of a node, with the kind, the distance to the other node,
- * and the distance to the spring's numbers.  Two springs are in the node's row,
- * six lead to the next rows; four of all start at the node (OWN_SPRINGS). */
+/* Calls F(kind, to, numbers) for springs of a node q: the other node has the
+ * index q + to, the spring q + numbers.  ROW_SPRINGS are the 2 springs in the
+ * row, CROSS_SPRINGS the other 6, OWN_SPRINGS the 4 that start at the node. */
 #define ROW_SPRINGS(F, at)                                                     \
     F(UP, (at).after, (at).shift)                                              \
     F(UP, (at).before, (at).shift + (at).before)
@@ -153,8 +153,8 @@ INLINE NodeRun grid_nodes(const Grid *grid, int i, int odd)
     return at;
 }
 
-/* EACH_RUN_OF loops over the nodes of a band, LANES of a row at once in `at`;
- * EACH_NODE_OF loops over the Doubles of these nodes, too, counted by `e`. */
+/* EACH_RUN_OF loops over the nodes of a band, LANES of a row at a time, from
+ * at.first on; EACH_NODE_OF also loops over their Doubles, with counter `e`. */
 #define EACH_RUN_OF(grid, band)                                                \
     for (int i = (band)*BAND_ROWS;                                             \
          i < (band)*BAND_ROWS + BAND_ROWS && i < (grid).rows.nodes; i++)       \

@@ -9,9 +9,9 @@
 
 #include "solve/grid_loops.h"
 
-/* The numbers of a spring in a loop: d = x_i - x_j, d2 = |d|^2, s = d2 - l^2,
- * and its force factor c.  The function evaluates the spring from node q to q +
- * to, with its numbers at q + at, in double or in single precision. */
+/* Defines a struct of a spring's d = x_i - x_j, d2 = |d|^2, s = d2 - l2 and
+ * Hessian factor c, and the function that computes it in double or single
+ * precision: the nodes are q and q + to, and c and l2 have the index q + at. */
 #define DEFINE_SPRING(Type, evaluate, Numbers, AT, of_x, of_c, of_l2)          \
     typedef struct Type {                                                      \
         Numbers dx, dy, d2, s, c;                                              \
@@ -29,9 +29,9 @@ DEFINE_SPRING(GridSpring, evaluate_grid_spring, Doubles, DOUBLES, x, c, l2)
 DEFINE_SPRING(FloatSpring, evaluate_float_spring, Floats, FLOATS, float_x,
               float_c, float_l2)
 
-/* Declares iso and along of a spring's tensor.  The eigenvalue of the Hessian
- * across d is c iso, the one along d is c (iso + along |d|^2).  In a clamped
- * tensor negative eigenvalues are 0.  1e-35 keeps |d|^2 above 0. */
+/* Declares iso and along of a spring's Hessian c (iso I + along d d^T).  Its
+ * eigenvalues are c iso across d and c (iso + along |d|^2) along d; is_clamped
+ * sets negative ones to 0.  1e-35 keeps |d|^2 above 0. */
 #define SPRING_TENSOR(spring, is_clamped, iso, along)                          \
     __typeof__((spring).s) iso = (spring).s, along = {0};                      \
     along += 2;                                                                \
@@ -78,17 +78,17 @@ INLINE void spring_line_polynomial(GridSpring s, Doubles ux, Doubles uy,
 
 /* ---- a node that moves alone ---- */
 
-/* Sums over a node's springs: gradient of E (GX, GY), Hessian, not clamped
- * (HXX, HXY, HYY), c d (CDX, CDY), c (SUM_C), f = c s below 0 (NEGATIVE).  The
- * Hessian is the mass and all f (SUM_F) times I, plus 2 c d d^T. */
+/* Sums over a node's springs: gradient of E (GX, GY), unclamped Hessian (HXX,
+ * HXY, HYY), c d (CDX, CDY), c (SUM_C), and negative f = c s (NEGATIVE).  The
+ * Hessian is SUM_F I + 2 sum of c d d^T; SUM_F is the mass + sum of f. */
 enum { GX, GY, HXX, HXY, HYY, CDX, CDY, SUM_C, NEGATIVE, SUM_COUNT };
-enum { SUM_F = SUM_COUNT }; /* needed only while springs are added */
+enum { SUM_F = SUM_COUNT }; /* this sum is not stored in NodeSums */
 
 typedef float NodeSums[SUM_COUNT][LANES];
 
 /* Adds a spring to the sums.
- *   w  in, way of the ends apart since the start, d = d0 + w: the force has
- *      changed by c (s d - s0 d0) = c (s w + (s - s0) d0); NULL: it is c s d */
+ *   w  in, change of d since the start, d = d0 + w: adds only the change of the
+ *      force, c (s d - s0 d0) = c (s w + (s - s0) d0).  NULL: adds c s d */
 INLINE void add_spring(FloatSpring s, const Floats w[2],
                        Floats sum[SUM_COUNT + 1])
 {

@@ -62,9 +62,9 @@ Status incremental_potential_create_hessian(const System *system, Sparse *A)
         add_term_triplets(system, &triplets);
         status = sparse_create(&triplets, A);
     }
-    /* Entries of terms in rows or columns of pinned nodes are dropped: the last
-     * value of A, which is unused, collects them.  A column begins with its
-     * diagonal entry, which is 1 here in a pinned column. */
+    /* Terms' entries in rows or columns of pinned nodes are dropped: their slot
+     * becomes the unused last value of A.  In this loop the diagonal entry, the
+     * first one of its column, is 1 if the column belongs to a pinned node. */
     for (int t = 0; t < triplets.count && !status; t++)
         if (t < masses)
             A->value[A->slot[t]] = system->pinned[t / 2];
@@ -75,8 +75,8 @@ Status incremental_potential_create_hessian(const System *system, Sparse *A)
     return status;
 }
 
-/* Adds all terms' Hessians to a matrix through its slots or, where q is given,
- * their products with it.  Returns how many blocks were projected. */
+/* Adds to `out` the terms' Hessians, values of a matrix, or, if q is given,
+ * their products with q, a vector.  Returns how many blocks were projected. */
 static int add_hessians(const Iterate *iterate, Projection projection,
                         const int *slot, const double *q, double *out)
 {

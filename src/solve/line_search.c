@@ -21,9 +21,9 @@ typedef struct SearchContext {
 } SearchContext;
 
 /* Returns E(x + alpha p) - E(x), or 0 without a line search.  NaN: a term does
- * not allow the point, or E evaluated at both points rises by more than the
- * difference plus rounding.  u_trial and x_trial get the point, except where
- * a line search finds that E rises. */
+ * not allow the point x + alpha p, or rounding_confirms_change rejects the
+ * difference.  Writes the point to u_trial and x_trial, unless a line search
+ * finds that E rises. */
 static double step_energy_difference(const void *function, double alpha)
 {
     const SearchContext *search = function;

@@ -14,14 +14,14 @@
  * fraction of the shortest spring since they were computed. */
 static const double NEARBY = 0.05;
 
-/* A direction is poor if p is not small (SMALL_P), and its bound after it is
- * more than STALLS times the bound before.  Tiles relax after each poor
+/* A direction p is poor if p is not small (SMALL_P), and p_bound is more than
+ * STALLS times its value in the iteration before.  Tiles relax after each poor
  * direction.  A sweep of a tile is worth its time if it lowers E by more than
  * PACE times the last direction's decrease, divided by the number of tiles. */
 static const double STALLS = 0.3, PACE = 0.01;
 
 /* If the first sweep of all tiles in a step lowers E by less than USELESS times
- * the last direction's decrease, tiles pause for TILE_PAUSE iterations. */
+ * the last direction's decrease, tiles pause for TILE_PAUSE - 1 iterations. */
 static const double USELESS = 0.005;
 enum { TILE_PAUSE = 5 };
 
@@ -36,7 +36,7 @@ struct Multigrid {
     Grid grid;
     VCycle cycle;
     Tiles tiles;
-    ArrayArena memory;       /* block of all arrays */
+    ArrayArena memory;       /* memory that holds all arrays */
     double *g, *p;           /* [2 planes] grad E and direction at x */
     double *last_g, *last_p; /* [2 planes] g and p in the iteration before */
     double gradient_norm2;   /* |g|_(M^-1)^2 */
@@ -47,7 +47,7 @@ struct Multigrid {
     double moved_since_setup; /* m, upper bound of a node's displacement since
                                  the V-cycle's matrices were computed */
     long direction_cycles;    /* number of V-cycles that computed p */
-    double largest_change;    /* J s^2, largest change of E in this step, < 0 */
+    double largest_change;    /* J s^2, most negative change of E in the step */
     Quartic line_E;           /* E(x + alpha p) - E(x), J s^2 */
     unsigned version;         /* System.version that the grid was made for */
     double weight;            /* s^2, weight of P that the grid was made for */
@@ -211,8 +211,8 @@ static Status multigrid_find_direction(Newton *newton)
     return status;
 }
 
-/* Returns an alpha at which the quartic is below 0, at a minimum if rounding
- * allows, searched from 1 on; 0 if there is none.
+/* Finds a minimum of the quartic by Newton's method with bisection, from 1 on.
+ * Returns its alpha, halved until the quartic is below 0; 0 if there is none.
  *   trials  out, number of evaluations of the quartic */
 static double minimise_quartic(const Quartic *quartic, int *trials)
 {
@@ -300,7 +300,7 @@ static Status multigrid_update_iterate(Newton *newton)
         return STATUS_OK;
     const bool is_poor = mg->p_bound > STALLS * mg->last_p_bound &&
                          record->residual > SMALL_P * newton->tolerance;
-    const bool is_first = mg->tiles_rest_until == 0; /* poor one in the step */
+    const bool is_first = mg->tiles_rest_until == 0; /* no earlier poor p */
     multigrid_choose_hessian(
         mg, (is_poor && !is_first) ||
                 (mg->cycle.is_clamped && mg->direction_cycles > 1));
@@ -313,7 +313,7 @@ static Status multigrid_update_iterate(Newton *newton)
                 record->iteration + (first > USELESS * change ? TILE_PAUSE : 1);
         multigrid_compute_line_polynomial(mg);
         double alpha = minimise_quartic(&mg->line_E, &(int){0});
-        if (alpha > 0) { /* false after an overflow of the tiles' floats */
+        if (alpha > 0) { /* alpha is 0 after an overflow of floats */
             grid_add_step(&mg->grid, alpha, p);
             record->change += quartic_value(&mg->line_E, alpha);
             mg->moved_since_setup = INFINITY;
@@ -347,7 +347,7 @@ static Status multigrid_test_iterate(Newton *newton, Status status)
     if (ends && system_falls_freely(newton->system))
         record->change +=
             grid_correct_momentum(&mg->grid) / mg->grid.energy_unit;
-    /* newton->iterate is read only in these cases. */
+    /* Only these cases need the iterate in newton->iterate. */
     if (ends || stuck || small || last || newton->settings.observer) {
         swap_iterates(newton);
         grid_write_iterate(&mg->grid, &newton->iterate);

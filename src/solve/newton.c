@@ -78,10 +78,9 @@ static Status test_iterate(Newton *newton, Status status)
     return status;
 }
 
-/* Books the change of E in this minimisation.  The sum of the updates' changes,
- * each of which is exact along its line, is used unless E was so high in
- * between that the sum has lost more digits than E at the end - E at the start.
- */
+/* Adds the change of E in this minimisation to total_change: the sum of the
+ * updates' changes, each exact along its line, or, if E was so high in between
+ * that the sum has lost more digits, E at the end - E at the start. */
 static void book_energy_change(Newton *newton)
 {
     const Iterate *at = &newton->iterate;

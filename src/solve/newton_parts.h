@@ -8,17 +8,17 @@
  * of multigrid their copy on the grid. */
 typedef struct NewtonPhases {
     /* Computes g and p at x, and the residual of p.  Sets newton->passes_test
-     * if the residual, with a bound of its error, is at most the tolerance;
-     * Newton's phase only if no turn may follow that turn_free_body cannot
-     * make.  Returns OK, or why there is no p. */
+     * if the residual plus a bound of its error is at most the tolerance, and,
+     * in Newton's phase, if turns_may_follow is false or turn_free_body makes
+     * the turn.  Returns OK, or why there is no p. */
     Status (*find_direction)(Newton *newton);
     /* Computes alpha, trials, slope and change.  For Newton's method also
      * stores the end of the step in u_trial and x_trial.  Returns OK, or why no
      * step lowers E: LINE_SEARCH_LIMIT, NOT_DESCENT, ROUNDING_LIMIT,
      * NOT_FINITE; alpha and change are then 0. */
     Status (*find_step_length)(Newton *newton);
-    /* Makes the end of the step the iterate (u and x).  Returns OK, NOT_FINITE,
-     * ROUNDING_LIMIT. */
+    /* Adds alpha p to the iterate (u and x); multigrid may also relax tiles.
+     * Returns OK, NOT_FINITE, ROUNDING_LIMIT. */
     Status (*update)(Newton *newton);
     /* Turns a free body (turn_free_body), and decides whether the loop ends.
      *   status  in, result of the phases before
@@ -39,7 +39,7 @@ static inline void swap_iterates(Newton *newton)
 
 /* ---- direction.c: gradient, Hessian, search direction (slide: search_dir) */
 
-/* Frees the matrix and its factor, which are made when they are needed. */
+/* Frees the Hessian and its factor.  The next factorisation makes new ones. */
 void direction_free_matrix(SearchDirection *direction);
 
 Status find_direction(Newton *newton);
@@ -67,12 +67,12 @@ Status find_step_length(Newton *newton);
  * which is at most sum |p_i| |g_i| over the nodes i. */
 bool turns_may_follow(const Newton *newton);
 
-/* Turns all nodes to the angle at which E is lowest, if P stays the same in a
- * turn (system_turns_freely), and the scene is stiff, or p passes the test and
- * turns_may_follow.  Then angular momentum is exact: sum m d x (u - u_tilde) is
- * 0, with d the vector from the pivot to a node.  Newton's directions are
- * straight and stretch what they turn, so a stiff body would turn by tiny
- * steps, which pass the test.  Returns the change of E, J s^2. */
+/* Turns all nodes to the angle at which E is lowest, where P is the same at all
+ * angles (system_turns_freely).  The turn is made if the scene is stiff, and
+ * also if p passes the test but turns_may_follow.  Angular momentum is then
+ * exact: sum m d x (u - u_tilde) = 0, with d from the pivot to a node. Newton's
+ * straight directions stretch a body that turns, so a stiff body would turn by
+ * tiny steps, which pass the test.  Returns the change of E, J s^2. */
 double turn_free_body(Newton *newton);
 
 /* ---- multigrid.c: the same phases for large squares, without a factor */
@@ -85,7 +85,6 @@ extern const NewtonPhases multigrid_phases;
  * the slope along p may be rounding errors.  In such a scene, and without a
  * line search, E itself is compared with its start. */
 
-/* Prepares newton->rounding for a minimisation. */
 void rounding_prepare(Newton *newton);
 
 /* Whether a change of E, J s^2, is at most a few units in E's last place. */
@@ -93,7 +92,7 @@ bool is_below_roundoff(const Newton *newton, double change);
 
 /* Whether E at u_trial confirms record.change: E is not higher than predicted
  * by more than rounding explains.  True without a test if the scene is not
- * stiff, if there is no line search, or if energy_is_within_limit decides. */
+ * stiff, if there is no line search, or if rounding.energy_limit is finite. */
 bool rounding_confirms_change(Newton *newton);
 
 /* Whether E at u, x [2n] is at most rounding.energy_limit. */

@@ -10,8 +10,8 @@
 /* Number of columns that a loop handles at once. */
 enum { GROUP_COLUMNS = 4 };
 
-/* Vectors of two and four numbers, an extension of C that gcc and clang share.
- * A vector may start at any number of an array. */
+/* Vectors of two and four doubles, an extension of C that gcc and clang share.
+ * A vector may start at any element of an array of double. */
 typedef double Double2
     __attribute__((vector_size(2 * sizeof(double)), aligned(sizeof(double))));
 typedef double Double4
@@ -43,7 +43,8 @@ typedef struct DenseProduct {
     int ldl;
 } DenseProduct;
 
-/* Defines a function that computes `wide` Lanes of rows of C, from row i on. */
+/* Defines a function `rows` that computes rows of C from row i on, as many as
+ * `wide` vectors of type Lanes hold. */
 #define ROWS(rows, Lanes, wide)                                                \
     INLINE void rows(const DenseProduct *at, int i, int n,                     \
                      const double *inverse)                                    \
@@ -153,8 +154,8 @@ void dgemm_(const char *transa, const char *transb, const int *m, const int *n,
                                        *ldb, *ldc, false, NULL, 0});
 }
 
-/* Computes the lower triangle of C = A A^T.  Entries right of the triangle are
- * overwritten within a group of columns. */
+/* Computes the lower triangle of C = A A^T, and overwrites up to three entries
+ * above the diagonal in each column. */
 void dsyrk_(const char *uplo, const char *trans, const int *n, const int *k,
             const double *alpha, const double *A, const int *lda,
             const double *beta, double *C, const int *ldc)
@@ -203,7 +204,7 @@ static int factor_block(int n, double *D, int ldd)
     return 0;
 }
 
-/* Factors A as L L^T in its lower triangle; info: as factor_block returns. */
+/* Factors A = L L^T in place; info: number of the first pivot <= 0, or 0. */
 void dpotrf_(const char *uplo, const int *n, double *A, const int *lda,
              int *info)
 {
@@ -237,8 +238,7 @@ static const double *panel_get_column(const Panel *panel, int j)
     return panel->value + (size_t)j * (size_t)panel->rows;
 }
 
-/* Finds four columns from column j on, and the inverses of their pivots.  The
- * divisions do not wait for one another. */
+/* Finds columns j to j + 3, and computes the inverses of their pivots. */
 static inline void load_column_group(const Panel *panel, int j,
                                      const double *a[GROUP_COLUMNS],
                                      double pivot[GROUP_COLUMNS])
@@ -249,7 +249,7 @@ static inline void load_column_group(const Panel *panel, int j,
     }
 }
 
-/* Solves for w[j] ... w[j + 3]; subtracts their terms from the rows below. */
+/* Solves L w = b for w[j] ... w[j + 3]; eliminates them from the rows below. */
 static void solve_forward_group(const Panel *panel, int j, double *w)
 {
     const double *a[GROUP_COLUMNS];
@@ -271,7 +271,7 @@ static void solve_forward_group(const Panel *panel, int j, double *w)
                 (a[2][i] * v[2] + a[3][i] * v[3]);
 }
 
-/* Solves for w[j] ... w[j + 3], the rows below being known. */
+/* Solves L^T w = b for w[j] ... w[j + 3]; the rows below are known. */
 static void solve_backward_group(const Panel *panel, int j, double *w)
 {
     const double *a[GROUP_COLUMNS];

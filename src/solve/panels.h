@@ -18,7 +18,7 @@
 
 typedef struct Panel {
     int columns, rows;
-    const int *row; /* [rows] rows of L; first those of the diagonal block */
+    const int *row; /* [rows] index of each row in L, diagonal block first */
     const double *value; /* [rows * columns] by columns; entries above the
                             diagonal have no meaning */
 } Panel;

@@ -12,18 +12,19 @@ enum { STAGNANT_ITERATIONS = 20 };
  * contact one converged later.) */
 enum { MAX_CIRCLING_ITERATIONS = 500 };
 
-/* Limits of w k over m.  Above STIFF_MASSES, rounding of the gradient may hide
- * that E rises along p.  Above INEXACT_MASSES, a direction from a factor may be
- * wrong by 1e-5 of itself.  Above HIDDEN_MASSES, m + w k rounds to w k. */
+/* Limits of w max_curvature / min_mass, w being P's weight.  Above
+ * STIFF_MASSES, rounding of the gradient may hide that E rises along p.  Above
+ * INEXACT_MASSES, a direction from a factor may have a relative error of 1e-5.
+ * Above HIDDEN_MASSES, mass plus stiffness rounds to the stiffness. */
 static const double STIFF_MASSES = 1e5, INEXACT_MASSES = 1e10,
                     HIDDEN_MASSES = 1e16;
 
 /* Fraction by which E may exceed its value at the start, since E is rounded. */
 static const double MARGIN = 1e-12;
 
-/* E contradicts a change along a line if E is higher by more than AGREED times
- * E at both ends plus BLURS times the effect of rounded coordinates.  (Samples
- * of this effect differ by large factors.) */
+/* E at the end of a line may be above its prediction by AGREED times the sum of
+ * E at both ends plus BLURS times the effect of rounded coordinates on E.
+ * (Samples of this effect differ by large factors.) */
 static const double AGREED = 1e-10, BLURS = 100;
 
 void rounding_prepare(Newton *newton)
@@ -66,7 +67,7 @@ bool is_below_roundoff(const Newton *newton, double change)
     return isfinite(E) && fabs(change) <= 4 * DBL_EPSILON * E;
 }
 
-/* Returns the change of E by a few units in each coordinate's last place. */
+/* Returns how much E changes when each coordinate's last bits change. */
 static double sample_coordinate_rounding(Newton *newton, const double *u,
                                          const double *x, double E)
 {

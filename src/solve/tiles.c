@@ -22,12 +22,12 @@ static const float DEFINITE = 0.0025f;
 static const double SHARE = 0.5, SPREAD = 0.1;
 
 /* A direction of the whole square takes the time of DIRECTION_SWEEPS sweeps of
- * all tiles.  Rounds end when a sweep lowers E by less than WORTH times the
- * mean decrease for each sweep, if the sweeps so far and a direction of the
- * whole square, which brings nothing, are counted. */
+ * all tiles.  Rounds end when the decrease of E per sweep of a tile is below
+ * WORTH times the mean: total decrease / (sweeps of tiles so far + sweeps in
+ * the time of a direction). */
 static const double DIRECTION_SWEEPS = 7, WORTH = 0.25;
 
-/* Limit of the rounds, which rounding could keep from ending. */
+/* Limit of the rounds, which rounding errors might continue for ever. */
 enum { MAX_TILE_ROUNDS = 10000 };
 
 void tiles_lay_out(const Grid *grid, ArrayArena *memory, Tiles *tiles)
@@ -46,8 +46,8 @@ void tiles_lay_out(const Grid *grid, ArrayArena *memory, Tiles *tiles)
     tiles->start_g = memory_take_piece(memory, both);
 }
 
-/* Returns the longest of three step lengths a that lower E, or 0; E changes by
- * a q[0] + ... + a^4 q[3].
+/* Tries three step lengths a, which change E by a q[0] + ... + a^4 q[3].
+ * Returns the longest one that lowers E; 0: none.
  *   lower  out, the change of E */
 INLINE float find_lowering_step(const float q[4], float *lower)
 {
@@ -62,8 +62,8 @@ INLINE float find_lowering_step(const float q[4], float *lower)
     return go;
 }
 
-/* Computes the sums of LANES nodes of a row, in a loop of its own, since steps
- * that do not wait for each other are faster. */
+/* Computes the sums over the springs of LANES nodes of a row.  A separate loop
+ * is faster, since no iteration waits for another. */
 INLINE void compute_spring_sums(const Tiles *tiles, NodeRun at,
                                 bool has_tiny_moves, NodeSums of)
 {
@@ -158,7 +158,8 @@ FAST static double sweep_tiles(Tiles *tiles, double activity, int *visits)
                 if (tiles->activity[i * wide + j] <= activity)
                     tiles->active[count++] = i * wide + j;
         for (int t = 0; t < count; t++) {
-            int tile = tiles->active[t]; /* a constant flag makes faster code */
+            /* relax_tile is compiled for each value of the flag: faster. */
+            int tile = tiles->active[t];
             tiles->last_change[tile] = tiles->has_tiny_moves
                                            ? relax_tile(tiles, tile, true)
                                            : relax_tile(tiles, tile, false);
@@ -196,13 +197,13 @@ INLINE void begin_relaxation(const Tiles *tiles, double *g)
             start_g[c * plane + e] *= grid->float_m[e];
 }
 
-/* Returns the activity of the most active tile.  Activities are <= 0, and the
- * lowest number is the most active. */
+/* Returns the activity of the most active tile: the lowest number, since
+ * activities are changes of E and <= 0. */
 INLINE double find_largest_activity(const Tiles *tiles)
 {
     double low[LANES] = {0}, largest = 0;
     for (int t = 0; t < tiles->rows * tiles->columns; t += LANES)
-        EACH_OF (LANES) { /* 0 after the last tile */
+        EACH_OF (LANES) { /* activity is 0 after the last tile */
             double activity = tiles->activity[t + e];
             low[e] = activity < low[e] ? activity : low[e];
         }

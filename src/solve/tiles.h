@@ -5,14 +5,14 @@
  * the whole square.  Tiles of 4 x 16 nodes relax by vertex block descent (Chen,
  * Liu, Yang, Yuksel 2024): each node in turn makes Newton's step for itself
  * alone, with its 2x2 block of the Hessian, unclamped if the block is positive
- * definite.  A node then follows a fold in directions in which the clamped
- * Hessian is flat.  Along such a step E is a quartic with known coefficients.
- * The step may therefore be longer by a factor without a rise of E, and the
+ * definite.  A node can then follow a fold in directions in which a clamped
+ * Hessian has no curvature from springs.  Along a node's step E is a quartic
+ * with known coefficients: a longer step is made where E falls, and the
  * decrease of E in each tile is known.
  *
- * Tiles work in single precision on a copy of x.  Near the minimum, where the
- * nodes move by less than the rounding of this copy, it stays as it is, and the
- * changes of the springs' forces follow from the nodes' displacements alone.
+ * Tiles work in single precision on a copy of x.  Near the minimum, where
+ * nodes move by less than the rounding of the copy, the copy stays unchanged,
+ * and the springs' forces change with the nodes' displacements alone.
  * The result is a direction; the caller minimises E along it in doubles. */
 #pragma once
 
@@ -20,16 +20,16 @@
 
 typedef struct Tiles {
     const Grid *grid;
-    int rows, columns;   /* number of tiles in a column and in a row */
+    int rows, columns;   /* number of rows and of columns of tiles */
     double *activity;    /* [tiles] change of E that a sweep may bring, < 0 */
     double *last_change; /* [tiles] change of E by the tile's last sweep */
-    int *active;         /* [tiles] numbers of the tiles that are swept next */
+    int *active;         /* [tiles] indices of the tiles that are swept next */
     bool has_tiny_moves; /* nodes move by less than the rounding of
-                            Grid.float_x, which stays as at the start */
+                            Grid.float_x, which then stays unchanged */
     float *u;            /* [2 planes] displacements since the start */
     float *start_g;      /* [2 planes] grad E at the start if has_tiny_moves,
                             otherwise only the gradient of the masses' energy */
-    long sweeps;         /* sweeps of tiles since the object was made */
+    long sweeps;         /* number of sweeps since the object was made */
 } Tiles;
 
 void tiles_lay_out(const Grid *grid, ArrayArena *memory, Tiles *tiles);

@@ -40,7 +40,7 @@ double turn_free_body(Newton *newton)
         centre[c] = pivot < 0 ? centre[c] / mass : x[2 * pivot + c];
         moved[c] = pivot < 0 ? moved[c] / mass : 0;
     }
-    /* From the centre d leads to x, and d + b to x_tilde. */
+    /* From the centre, d leads to x, d + b to x_tilde moved to this centre. */
     for (int i = 0; i < size; i += 2) {
         double dx = x[i] - centre[0], dy = x[i + 1] - centre[1];
         double bx = u_tilde[i] - u[i] - moved[0];
@@ -62,7 +62,7 @@ double turn_free_body(Newton *newton)
         new_x[i] = newton->iterate.E.x_n[i] + new_u[i];
     }
     if (!incremental_potential_is_feasible(&newton->iterate.E, new_u, new_x))
-        return 0; /* rounding has closed a gap */
+        return 0; /* rounding made the turned body infeasible */
     memcpy(u, new_u, (size_t)size * sizeof *u);
     memcpy(x, new_x, (size_t)size * sizeof *x);
     newton->has_gradient = false;

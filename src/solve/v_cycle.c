@@ -46,8 +46,8 @@ INLINE bool row_exists(int rows, int i)
     return i >= 0 && i < rows;
 }
 
-/* Number of a level's rows; if it is even and a coarser level exists, plus one
- * row outside of the grid, so that the last coarse row lies on a row, too. */
+/* Number of a level's rows.  If a coarser level exists, a row outside of the
+ * grid makes an even number odd: the last row is then a coarse row. */
 INLINE int rows_to_coarsen(const Level *level)
 {
     int nodes = level->rows.nodes;
@@ -116,8 +116,9 @@ INLINE void split_even_odd(const RowLayout *rows, int I, int first,
     }
 }
 
-/* FINER picks an array of the finer level.  With J = first + e, EVEN(di) is its
- * number at (2 I + di, 2 J), ODD(di, dj) the one in column 2 (J + dj) + 1. */
+/* FINER selects a plane of the finer level.  For the coarse node in row I and
+ * column J = first + e, EVEN(di) is the plane's number in row 2 I + di and
+ * column 2 J, and ODD(di, dj) is in this row and column 2 (J + dj) + 1. */
 #define FINER(from)                                                            \
     const float *const a = (from) + node_index(&fine, 2 * I, 0) + first
 #define EVEN(di)    a[(di)*fine.pitch + e]
@@ -166,7 +167,7 @@ INLINE void restrict_row(const RowLayout *finer, const RowLayout *coarse, int I,
     }
 }
 
-/* Computes the matrices of rows i and i + 1, and the coarser row on row i. */
+/* Computes the matrices of rows i and i + 1, and tensors of coarse row i/2. */
 INLINE void compute_matrix_rows(const VCycle *cycle, const Level *level, int i)
 {
     for (int row = i; row < i + 2; row++)
@@ -212,12 +213,12 @@ typedef enum PassKind {
     PASS_RESIDUAL, /* w = b - A x after PASS_FIRST.  All terms cancel but the
                       sum of K x' over springs to later colours */
     PASS_SMOOTH,   /* Gauss-Seidel: x += D (b - A x), node by node */
-    PASS_PRODUCT   /* w = A x; x.b and x.w are added to xb and xw */
+    PASS_PRODUCT   /* w = A x; adds x.b to xb and x.w to xw */
 } PassKind;
 
 /* Makes a pass over one colour of row i, if the level has this row.  The colour
- * is 2 in odd rows, plus 1 in odd columns.  Springs lead to earlier colours
- * along the row from odd columns, and across rows from odd rows. */
+ * is 2 in odd rows, plus 1 in odd columns.  Neighbours of earlier colours are
+ * beside a node in an odd column, and above and below a node in an odd row. */
 INLINE void sweep_row(const Level *of, int i, int colour, PassKind result,
                       float *xb, float *xw)
 {
@@ -235,8 +236,9 @@ INLINE void sweep_row(const Level *of, int i, int colour, PassKind result,
          at.first < at.end; at.first += LANES)
         EACH_FLOATS (NEXT(at, LANES)) {
             const ptrdiff_t q = at.first + e;
+            /* (ax, ay) becomes b - A x if from_0, else A x. */
             Floats hx = {0}, hy = {0}, ax = {0}, ay = {0};
-            if (result == PASS_FIRST) { /* (ax, ay): b - A x here, else A x */
+            if (result == PASS_FIRST) {
                 ax = FLOATS(bx, q);
                 ay = FLOATS(by, q);
             } else if (!from_0) {
@@ -377,9 +379,9 @@ FAST static void multiply_by_level_matrix(const Level *level, double *sums)
 
 /* ---- conjugate gradients ---- */
 
-/* Makes a step of conjugate gradients, with the V-cycle x of b and w = A x:
- * d = x + beta d, A d = w + beta A d, p += alpha d, b -= alpha A d.  Returns
- * |b|_(M^-1)^2. */
+/* Makes a step of conjugate gradients.  A V-cycle on the residual b has found
+ * x, and w = A x.  The step is d = x + beta d, A d = w + beta A d, p += alpha
+ * d, b -= alpha A d.  Returns |b|_(M^-1)^2. */
 FAST static double advance_conjugate_gradients(const VCycle *of, float alpha,
                                                float beta)
 {
@@ -426,17 +428,17 @@ bool p_passes_test(const Grid *grid, double largest, double square,
 /* Limit of the V-cycles for one direction. */
 enum { MAX_CYCLES = 60 };
 
-/* Conjugate gradients end when p would pass the test even with MARGIN times the
- * bound of its error.  If p is not small (SMALL_P), a further iteration costs
- * no more than a p that is exact enough for the test, and leaves a smaller
- * error; then a linear residual of LOOSE times the gradient is enough, in the
- * norm of M^-1.  Otherwise LEAST is the limit, as single precision allows. */
+/* Conjugate gradients end when p passes the test with MARGIN times the bound of
+ * its error, or when the linear residual, relative to the gradient in the norm
+ * of M^-1, is at most LOOSE or LEAST.  LOOSE is for a p that is not small
+ * (SMALL_P): a further iteration of Newton costs no more than an exact p, and
+ * leaves a smaller error.  LEAST is near the limit of single precision. */
 static const double MARGIN = 1.3, LOOSE = 0.5, LEAST = 1e-4;
 
-/* A small p whose bound (multigrid.h) is more than FAR times too large passes
- * the test sooner by conjugate gradients than by further iterations, so the
- * Hessian is clamped.  The bound is as large as that where springs are stiff in
- * comparison with the masses. */
+/* If p is small, but its bound from g (multigrid.h) is more than FAR times the
+ * limit of the test, the Hessian is clamped: conjugate gradients then let p
+ * pass the test sooner than further iterations do.  Springs that are stiff in
+ * comparison with the masses make the bound so large. */
 static const double FAR = 1e4;
 
 /* Returns the largest |x_x| + |x_y| of a node. */

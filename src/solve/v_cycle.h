@@ -4,27 +4,26 @@
  * caller clamps H, or v_cycle_solve does for a small p that may be far from
  * exact.
  *
- * A level has a tensor, K = w 2k/l2 (iso I + along d d^T), for each spring and
- * a mass for each node; H x at a node is m x + sum K (x - x').  A coarser level
- * is every second node.  The tensors are means of the finer ones, as stiffness
- * does not depend on the spacing in two dimensions; the masses are P^T m with
- * the bilinear interpolation P.  A coarse node is held if the fine node at its
- * place is pinned.  On the coarsest level masses outweigh springs, or nodes are
- * few.
+ * A level has a tensor K = c (iso I + along d d^T) (grid_spring.h) for each
+ * spring and a mass m for each node; H x at a node is m x + sum K (x - x'),
+ * with x' at the springs' other ends.  A coarser level is every second node.
+ * The tensors are means of the finer ones, as stiffness does not depend on the
+ * spacing in two dimensions; the masses are P^T m with the bilinear
+ * interpolation P.  A coarse node is held if the fine node at its place is
+ * pinned.  On the coarsest level masses outweigh springs, or nodes are few.
  *
  * A cycle smooths by Gauss-Seidel, node by node in four colours (row and column
  * even or odd), before the coarser level's correction and, in the opposite
  * order, after it; so the cycle is symmetric, and positive definite if H is
  * clamped.  Nodes of one colour share no spring, so the bits do not depend on
- * the number of lanes.
- */
+ * the number of lanes. */
 #pragma once
 
 #include "solve/grid.h"
 
 enum { MAX_LEVELS = 24 };
 
-/* p is small if |p_x| + |p_y| is at most this fraction of the test's limit. */
+/* p is small if the residual is at most this fraction of the tolerance. */
 static const double SMALL_P = 0.2;
 
 typedef struct Level {
@@ -36,15 +35,15 @@ typedef struct Level {
     float *D[3]; /* [plane] inverse of the node's block of A: xx, xy, yy; 0 at
                     held nodes and outside */
     float *m;    /* [plane] mass; 0 at held nodes */
-    float *x, *b, *w; /* [2 planes] x is about A^-1 b; w is b - A x, or A x */
+    float *x, *b, *w; /* [2 planes] x approximates A^-1 b; w: b - A x or A x */
 } Level;
 
 typedef struct VCycle {
     const Grid *grid;
     Level level[MAX_LEVELS]; /* the finest level first */
     float *p, *d, *Ad;       /* [2 planes] p, d, A d of conjugate gradients */
-    bool is_clamped;         /* negative eigenvalues of the springs become 0 */
-    bool is_set_up; /* has the tensors at grid->x; set to false when x moves */
+    bool is_clamped;         /* negative eigenvalues of the tensors become 0 */
+    bool is_set_up; /* has its matrices; false: the next cycle makes them */
     long cycles;    /* number of V-cycles so far */
 } VCycle;
 

@@ -2,10 +2,10 @@
  * pushes, within a step.
  *
  * Walls and pins get their final position before E is minimised.  No stiff
- * spring draws them there, so the position is exact and E stays soft.  If the
- * way would close a gap or turn a cell over, half of the way is made first,
- * then E is minimised, then the rest follows: each minimisation begins at a
- * point that all terms allow. */
+ * spring draws them there, so the position is exact and E has no stiff term.
+ * If the motion would close a gap or turn a cell over, half of the motion is
+ * made first, then E is minimised, then the rest follows: each minimisation
+ * begins at a point that all terms allow. */
 #include "step/prescribed.h"
 
 #include <math.h>
@@ -49,7 +49,7 @@ bool prescribed_begin_step(TimeIntegrator *run)
     for (int k = 0; contact && k < contact->obstacle_count; k++) {
         Obstacle *obstacle = &contact->obstacle[k];
         const ObstacleMotion *motion = &obstacle->motion;
-        double from = 0; /* start of a phase, from 0 to 1 in the step */
+        double from = 0; /* start of a phase, as a fraction of the step */
         obstacle->v[0] = obstacle->v[1] = 0;
         for (int i = 0; i < motion->phase_count; i++) {
             double left = motion->phase_end[i] - run->clock.time;
@@ -66,7 +66,7 @@ bool prescribed_begin_step(TimeIntegrator *run)
     return any;
 }
 
-/* Moves all obstacles for `way` seconds: o += way v. */
+/* Moves all obstacles by their velocity times `way` seconds: o += way v. */
 static void move_obstacles(Contact *contact, double way)
 {
     for (int k = 0; contact && k < contact->obstacle_count; k++)
@@ -75,7 +75,7 @@ static void move_obstacles(Contact *contact, double way)
 }
 
 /* Carries along the nodes in front of obstacles that come nearer.
- *   way     s, time for which the obstacles have moved
+ *   way     s, duration of the motion that the obstacles have made
  *   before  [2n] m, positions of the nodes before this motion
  *   u       [2n] m, in/out, displacements of the nodes */
 static void move_carried_nodes(const System *system, const Contact *contact,
@@ -106,9 +106,9 @@ static void move_carried_nodes(const System *system, const Contact *contact,
     }
 }
 
-/* Moves obstacles, pins and carried nodes by this fraction of the step.  Sets
- * new_x to u: Newton's displacement plus this motion.  Returns false, with the
- * obstacles moved back, if a term forbids u or a body would cross another. */
+/* Moves obstacles, pins and carried nodes by the fraction `part` of the step.
+ * Writes u, Newton's displacement plus this motion, to new_x.  Returns false,
+ * with the obstacles moved back, if a term forbids u or bodies would cross. */
 static bool try_prescribed_motion(TimeIntegrator *run, double part)
 {
     const System *system = run->system;

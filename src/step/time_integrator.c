@@ -78,7 +78,7 @@ static void advance_step_clock(StepClock *clock, double h)
     clock->time = clock->change_time + (double)clock->steps * h;
 }
 
-/* Lets the terms begin a step: friction, for one, reads contacts at x_n. */
+/* Lets the terms begin a step: friction, for example, reads contacts. */
 static Status begin_term_steps(TimeIntegrator *run)
 {
     System *system = run->system;
@@ -111,14 +111,14 @@ static void begin_hand_step(TimeIntegrator *run)
     if (!run->newton) {
         hand->k = 0;
         system_acceleration(system, run->x, run->new_x);
-        run->memory_h = 0; /* a_n has to be computed again, with the hand */
+        run->memory_h = 0; /* the stored acceleration lacks the hand's force */
     }
     hand_begin_step(hand, run->x + i, run->v + i, system->m[hand->node], run->h,
                     run->newton ? NULL : run->new_x + i);
     system_mark_changed(system, false);
 }
 
-/* Begins the stage's minimisation: target with gravity, Newton's start. */
+/* Begins a stage: adds gravity to the target, and starts Newton's method. */
 static void begin_stage(TimeIntegrator *run)
 {
     const System *system = run->system;

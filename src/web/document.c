@@ -7,7 +7,7 @@
  *     topic, sentence, time, picture, event TEXT
  *     text, formula, ask, look, try, claim, notes LINE
  *     told WARNING TEXT           message about the last command
- *     verdict TEXT                verdict on the guess at this page, and on all
+ *     verdict TEXT                verdict on the guess; number of right guesses
  *     asks KIND COORDINATES       the page waits for a guess.  KIND: number,
  *                                 words, or place, which has 1 or 2 coordinates
  *     number NAME LABEL VALUE UNIT CHOICES HELP IDLE SHOWN
@@ -25,9 +25,9 @@
  *                                 picture); DESCRIPTION: a graph in words
  *     legend INDEX COLOUR NAME VALUE   a row of the graph's legend; VALUE may
  *                                 be missing
- *     words INDEX LINE            a line of a card of kind text,
- *     row INDEX LIT STRUCK INDENTED TEXT VALUE   of the algorithm in it,
- *     cells INDEX COLOUR TEXT ... and of the table in it; heads come first
+ *     words INDEX LINE            a line of a card of kind text
+ *     row INDEX LIT STRUCK INDENTED TEXT VALUE   a line of the card's algorithm
+ *     cells INDEX COLOUR TEXT ... a row of the card's table, the heads first
  *     step STEP NEWEST PAUSED */
 #include "web/document.h"
 
@@ -79,7 +79,7 @@ unsigned document_darken(Colour colour)
     return darker;
 }
 
-/* Writes the lines of a text whose values are all known, each after `word`. */
+/* Writes each line of a text whose values are all known, after `word`. */
 static void write_text_lines(Writer *to, const LiveValues *values,
                              const char *word, const char *text)
 {
@@ -90,7 +90,7 @@ static void write_text_lines(Writer *to, const LiveValues *values,
 
 /* ---- the page of the lecture --------------------------------------------- */
 
-/* Writes the texts of the page; `look` and `try` only with the answer. */
+/* Writes the texts of the page; `look` and `try` if the answer is shown. */
 static void write_page_texts(Writer *to, const FrameContent *content)
 {
     const LecturePage *page = content->lecture.page;
@@ -142,7 +142,7 @@ static void write_energies(Writer *to, const Simulation *simulation)
               format_number(energies.energy[i].value).text);
 }
 
-/* Writes the values of a graph without legend, of energies or residuals. */
+/* Writes the values of the graphs `budget` and `residual` for a description. */
 static void write_live_values(Writer *to, const Pane *pane, const char *name)
 {
     const NewtonTrace *trace = pane->shown_trace;
@@ -166,7 +166,7 @@ static void write_table_row(Writer *to, const char *word, int index,
     print(to, "\n");
 }
 
-/* Writes heads and last rows of a card's table.  Returns false without rows. */
+/* Writes the heads and the last rows of a card's table; false: no rows. */
 static bool write_table(Writer *to, const FrameContent *content, int index,
                         const Card *card)
 {
@@ -184,8 +184,8 @@ static bool write_table(Writer *to, const FrameContent *content, int index,
     return rows > 0;
 }
 
-/* Writes a card: a line for its graph with the rows of its legend below, and a
- * line for its text with the rows of this text below. */
+/* Writes one or two `card` lines: for the card's graph, with the rows of the
+ * legend below, and for the card's text, with the rows of the text below. */
 static void write_document_card(Writer *to, const FrameContent *content,
                                 int index, const Card *card)
 {
@@ -230,7 +230,7 @@ static void write_document_card(Writer *to, const FrameContent *content,
 
 /* ---- what can be set ----------------------------------------------------- */
 
-/* Whether a sentence "Drag ..." or "Set ..." of the text names the option. */
+/* Whether the text has a sentence "Drag ..." or "Set ..." with the option. */
 static bool text_asks_to_change(const char *text, const OptionRow *row)
 {
     const char *name = option_get_label(row);

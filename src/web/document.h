@@ -3,7 +3,7 @@
 
 #include "play/player.h"
 
-/* Shows a drawn card, or the picture (-1), in the page (window_web.c). */
+/* Shows the canvas of a card in the page; card -1 is the picture. */
 Status page_show_card(const Canvas *canvas, int card);
 
 enum { DOCUMENT_SIZE = 48 << 10 };
@@ -12,7 +12,7 @@ enum { DOCUMENT_SIZE = 48 << 10 };
  *   text  [DOCUMENT_SIZE] out */
 void document_write(const Player *player, char *text);
 
-/* Returns a colour, darkened until letters in it can be read on white. */
+/* Returns the colour, darkened until its letters can be read on white. */
 unsigned document_darken(Colour colour);
 
 /* Writes a line for each page of the lecture, each scene and each key:

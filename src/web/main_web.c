@@ -1,5 +1,5 @@
-/* main_web.c - functions that page.js calls: they begin the program with a
- * command line, make its frames and answer questions about the last frame. */
+/* main_web.c - functions that page.js calls to begin the program with a command
+ * line, to make the frames and to ask about the last frame. */
 #include <emscripten.h>
 #include <limits.h>
 #include <signal.h>
@@ -15,12 +15,12 @@
 
 enum { MOST_WORDS = 512, MOST_TEXT = 1 << 15 };
 
-/* Bytes for states of past steps, since a tab may have little memory.  A state
- * that was dropped is computed again when its step is shown. */
+/* Limit in bytes for states of past steps, since a tab may have little memory.
+ * A state that was dropped is computed again when its step is shown. */
 static const size_t PAST_ROOM = 8 << 20;
 
 /* A player and its command line, into whose words the player's options point.
- * The shown session stays until the next one's command line is right. */
+ * A new session replaces the shown session if its command line is right. */
 typedef struct Session {
     Player player;
     char text[MOST_TEXT];
@@ -32,8 +32,8 @@ static Session sessions[2];
 static Session *session = &sessions[0]; /* session that the page shows */
 static bool plays;                      /* the page shows a session */
 
-/* Begins the program with the words of a command line, each on a line of its
- * own.  Returns EXIT_NONE, or the exit code if nothing new is shown. */
+/* Begins a session with a command line, one word in each line.  Returns
+ * EXIT_NONE, or the exit code if no session begins. */
 EMSCRIPTEN_KEEPALIVE int web_begin_session(const char *words)
 {
     Session *next = &sessions[plays && session == &sessions[0]];
@@ -59,9 +59,9 @@ EMSCRIPTEN_KEEPALIVE int web_begin_session(const char *words)
 
 /* ---- the address -------------------------------------------------------- */
 
-/* Returns the command line that leads to the shown scene, page and numbers,
- * each word on a line of its own; "" if no command line does.  The text is
- * valid until the next call. */
+/* Returns the command line that opens the shown scene or page with the shown
+ * numbers, one word in each line; "": no such command line exists.  The text
+ * is valid until the next call. */
 EMSCRIPTEN_KEEPALIVE const char *web_get_address(void)
 {
     static char words[MOST_TEXT];
@@ -73,7 +73,7 @@ EMSCRIPTEN_KEEPALIVE const char *web_get_address(void)
         return words;
     int panes = player_copy_options(player, now);
     bool same = now->page == given->page && now->scene == given->scene;
-    base[0] = *given; /* the words leave out options with base's values */
+    base[0] = *given; /* an option equal to base's is left out */
     if ((panes != given->panes && !now->page) ||
         (!same &&
          player_find_defaults(player, now->scene->name, now->page, base)))
@@ -122,8 +122,8 @@ EMSCRIPTEN_KEEPALIVE const char *web_get_colour(const char *name)
     return text;
 }
 
-/* Draws a card of the last frame on the canvas of the card in the page.
- * Ignores an index that the page still has from the scene before. */
+/* Draws a card of the last frame on the card's canvas in the page.  Ignores an
+ * index that the page still has from the scene before. */
 EMSCRIPTEN_KEEPALIVE void web_draw_card(int card, int width, int height)
 {
     static Paper paper;
@@ -168,9 +168,9 @@ EMSCRIPTEN_KEEPALIVE void web_answer_question(const char *guess)
 
 /* ---- the printed lecture ------------------------------------------------- */
 
-/* Runs a page of the lecture, counted from 0, up to the step that is printed,
- * in the other session, and shows its picture.  Then web_get_document and
- * web_draw_card show this page.  Page -1 returns to the session before. */
+/* Runs a page of the lecture (from 0) up to its printed step in the session for
+ * printing, and shows the picture.  Then web_get_document and web_draw_card
+ * show this page.  Page -1 returns to the session of the window. */
 EMSCRIPTEN_KEEPALIVE void web_print_page(int page, int width, int height)
 {
     static bool played, prints;
@@ -182,7 +182,7 @@ EMSCRIPTEN_KEEPALIVE void web_print_page(int page, int width, int height)
     char message[256];
     if (prints)
         player_free(player);
-    /* Exchanges the session of the window and the session that is printed. */
+    /* Switches from the window's session to the printed session, or back. */
     if (prints != (page >= 0)) {
         played = prints ? played : plays;
         plays = prints ? played : true;
@@ -207,7 +207,7 @@ EMSCRIPTEN_KEEPALIVE void web_print_page(int page, int width, int height)
         status = player_obey(player, &next);
     if (!status && !row->print_presses)
         player_run(player);
-    /* With a window, the player also writes the texts of the page. */
+    /* With a window the player also makes the texts beside the canvas. */
     player->screen.window = &window_web;
     player->screen.paper_size[0] = width;
     player->screen.paper_size[1] = height;
@@ -228,9 +228,9 @@ EMSCRIPTEN_KEEPALIVE void web_print_hide_answer(void)
 
 /* ---- the loop ----------------------------------------------------------- */
 
-/* Makes a frame; without a window as many frames as fit into a slice of time.
- * Returns the time until the next frame is due, ms; INT_MAX: no frame is due
- * before an input; < 0: the run has ended. */
+/* Makes a frame; without a window, frames for SLICE seconds.  Returns the time
+ * until the next frame is due, ms; INT_MAX: the next frame waits for an input;
+ * < 0: the run has ended. */
 EMSCRIPTEN_KEEPALIVE int web_make_frame(void)
 {
     Player *player = &session->player;

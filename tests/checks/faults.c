@@ -61,7 +61,7 @@ int rename(const char *from, const char *to)
     return REAL(rename)(from, to);
 }
 
-/* Writes the number of calls. */
+/* Writes the number of counted calls to FAULT_FILE. */
 static void fault_report(void)
 {
     const char *name = getenv("FAULT_FILE");

@@ -1,8 +1,8 @@
-/* stress.c - build/stress runs the named cases, many random scenes and the
- * envelope, and prints a table and the number of broken promises.
+/* stress.c - build/stress runs the named cases, many random scenes and a grid
+ * of h, k and stretch (envelope); prints a table and the number of failures.
  *
  *   --seed S     seed of the random scenes (1)
- *   --line LINE  ten steps of this command line alone
+ *   --line LINE  runs only this command line, for ten steps
  *   --quick      a tenth of the random scenes, no slow case, no envelope */
 #include "stress.h"
 
@@ -71,10 +71,9 @@ static void run_named_cases(bool quick, VerdictTally *sum)
     }
 }
 
-/* Families of random scenes: letters of their kinds, number of scenes, steps of
- * each, and the least share of steps that must converge. Steps blocked by a
- * body before a pin or wall are left out; of the bodies' steps one in a
- * thousand reaches the limit of updates. */
+/* Families of random scenes: kinds (letters of stress.h), number of scenes,
+ * steps of each, least share of converged steps. Steps with the status BLOCKED
+ * do not count; one step of bodies in a thousand reaches the update limit. */
 static const struct {
     const char *name, *kinds;
     long scene_count;

@@ -10,7 +10,7 @@
 
 /* ---- exact formulas (stress_exact.c) ----------------------------------- */
 
-/* E of a step, and the time for which walls have moved in the step, s */
+/* Incremental potential E of a step; time for which its walls have moved, s */
 typedef struct StepPotential {
     IncrementalPotential E;
     double motion_time;
@@ -19,8 +19,8 @@ typedef struct StepPotential {
 /* Returns E at x_n + u, not rounded, by oracle.c, J s^2. */
 long double exact_energy(const StepPotential *potential, const double *u);
 
-/* Returns the sum, J s^2, of two rounding errors: of E at x_n + u by the
- * rounding of the coordinates, and of the slope of E along `direction`. */
+/* Estimates the rounding error of E at x_n + u, J s^2: the sum of the errors
+ * that rounding causes in E and in its derivative along `direction`. */
 long double energy_noise(const StepPotential *potential, const double *u,
                          const double *direction);
 
@@ -30,8 +30,8 @@ typedef enum TestVerdict {
     TEST_UNDECIDED /* near the tolerance, or too many iterations */
 } TestVerdict;
 
-/* Tests by Algorithm 3, with clamped blocks and without a matrix, whether the
- * residual at u is below the tolerance, m/s. */
+/* Tests whether the residual at u is below the tolerance, m/s: conjugate
+ * gradients with clamped blocks compute the direction without a matrix. */
 TestVerdict test_large_residual(const IncrementalPotential *E, const double *u,
                                 double h, double tolerance);
 
@@ -40,7 +40,7 @@ TestVerdict test_large_residual(const IncrementalPotential *E, const double *u,
 typedef enum Verdict {
     VERDICT_CONVERGED, /* the oracle confirms that the step converged */
     VERDICT_REPORTED,  /* the step did not converge, and its status says so */
-    VERDICT_WRONG,     /* a promise was broken */
+    VERDICT_WRONG,     /* the step failed a test */
     VERDICT_COUNT
 } Verdict;
 
@@ -67,9 +67,9 @@ typedef struct RunWatch {
     int updates;              /* updates of the present minimisation so far */
     double tolerance;         /* tolerance at the start of the step, m/s */
     long crossings;     /* number of crossing edges at the start of the step */
-    bool is_wrong;      /* the present step has broken a promise */
+    bool is_wrong;      /* the present step has failed a test */
     bool has_flat_cell; /* a cell was flat when E was last computed */
-    char reason[512];   /* first broken promise */
+    char reason[512];   /* first failed test of the step, in words */
     Status status;      /* status of the last step */
 } RunWatch;
 
@@ -102,16 +102,15 @@ Verdict stress_run_line(const char *line, int steps, VerdictTally *tally,
 /* Command line that runs now */
 extern char stress_line[STRESS_LINE_SIZE];
 
-/* Runs `count` random scenes; a WRONG one ends the loop and returns false. The
- * letters of `kinds` follow each other in turn:
+/* Runs `count` random scenes; a wrong verdict ends the loop and returns false.
+ * The letters of `kinds` are the kinds of the scenes, in turn:
  *   s  squares over all that the command line allows: h to 1e6 s, k to 1e15
  *      J/m^2, density from 1e-9 kg/m^2, so h^2 k/m to 1e34; half of them shaken
  *   f  springs that flow, half of them without hardening, h to 1e4 s
- *   c, t, b, w  contact, friction, cells, flow, fracture, damping and motion:
- *               bodies that fall, are pressed, torn or bent; a square among
- *               walls
- *   m, n  two to six bodies of springs, or of triangles, that are thrown at
- *         each other, squeezed and pinned
+ *   c, t  squares that fall, slide or are pressed; squares that are torn
+ *   b, w  bars that are bent; squares in a corner of two grounds
+ *         (c, t, b and w: some flow, break or are damped)
+ *   m, n  2 to 6 bodies of springs (m), triangles (n): thrown, squeezed, pinned
  *   k  solids of triangles: moduli to 1e13 Pa, density from 1e-6 kg/m^2, h to 1
  *      s, tolerances from 1e-9 m/s
  *   l  large squares */
@@ -124,7 +123,7 @@ void stress_set_time_limit(long seconds);
 typedef struct StressCase {
     const char *name;
     bool is_slow; /* only in `make stress` */
-    /* Returns false and a reason [512] if a promise is broken. */
+    /* Runs the case; returns false and a reason [512] if a test fails. */
     bool (*run)(VerdictTally *tally, char *reason);
 } StressCase;
 

@@ -1,9 +1,9 @@
-/* stress_exact.c - the energy of a step a second time, with its rounding error.
+/* stress_exact.c - the energy of a step by the oracle, and its rounding error.
  *
- * The residuals of large squares are tested with conjugate gradients in
- * extended precision, whose error is known: the mass matrix M is a lower bound
- * of the clamped Hessian, so |p - exact|_M <= |r|_(M^-1), and the residual is
- * at most sqrt(2/m)/h |r|_(M^-1) away from that of p. */
+ * Conjugate gradients in extended precision test the residual of large squares.
+ * Their direction p leaves r = -grad E - H p. The masses M are a lower bound of
+ * the clamped H, so with norm^2 = r^T M^-1 r the error of p in the norm of M is
+ * at most norm, of the residual sqrt(2/m)/h norm; m: least mass. */
 #include "stress.h"
 
 #include <float.h>
@@ -52,7 +52,7 @@ long double energy_noise(const StepPotential *potential, const double *u,
 
 enum { MAX_JUDGE_ITERATIONS = 20000 };
 
-/* Share of the tolerance that rounding of u hides */
+/* Allowed excess over the tolerance as a share of it, since u is rounded */
 static const Real judge_margin = 1e-6L;
 
 /* The gradient g [2n], and the blocks of the Hessian: the number of nodes of
@@ -60,7 +60,7 @@ static const Real judge_margin = 1e-6L;
 typedef struct HessianBlocks {
     Real *g, *entry;
     int (*node)[3], *node_counts;
-    int count, entries, capacity; /* blocks; numbers in entry; most blocks */
+    int count, entries, capacity; /* blocks; entries; allocated blocks */
 } HessianBlocks;
 
 static void store_block(void *blocks, const EnergyPart *block)
@@ -115,7 +115,7 @@ static Real find_longest_step(int size, const Real *p)
     return largest;
 }
 
-/* Returns |r|_(M^-1)^2. */
+/* Returns r^T M^-1 r with the mass matrix M. */
 static Real squared_norm_by_inverse_mass(const System *system, const Real *r)
 {
     Real sum = 0;

@@ -29,10 +29,10 @@ bool stress_visit_rows(const char *name, bool (*take)(void *user, char *row),
     return good;
 }
 
-/* Parts of random lines: the rows below "= draw" of stress.txt */
+/* Parts of random command lines: the rows below "= draw" of stress.txt */
 static struct LinePart {
-    char kinds[16]; /* scenes that may have the part: letters of stress.h */
-    int one_in;     /* the part is in one of this many scenes */
+    char kinds[16]; /* kinds of scenes that may have the part (stress.h) */
+    int one_in;     /* 1/one_in: probability that a scene has the part */
     char format[STRESS_LINE_SIZE];
 } line_parts[96];
 static int line_part_count;
@@ -47,7 +47,7 @@ static bool store_line_part(void *unused, char *row)
     return true;
 }
 
-/* Copies a random word of `words`, which ends at ')'. Returns its length. */
+/* Copies a random word of a list before a ')'. Returns the word's length. */
 static size_t copy_random_word(Random *random, const char *words, char *text)
 {
     size_t size = strcspn(words, ")");
@@ -218,7 +218,7 @@ typedef struct RowContext {
     bool uses_each_solver;
 } RowContext;
 
-/* Runs a row "STEPS ! LINE", which must converge, or "STEPS ? LINE". */
+/* Runs a row "STEPS ! LINE", which must converge; "STEPS ? LINE" need not. */
 static bool run_stress_row(void *user, char *row)
 {
     static const char *const solvers[] = {" --solver multigrid",
@@ -279,7 +279,7 @@ static bool run_every_integrator(VerdictTally *tally, char *reason)
     return true;
 }
 
-/* Kicks a square at random every 50 steps; judges some residuals. */
+/* Kicks a square at random every 50 steps; tests 3 residuals in 500 steps. */
 static bool run_many_steps(VerdictTally *tally, char *reason)
 {
     Random random = {7};

@@ -16,13 +16,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Error of a sum of many terms, in units of rounding */
+/* Factor of the allowed rounding error, for sums of many terms */
 enum { SUM_ROUNDINGS = 16 };
 
-/* Energy, J s^2, above which squares may overflow: NOT_FINITE is then right */
+/* Energy, J s^2, above which overflow is near and NOT_FINITE is right */
 static const long double HUGE_ENERGY = 1e280L;
 
-/* Share of its area at rest at which coordinates hardly resolve a cell */
+/* Area over rest area below which coordinates hardly resolve a cell */
 #define FLAT_CELL 1e-12
 
 /* Unknowns above which no dense matrix is factored, which costs n^3 */
@@ -32,7 +32,7 @@ enum { MAX_DENSE_UNKNOWNS = 400 };
  * and forces have very different sizes */
 enum { SHAKEN_FACTOR = 4 };
 
-/* Relative error of a direction whose factor counts as exact (rounding.c) */
+/* Relative error of a direction from a factor that rounding.c accepts */
 #define DIGITS_OF_DIRECTION 1e-5
 
 /* Marks the step as wrong; the first reason is kept. */
@@ -66,7 +66,7 @@ static IncrementalPotential get_potential(const RunWatch *watch)
     return E;
 }
 
-/* Returns the present potential, with the time for which walls have moved. */
+/* Returns the present E and the time of the walls' motion in the step. */
 static StepPotential get_step_potential(const RunWatch *watch)
 {
     double moved =
@@ -90,13 +90,13 @@ static void judge_large_square(RunWatch *watch, const double *u,
                    tolerance);
 }
 
-/* exact_residual, or wide_exact_residual with 34 digits */
+/* Type of exact_residual and, with 34 digits, of wide_exact_residual */
 typedef double (*ResidualFunction)(const IncrementalPotential *E,
                                    const double *u, const double *x, double h,
                                    double moved, int lifts, double *noise);
 
-/* Returns true if the residual at u is at most the limit with a Hessian that
- * the program may have used: one of two for a projection on demand.
+/* Returns true if the residual at u is at most the limit, m/s. For projection
+ * on demand the projected or the exact Hessian must give this residual.
  *   noise  out, m/s, allowed error by rounding; NULL: none
  *   least  out, m/s, smallest residual */
 static bool residual_passes(const RunWatch *watch, const double *u,
@@ -126,9 +126,9 @@ static bool residual_passes(const RunWatch *watch, const double *u,
     return false;
 }
 
-/* Tests the residual with all terms; only the iterate comes from the program. A
- * residual that 19 digits refuse is tested with 34, since rounding can only
- * raise a small residual. Noise above the tolerance is allowed and counted. */
+/* Tests the residual at u by the oracle, with all terms of E. A failed test is
+ * repeated with 34 digits, since rounding raises small residuals, and then with
+ * the rounding error added to the limit; the residual counts as undecided. */
 static void judge_residual(RunWatch *watch, const double *u, double limit)
 {
     double noise, residual;
@@ -156,9 +156,9 @@ static void judge_convergence(RunWatch *watch, const double *u, double limit)
         judge_large_square(watch, u, limit);
 }
 
-/* Tests the end of a minimisation: the last direction, which was used, passes
- * the test; or the next one does, found by multigrid or shorter than a
- * millionth of the shortest spring. */
+/* Tests the residual at the end of a minimisation: before the last update if
+ * its direction passed the test, else after the last update. Then, without
+ * multigrid, the limit of p is at most a millionth of the shortest spring. */
 static void judge_step_end(RunWatch *watch)
 {
     const Newton *newton = watch->run->newton;
@@ -212,8 +212,8 @@ static void begin_minimisation(RunWatch *watch)
     watch->updates = 0;
 }
 
-/* Tests that E at this iterate is not above E at the last one. A cell that a
- * moving wall has made flat is left out: its E is rounding. */
+/* Tests that E at this iterate is not above E at the last one. Iterates with a
+ * cell that moving walls have flattened are skipped: rounding decides its E. */
 static void check_descent(RunWatch *watch, const double *u, const char *where)
 {
     StepPotential potential = get_step_potential(watch);
@@ -265,8 +265,8 @@ static void check_gaps_and_areas(RunWatch *watch, const double *x)
                    J);
 }
 
-/* Tests that no edges cross but those that crossed at the start of the step,
- * where a break may have uncovered edges of cells that may turn over. */
+/* Tests that no more edges cross than at the start of the step. Edges may cross
+ * at the start if a break has uncovered cells that had turned over. */
 static void check_crossings(RunWatch *watch, const double *x)
 {
     long crossings = edge_crossings(watch->run->system, x);
@@ -280,7 +280,7 @@ static bool check_iterate(void *user, const NewtonRecord *record)
 {
     RunWatch *watch = user;
     const Newton *newton = watch->run->newton;
-    if (record->iteration < 0) /* record of moved walls or pins */
+    if (record->iteration < 0) /* record of prescribed motion */
         return true;
     if (record->iteration == 0)
         begin_minimisation(watch);
@@ -355,7 +355,7 @@ Status restart_watched_run(TimeIntegrator *run)
     return status;
 }
 
-/* Returns true if squares of numbers of this step may overflow. */
+/* Returns true if energies may overflow in this step; always without Newton. */
 static bool overflow_is_near(const RunWatch *watch)
 {
     const System *system = watch->run->system;
@@ -415,17 +415,17 @@ static bool momentum_is_conserved(const TimeIntegrator *run, int *pin)
     return free;
 }
 
-/* Tests the sum of m (v' - v - h g), which forces between nodes cannot change,
- * and its moments about the new centre of mass or the pin. Both are zero up to
- * the tolerance, which bounds the last direction. Moments need a step without
- * projection (multigrid clamps compressed springs and does not count them) and
- * without friction across a gap. The lever arms of moments are rounded. */
+/* Tests that gravity alone changes momentum and angular momentum. Without a pin
+ * the sum of m (v_new - v_old - h g) is 0 up to the tolerance, which bounds the
+ * last direction; the sum's moment about the pin, or the centre of mass, too.
+ * Moments are not tested after projection (multigrid clamps compressed springs
+ * and does not count them) or with friction across a gap. */
 static void check_step_momentum(RunWatch *watch, int pin)
 {
     const TimeIntegrator *run = watch->run;
     const double *g = run->system->gravity, *m = run->system->m;
     Real mass = 0, sum[2] = {0}, middle[2] = {0}, turn = 0, arms = 0, noise = 0;
-    Real unsure = 0; /* error by the last digits of the arms, kg m^2/s */
+    Real unsure = 0; /* rounding error of the lever arms, kg m^2/s */
     for (int i = 0; i < count_unknowns(watch); i++) {
         middle[i % 2] += (Real)m[i / 2] * run->x[i];
         mass += 0.5L * m[i / 2];
@@ -471,9 +471,8 @@ static void check_step_state(RunWatch *watch)
     int pin;
     if (watch->status == STATUS_OK && momentum_is_conserved(run, &pin))
         check_step_momentum(watch, pin);
-    if (watch->only_springs &&
-        run->newton && /* flow and breaks change E between steps */
-        run->newton->settings.line_search != LINE_SEARCH_NONE)
+    if (watch->only_springs && /* flow and breaks change E as a step ends */
+        run->newton && run->newton->settings.line_search != LINE_SEARCH_NONE)
         check_descent(watch, run->newton->iterate.u, "as the step ends");
 }
 

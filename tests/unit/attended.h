@@ -15,7 +15,7 @@
 static Player player;
 static volatile sig_atomic_t stop;
 
-/* Creates the player of a command line with a script: the past is kept. */
+/* Creates a player with a script, which makes it store its past steps. */
 static inline void begin_scripted_player(const char *script, const char *line)
 {
     static Options options[OPTIONS_MAX_PANES];

@@ -7,7 +7,7 @@
 #include <png.h>
 #include <sys/stat.h>
 
-enum { SIDE = 900 }; /* pixels, both sides of a golden picture */
+enum { SIDE = 900 }; /* width and height of a golden picture, pixels */
 
 /* Reads a PNG file as pixels 0xffRRGGBB; free it with canvas_free. */
 static inline Canvas read_png(const char *name)
@@ -40,8 +40,8 @@ static inline int pixel_distance(Colour a, Colour b)
     return largest;
 }
 
-/* Marks pixels around words: where frames with and without words differ. The
- * shapes of words depend on the library's version. mask [SIDE SIDE] out */
+/* Marks pixels near words: words are where the frames differ, and their shapes
+ * depend on FreeType's version. mask [SIDE SIDE] out */
 static inline void mask_words(const Canvas *words, const Canvas *plain,
                               unsigned char *mask)
 {
@@ -61,7 +61,7 @@ static inline void mask_words(const Canvas *words, const Canvas *plain,
 /* Paints the present frame, with and without words; free both. */
 static inline void paint_frame_pair(Canvas frame[2])
 {
-    /* words have the same width in both frames */
+    /* This font measures the words of both frames. */
     if (!player.screen.paper.text)
         assert_int_equal(text_create(&player.screen.paper.text), 0);
     for (int plain = 0; plain < 2; plain++) {

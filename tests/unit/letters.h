@@ -1,5 +1,5 @@
-/* letters.h - letters as boxes, for records that depend on no font.  A suite
- * that includes this wraps font_get_glyph (../tests.mk). */
+/* letters.h - letters drawn as boxes: recorded pictures depend on no font. The
+ * linker redirects font_get_glyph to the function below (../tests.mk). */
 #ifndef ELASTO_LETTERS_H
 #define ELASTO_LETTERS_H
 

@@ -85,7 +85,7 @@ static Real find_flow_limit_error(Probe *probe, Real E)
     return 8 * DBL_EPSILON * (1 + fabsl(E)) * side;
 }
 
-/* Adds k l2 V(E) of spring s: slides, plasticity.h, damping.h. */
+/* Adds k l^2 V(E), E the strain of spring s: plasticity.h, damping.h. */
 static void add_spring_energy(Probe *probe, Jet *sum, const void *data, int s)
 {
     const System *system = probe->at->system;
@@ -101,7 +101,7 @@ static void add_spring_energy(Probe *probe, Jet *sum, const void *data, int s)
         E = jet_add(E, 1 / (Real)system->l2[s], jet_mul(d, d));
     }
     Real e = E.f - (flow ? flow->ep[s] : 0), kappa = 0;
-    Real held = fabsl(e), over = 0, hard = 1; /* |e| = held + over */
+    Real held = fabsl(e), over = 0, hard = 1; /* |e| up to yield, and excess */
     bool flows = false;
     if (flow) {
         kappa = flow->kappa[s];
@@ -167,7 +167,7 @@ static Jet friction_law(Jet y, Real e)
                  : jet_chain(y, fabsl(y.f) - e / 3, sign, 0);
 }
 
-/* Adds mu lambda f0(y) of node i and obstacle k, with lambda and t at x_n. */
+/* Adds W of friction.h for node i and obstacle k, with the contact at x_n. */
 static void add_wall_friction(Probe *probe, Jet *sum, const Contact *contact,
                               int i, int k)
 {
@@ -218,11 +218,11 @@ static void add_wall_contact(Probe *probe, Jet *sum, const void *data, int i)
 /* Boundary of the bodies, as in boundary.h. Spring [i][k] begins at node i and
  * leads, for k = 0 to 3, up, right, up right and down right. */
 typedef struct Outline {
-    int edges, points, *point, (*edge)[2]; /* of the boundary: counts, nodes */
+    int edges, points, *point, (*edge)[2]; /* counts; nodes of points, edges */
     unsigned char (*is_whole)[4];          /* [n] 1: the spring is unbroken */
     unsigned char (*triangle_count)[4];    /* [n] triangles at a spring */
-    unsigned char *role;                   /* [n] IN_A_TRIANGLE, ON_AN_EDGE */
-    double *x; /* [2n] m, positions rounded to doubles */
+    unsigned char *role; /* [n] flags IN_A_TRIANGLE, ON_AN_EDGE */
+    double *x;           /* [2n] m, positions rounded to doubles */
 } Outline;
 
 enum { IN_A_TRIANGLE = 1, ON_AN_EDGE = 2 };
@@ -324,7 +324,7 @@ static Jet point_edge_gap(Probe *probe, const SelfContact *self, int p,
     return jet_add((Jet){0}, 1 / ((Real)self->d_hat * self->d_hat), d2);
 }
 
-/* Adds mu F f0(y) of point p and an edge, with F and t at x_n: friction.h. */
+/* Adds W of friction.h for point p and an edge, with the contact at x_n. */
 static void add_self_friction(Probe *probe, Jet *sum, const SelfContact *self,
                               int p, const int end[2])
 {
@@ -366,7 +366,7 @@ static bool is_far(const double *x, int p, const int end[2], double most)
     return false;
 }
 
-/* Adds c f(d^2/d_hat^2) of pair i, or its friction at x_n: self_contact.h. */
+/* Adds the barrier or the friction of point-edge pair i: self_contact.h. */
 static void add_self_contact(Probe *probe, Jet *sum, const void *data, int i)
 {
     const SelfContact *self = get_self_contact(probe->at->system);
@@ -477,8 +477,8 @@ static int count_parts(const Probe *probe, PartKind parts, const void *data)
 
 /* ---- what clamping adds ------------------------------------------------- */
 
-/* Numbers on which the energy of a part depends. derivative: by the node
- * coordinates; unit_move: displacements that change only one number, by 1 */
+/* Own coordinates q_k of a part, on which its energy depends. derivative: of
+ * q_k by the nodes' x and y; unit_move: displacement that adds 1 to q_k only */
 typedef struct PartFrame {
     int n, node[3];
     Real derivative[4][6];
@@ -510,8 +510,8 @@ static void fill_frame_of_three(PartFrame *frame, const int node[3],
     }
 }
 
-/* Fills the frame of a point and an edge: p moves along the edge, the edge
- * turns. All other second derivatives are W'', which is never negative. */
+/* Fills the frame of a point and an edge with the two motions that can have a
+ * negative curvature: the point slides along the edge, and the edge turns. */
 static void fill_frame_of_pair(Probe *probe, PartFrame *frame, int i)
 {
     const SelfContact *self = get_self_contact(probe->at->system);
@@ -573,7 +573,7 @@ static const struct {
                 {&self_contact_energy, PART_EDGE_PAIR, add_self_contact},
                 {&self_friction_energy, PART_EDGE_PAIR, add_self_contact}};
 
-/* Returns the row of a term, or -1. */
+/* Returns the row of a term in `formulas`, or -1. */
 static int find_formula_row(const TermKind *kind)
 {
     int row = (int)(sizeof formulas / sizeof *formulas) - 1;
@@ -582,7 +582,7 @@ static int find_formula_row(const TermKind *kind)
     return row;
 }
 
-/* Adds sign times the displacement that changes number k to p [2n]. */
+/* Adds to p [2n] the displacement that changes own coordinate k by `sign`. */
 static void add_unit_move(const PartFrame *frame, int k, double sign, double *p)
 {
     for (int i = 0; i < 6; i++)
@@ -706,7 +706,7 @@ static int find_part_nodes(const Probe *probe, PartKind parts, const void *data,
     return count;
 }
 
-/* Adds to a block `lifts` times the cut of its negative eigenvalues. */
+/* Raises each negative eigenvalue of a block by `lifts` times its amount. */
 static void clamp_block(const Probe *probe, int row, const void *data, int part,
                         int lifts, double *p, double *q, EnergyPart *block)
 {
@@ -850,8 +850,8 @@ void exact_derivatives(const IncrementalPotential *E, const double *u,
 }
 
 /* Factors H = L D L^T without pivoting; L D replaces H on and below the
- * diagonal. Returns false if a pivot is 0. A pivot below the mass in a clamped
- * H is a rounding error and replaced by the mass. */
+ * diagonal. In a projected H (lifts > 0) a pivot below the mass is a rounding
+ * error; the mass replaces it. Returns false if a pivot is 0. */
 static bool factor_densely(const DenseSystem *of)
 {
     int n = of->n;
@@ -941,7 +941,7 @@ static Real find_perturbed_residual(const Probe *probe, const double *u,
     return solve_densely(of);
 }
 
-/* Returns exact_residual for a given probe->side. */
+/* Returns the exact residual for one flow_side of Probe. */
 static double find_residual_on_flow_side(const IncrementalPotential *E,
                                          const double *u, const double *x,
                                          double h, double moved, int lifts,

@@ -1,6 +1,6 @@
-/* test.h - TEST(name) { ... } defines a test. Tests of a file run in its order.
- * TESTS(setup, teardown) ends the file; both run once, or are NULL. An argument
- * chooses tests by name (* for any letters). Each ends by free_simulations. */
+/* test.h - TEST(name) { ... } defines a test, which ends by free_simulations.
+ * TESTS(setup, teardown), functions or NULL, ends the file. Tests run in their
+ * order; a suite's argument chooses tests by name (* for any letters). */
 #ifndef ELASTO_TEST_H
 #define ELASTO_TEST_H
 

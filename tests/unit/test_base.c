@@ -64,7 +64,7 @@ static void fill_grid_matrix(Random *random, GridMatrix *matrix)
         *find_entry_value(matrix, i, i) = sum[i] + 0.5;
 }
 
-/* Checks that A x = b within the tolerance, in place or not. */
+/* Checks that x solves A x = b, in an array of its own and in place of b. */
 static void check_solution(Random *random, GridMatrix *matrix, double tolerance)
 {
     double b[UNKNOWNS], x[2][UNKNOWNS], A[UNKNOWNS * UNKNOWNS];
@@ -198,8 +198,8 @@ static double dot_rows(const double *A, const double *B, int i, int j, int k)
     return sum;
 }
 
-/* Products have the same bits whatever the width of the registers. Only dsyrk
- * may write other entries, right of its triangle. */
+/* Products have the same bits whatever the width of the registers. Entries
+ * outside of the result stay; dsyrk may also fill its upper triangle. */
 TEST(products_have_one_order_of_sums)
 {
     Random random = {71};
@@ -226,8 +226,8 @@ TEST(products_have_one_order_of_sums)
         }
 }
 
-/* L L^T = A, and (B L^-T) L^T = B, to some epsilon of the sums: pivots are at
- * least 2, other entries at most 1. */
+/* L L^T = A, and X L^T = B for X = B L^-T, with the rounding errors of sums:
+ * pivots are at least 2, other entries at most 1. */
 TEST(factors_and_divisions_are_exact_to_rounding)
 {
     Random random = {72};
@@ -268,7 +268,7 @@ static double find_ulp_error(double got, long double exact)
     return (double)(fabsl(got - exact) / unit);
 }
 
-/* Checks the 1.5 units of the last place that mathematics.h promises. */
+/* Checks the error bound of mathematics.h, 1.5 units in the last place. */
 static void check_function_digits(double x, double z)
 {
     CHECK_AT_MOST(find_ulp_error(math_log(x), logl(x)), 1.5);

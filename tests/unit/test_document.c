@@ -29,7 +29,7 @@ static void check_document_lines(void)
 {
     static const struct {
         const char *word;
-        int fields; /* number of fields */
+        int fields; /* number of fields; 0: depends on the columns */
     } words[] = {
         {"page", 3},  {"topic", 1},  {"sentence", 1}, {"time", 1},
         {"told", 2},  {"step", 3},   {"text", 3},     {"formula", 3},
@@ -37,7 +37,7 @@ static void check_document_lines(void)
         {"claim", 3}, {"notes", 3},  {"code", 2},     {"verdict", 3},
         {"card", 6},  {"words", 4},  {"row", 6},      {"number", 8},
         {"point", 3}, {"switch", 3}, {"picture", 1},  {"event", 1},
-        {"cells", 0}, {"legend", 0}, /* as many fields as columns */
+        {"cells", 0}, {"legend", 0},
     };
     assert_true(strlen(text) < DOCUMENT_SIZE - 100);
     for (char *line = text, *end; *line; line = end + 1) {
@@ -82,7 +82,7 @@ TEST(a_page_keeps_its_answer_until_the_guess)
         check_document_lines();
         assert_int_equal(count_lines("asks"), 0);
         CHECK(count_lines("look") > 0 && count_lines("code") > 0);
-        if (page->try && strstr(page->try, "Set ")) /* Try sets a number */
+        if (page->try && strstr(page->try, "Set ")) /* the task sets a number */
             assert_non_null(strstr(text, "\ttried\n"));
         end_player();
     }
@@ -122,12 +122,12 @@ TEST(a_table_is_text_after_the_guess)
     CHECK_OK(player_obey_queue(&player, false));
     CHECK_OK(player_make_step(&player));
     write_document();
-    assert_true(count_lines("cells") > 4); /* heads, updates and the last row */
+    assert_true(count_lines("cells") > 4); /* rows: heads, updates, end */
     assert_non_null(strstr(text, ": the loop ends\t"));
     CHECK_OK(obey_line("set stretch 1"));
     CHECK_OK(player_make_step(&player));
     write_document();
-    assert_int_equal(count_lines("cells"), 3); /* heads, update, last row */
+    assert_int_equal(count_lines("cells"), 3); /* rows: heads, update, end */
     end_player();
 }
 

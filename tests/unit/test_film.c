@@ -15,9 +15,9 @@ enum { WIDTH = 61, HEIGHT = 47, SIDE = 20, FRAMES = 8 };
 
 static char folder[] = "/tmp/elasto-film-XXXXXX";
 
-/* error: allowed error of a channel, of 255. .apng and .gif keep so few colours
- * exactly; the other formats are compared in the middle of the block, with a
- * loss that no eye sees (7 with ffmpeg 5.1). */
+/* tolerance: allowed error of a channel, of 255. .apng and .gif keep so few
+ * colours exactly. The other formats need even sizes; with a loss that no eye
+ * sees (7 with ffmpeg 5.1), they are compared in the middle of the block. */
 static const struct FilmRow {
     const char *name, *format; /* ffmpeg's name of the pixel format */
     double frame_rate;
@@ -25,7 +25,7 @@ static const struct FilmRow {
 } rows[] = {
     {"a film.apng", "rgb24", 60, 0, WIDTH, HEIGHT},
     {"x:y.gif", "bgra", 50, 0, WIDTH, HEIGHT},
-    {"-film.mp4", "yuv420p", 60, 12, WIDTH + 1, HEIGHT + 1}, /* even sizes */
+    {"-film.mp4", "yuv420p", 60, 12, WIDTH + 1, HEIGHT + 1},
     {"film%03d.webm", "yuv420p", 60, 12, WIDTH + 1, HEIGHT + 1},
 };
 enum { ROWS = sizeof rows / sizeof *rows };
@@ -59,7 +59,7 @@ static void make_film(const char *name, int frames)
         CHECK_OK(film_add_frame(&film, &canvas, i == 4 ? 2 : 1));
     }
     CHECK(film.frames == frames);
-    CHECK(access(name, F_OK) != 0); /* the name appears with the whole film */
+    CHECK(access(name, F_OK) != 0); /* the file appears when complete */
     CHECK_OK(film_close(&film, KEEP_FILE));
     canvas_free(&canvas);
 }
@@ -145,7 +145,7 @@ TEST(films_show_what_was_drawn)
         assert_int_equal(frames, count);
         check_format(row);
         check_frames(row, bytes, frames);
-        if (frames == FRAMES) /* .webm counts ms, too coarse for one frame */
+        if (frames == FRAMES) /* a film of one frame has no rate */
             CHECK(fabs(find_frame_rate(row->name, frames) / row->frame_rate -
                        1) < 1e-2);
         CHECK(unlink(row->name) == 0);

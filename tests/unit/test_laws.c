@@ -21,11 +21,11 @@ static const double G = 9.81;
 
 /* ---- some masses ------------------------------------------------------- */
 
-/* System and run of a test; create_masses frees the last ones */
+/* System and run of the current test; create_masses frees both first */
 static System masses;
 static TimeIntegrator run;
 
-/* Creates masses of 1 kg; springs of 1 J/m^2 and 1 m join 0 and s + 1. */
+/* Creates nodes of 1 kg; spring s (1 J/m^2, 1 m) joins nodes 0 and s + 1. */
 static System *create_masses(int nodes, int springs)
 {
     time_integrator_free(&run);
@@ -77,9 +77,9 @@ static void step_masses(void)
     CHECK_OK(time_integrator_step(&run));
 }
 
-/* A belt is an inclined wall that moves along itself at W and takes a block
- * along. While the block slips, it feels mu N, N = m g cos; the belt does the
- * work mu N W a second, part of which heats. */
+/* A belt, an inclined wall with the tangential speed W, carries a block of 1
+ * kg. While the block slips, the friction is mu N with N = m g cos(angle), and
+ * the belt has the power mu N W, of which mu N (W - speed) becomes heat. */
 TEST(a_belt_takes_its_load_along)
 {
     const double mu = 0.9, angle = 0.3, W = 10, h = 0.01, still[2] = {0, 0};
@@ -143,9 +143,9 @@ TEST(a_hand_pushes_with_a_bounded_speed)
     CHECK_NEAR(push_max_fraction(get_contact(&masses), h) * h * 40, 0.1, 1e-15);
 }
 
-/* A pinned mass stops the pushed wall at a gap of 0.3 d_hat. A free mass before
- * a second wall stops it where the hand is too weak: each gap is about a tenth
- * of d_hat. No step is blocked. */
+/* A pushed wall stops 0.3 d_hat in front of a pinned mass. In front of a free
+ * mass that leans on a second wall, the pushed wall stops where the barrier is
+ * as strong as the hand, at a gap just below d_hat/10. No step is blocked. */
 TEST(a_fixed_body_stops_the_hand)
 {
     const double still[2] = {0, 0}, right[2] = {1, 0}, left[2] = {-1, 0};
@@ -161,7 +161,7 @@ TEST(a_fixed_body_stops_the_hand)
                          {.n = {left[0], 0}, .o = {0.05, 0}, .node = -1}};
     CHECK_OK(contact_configure(&masses, &(Barrier){0.01, 1}, 2, walls));
     wall = add_hand_on_wall();
-    get_contact(&masses)->hand.target[0] = 0.05; /* near the wall: it slows */
+    get_contact(&masses)->hand.target[0] = 0.05; /* near target: slow push */
     begin_free_masses(0.01, still, still);
     for (int i = 0; i < 300; i++)
         step_masses();
@@ -223,7 +223,7 @@ TEST(broken_springs_neither_flow_nor_damp)
 
 /* ---- whole scenes ------------------------------------------------------ */
 
-/* Largest numbers of nodes and springs of the scenes here */
+/* Upper limits for the nodes and springs of the scenes in this file */
 enum { MOST_NODES = 1024, MOST_SPRINGS = 8 * MOST_NODES };
 
 /* Returns the work of moving walls in the last step, J. */
@@ -247,7 +247,7 @@ static double find_wall_work(const System *system, const double *x, double h)
     return sum;
 }
 
-/* Returns the energy that a step from x_n, v_n dissipates, J, without damping:
+/* Returns the energy that a step from x_n, v_n dissipates, J, without friction:
  * the sum of |v_n+1 - v_n|_M^2/2, the work of walls, and the difference between
  * the potential and its tangent at the end.
  *   k  [springs] stiffnesses before the step, which the forces are made with
@@ -267,15 +267,15 @@ static double find_dissipation(const TimeIntegrator *it, double *k,
     EvalPoint at = make_eval_point(&whole, x_n, NULL, it->x);
     Probe probe = {.at = &at, .h = it->h, .p = dx};
     sum -= oracle_energy(&probe, NULL).f;
-    at.u = dx; /* adds the forces of damping */
+    at.u = dx; /* with u the energy includes damping and friction */
     sum += oracle_energy(&probe, NULL).p;
-    if (system_find_term(&whole,
-                         &friction_energy)) /* damping books its own loss */
+    /* friction books its own loss */
+    if (system_find_term(&whole, &friction_energy))
         sum -= oracle_energy(&probe, &friction_energy).p;
     return (double)sum;
 }
 
-/* The energies lose what the oracle's formulas of all terms dissipate. */
+/* The ledger's dissipated energy is the sum of the oracle's over all steps. */
 TEST(the_ledger_adds_up)
 {
     static const char *const lines[] = {"slope",
@@ -320,7 +320,7 @@ TEST(the_ledger_adds_up)
     }
 }
 
-/* With shorter steps the losses tend to those that damping books. */
+/* Damping books the lost energy, apart from a share of O(h). */
 TEST(damping_books_the_energy_that_it_takes)
 {
     double share[2];
@@ -400,8 +400,8 @@ TEST(a_fast_ceiling_comes_in_parts)
     CHECK(find_smallest_gap(it->system, it->x) > 0);
 }
 
-/* A wall throws, catches and lowers a mass in a convex potential: with the work
- * of the force at the end of a step, backward Euler dissipates in each step. */
+/* A wall throws, catches and lowers a mass. In a convex potential each step of
+ * backward Euler dissipates, with the wall's work by the force at the end. */
 TEST(a_moving_wall_never_gives_back_what_is_dissipated)
 {
     static const double up[2] = {0, 1}, x[2] = {0, 0.008}, v[2] = {0};
@@ -454,7 +454,7 @@ static Simulation *start_variant(const MethodCase *variant, const char *line)
 
 /* ---- orders ------------------------------------------------------------ */
 
-/* Time in which nine nodes move by a tenth, differently in x and y, s */
+/* Duration of the runs, s; nodes move by about a tenth of the side */
 static const double TIME = 0.064;
 
 static Simulation *start_moving_square(const MethodCase *variant, int steps)
@@ -471,8 +471,8 @@ static Simulation *start_moving_square(const MethodCase *variant, int steps)
     return square;
 }
 
-/* Halving h divides the error by 2^order, with steps so small that the next
- * term of the error changes the slope by less than 0.05; the square falls. */
+/* Halving h divides the error of a falling square by 2^order; steps are so
+ * small that the next term of the error changes the order by less than 0.05. */
 TEST(methods_have_the_order_of_their_table)
 {
     enum { STEPS = 16384 };
@@ -568,9 +568,9 @@ TEST(momentum_is_kept)
     }
 }
 
-/* The forces of triangles have no torque on a body that is turned, far away or
- * strained: the torque by rounding is in proportion to the forces between
- * triangles, which vanish with the strain, and not to the modulus. */
+/* The forces of triangles have no torque on a body that is turned, strained or
+ * far away. The torque by rounding is in proportion to the triangles' forces; a
+ * body without strain has none, however stiff. */
 TEST(triangles_have_no_torque)
 {
     static const double away[] = {0, 1, 1e3, 1e6};

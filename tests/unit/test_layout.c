@@ -74,7 +74,7 @@ static void check_chips(const Layout *l, int wished)
     for (int i = 0; i < l->chips; i++) {
         out += l->chip[i].width <= 0;
         if (i > 0 && i < l->chips - 1 && l->chip[i - 1].width <= 0)
-            CHECK(l->chip[i].width <= 0); /* the chip before has no room */
+            CHECK(l->chip[i].width <= 0); /* no chip after a left-out chip */
     }
     CHECK(out == l->chips_left_out);
     CHECK(check_boxes(l->chip, l->chips, l->chip_row) == l->chips - out);
@@ -204,7 +204,7 @@ TEST(markup_has_its_widths)
 {
     static const struct {
         const char *markup;
-        double min_width, max_width; /* in widths of an x */
+        double min_width, max_width; /* unit: width of the letter x */
         bool is_plain;
     } rows[] = {
         {"xx", 2, 2, false},           {"x\u0303", 1, 1, false},
@@ -222,12 +222,12 @@ TEST(markup_has_its_widths)
     }
 }
 
-/* Adds a formula's drawing to a line: its ink in red, green and blue, centre of
- * the ink (pixels), and extent of the formula. */
+/* Appends measures of a formula's picture to a line: ink in red, green and
+ * blue, centre of the ink (pixels), and extent of the formula. */
 static void add_drawing(const TextStyle *like, const char *markup, char *line)
 {
     double ink[3] = {0}, at[2] = {0};
-    Text *boxes = (Text *)line; /* never read: letters are boxes here */
+    Text *boxes = (Text *)line; /* dummy: boxes instead of a font */
     TextExtent extent = text_measure(boxes, like, markup);
     canvas_clear(&canvas, 0xffffffff);
     CHECK(text_draw(boxes, &canvas, like, 9, 40, ALIGN_LEFT, markup) ==
@@ -244,8 +244,8 @@ static void add_drawing(const TextStyle *like, const char *markup, char *line)
            extent.ascent, extent.descent);
 }
 
-/* Each formula of tests/data/formulas.txt is drawn as it was, large, and small
- * with scripts that do not shrink much.  PICTURES=1 writes the file anew. */
+/* Each formula of tests/data/formulas.txt looks as recorded: in 20 pixels, and
+ * in 14 with exponents of at least 13.  PICTURES=1 writes the file anew. */
 TEST(formulas_are_drawn_as_before)
 {
     static const TextStyle small = {FACE_BOLD, 14, 0xff000000, false, 13};

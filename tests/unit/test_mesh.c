@@ -9,7 +9,7 @@
 
 /* The grid is centred, numbered by columns from below; springs have the order
  * of the four loops on the slide: right, up, both diagonals. Coordinates are
- * n/4, so exact. The elimination order is a permutation. */
+ * multiples of 1/4, so exact. The elimination order is a permutation. */
 TEST(nodes_and_springs_are_the_slides)
 {
     static int order[71 * 71], springs[2 * 4 * 70 * 71];
@@ -54,7 +54,7 @@ static bool spring_joins(const int e[2], int a, int b)
 }
 
 /* Cells and triangles of two beams are anticlockwise, with the right areas and
- * springs; the outline has the sides of only one cell. Sums are exact. */
+ * springs; each edge of the outline has one cell. Sums are exact. */
 TEST(cells_triangles_and_outline_are_those_of_the_springs)
 {
     enum { COLUMNS = 5, ROWS = 3, BODIES = 2 };
@@ -95,7 +95,7 @@ TEST(cells_triangles_and_outline_are_those_of_the_springs)
     }
     CHECK(mesh.outline_edges == 32 && twice == BODIES * 2 * 2.5 * 1.5);
     twice = 0;
-    for (int c = 0; c < mesh.cells; c++) /* patches: 2 x 2, cut at edges */
+    for (int c = 0; c < mesh.cells; c++) /* patches of at most 2 x 2 cells */
         if (square_mesh_get_patch(&mesh, c, 2, node)) {
             const double *low = x + 2 * node[0], *up = x + 2 * node[2];
             twice += 2 * (up[0] - low[0]) * (up[1] - low[1]);
@@ -125,7 +125,7 @@ static double count_factor_entries(int segments)
     for (int k = 0; k < n; k++)
         for (int i = k + 1; i < n; i++)
             blocks += meets[k][i];
-    return 4 * blocks - n; /* 4 entries a block, 3 on the diagonal */
+    return 4 * blocks - n; /* 4 entries a block, 3 a diagonal block */
 }
 
 /* Nested dissection gives a factor of n log n entries. From 12 to 24 segments

@@ -1,6 +1,6 @@
-/* test_multigrid.c - multigrid: changes of E and certified ends in extended
- * precision, its work, and bits that do not depend on earlier steps. (Stress
- * tests that both solvers find the same minimum.) */
+/* test_multigrid.c - multigrid: changes of E and final residuals in extended
+ * precision, its work, and bits that do not depend on earlier steps. (`make
+ * stress` tests that both solvers find the same minimum.) */
 #include "test.h"
 #include "stress.h"
 
@@ -63,7 +63,7 @@ static void randomise_square(Random *random, bool pins)
     system_mark_changed(body, true);
 }
 
-/* Adds a hand at the middle node, `times` as stiff as its mass. */
+/* Adds a hand of the stiffness `times` mass/h^2 at the middle node. */
 static void pull_middle_node(double times)
 {
     int node = body->nodes / 2;
@@ -106,8 +106,8 @@ static bool check_update(void *user, const NewtonRecord *record)
     return true;
 }
 
-/* Steps of plain, random and pulled squares lower E by the recorded changes,
- * and pass the test of Algorithm 3. */
+/* Updates of plain, random and pulled squares lower E by the recorded changes;
+ * the last residual of each step passes the stopping test of Algorithm 3. */
 TEST(steps_fall_and_pass_the_test_of_algorithm_3)
 {
     static const struct {
@@ -131,7 +131,7 @@ TEST(steps_fall_and_pass_the_test_of_algorithm_3)
             randomise_square(&random, rows[i].has_pins);
         if (rows[i].hand_stiffness > 0)
             pull_middle_node(rows[i].hand_stiffness);
-        if (i == 14) /* a short step, which a bound ends */
+        if (i == 14) /* a short step ends by a bound of the next residual */
             square->run[0].h = newton->settings.h = 1e-4;
         newton->settings.observer = check_update;
         newton->settings.user_data = &history;
@@ -151,7 +151,7 @@ static Status minimise(double tolerance)
 }
 
 /* The tolerance is just below the exact residual of the first direction.
- * Multigrid's p may be short enough, but not with the bound of its error. */
+ * Multigrid's residual may be lower, but its upper bound is not. */
 TEST(undecided_directions_have_not_converged)
 {
     static const double parts[] = {0.9, 0.99, 0.999, 0.999999};
@@ -169,7 +169,7 @@ TEST(undecided_directions_have_not_converged)
     }
 }
 
-/* New and used objects give the same bits, also with springs made stiffer. */
+/* A new and a used multigrid give the same bits, also with stiffer springs. */
 TEST(bits_depend_on_the_step_alone)
 {
     static double first[MAX_UNKNOWNS];
@@ -206,9 +206,9 @@ TEST(bits_depend_on_the_step_alone)
     }
 }
 
-/* Smooth steps take about as many directions at any size, with one cycle each.
- * Pins, broken springs and random masses take more cycles, at most those that
- * were counted once.  Long steps of a stiff square that spins: few sweeps. */
+/* Multigrid takes no more cycles than the table allows. Smooth steps take one
+ * cycle for each update; pins, broken springs and random masses take more. Long
+ * steps of a stiff spinning square take few sweeps of tiles. */
 TEST(steps_take_no_more_work_than_counted)
 {
     static const struct {

@@ -1,5 +1,5 @@
-/* test_newton.c - each way in which Newton's method can end, and that the
- * status names it, by formulas without its code. (Updates: stress.) */
+/* test_newton.c - each way in which Newton's method can end, and its status,
+ * checked by independent formulas. (`make stress` checks each update.) */
 #include "test.h"
 #include "stress.h"
 
@@ -65,7 +65,7 @@ TEST(residuals_are_what_they_are_called)
                 CHECK_NEAR(residual, exact, 1e-9 * exact + 1e-10);
             else if (multigrid && newton->passes_test)
                 CHECK_NEAR(residual, exact, tolerance - residual);
-            else if (multigrid) /* it ends by a bound of the next p */
+            else if (multigrid) /* ended by a bound of the next residual */
                 CHECK_AT_MOST(exact_residual(&E, newton->iterate.u, NULL,
                                              run->h, 0, 1, NULL),
                               tolerance);
@@ -79,7 +79,7 @@ TEST(residuals_are_what_they_are_called)
 
 /* ---- two nodes ----------------------------------------------------------- */
 
-/* A spring of 1 m between two nodes; create_spring_pair frees the last one */
+/* Two nodes joined by a spring of 1 m, which create_spring_pair replaces */
 static System pair;
 static Newton newton;
 
@@ -114,7 +114,7 @@ static Status minimise_pair(const double *x, double weight)
 
 /* With both nodes in one point and h = 1 the Hessian is [[m0 - 2, 2], [2, m1 -
  * 2]], which is indefinite where 1/m0 + 1/m1 > 1/2. The gradient is 0, so the
- * loop ends; without projection a maximum is counted as such. */
+ * loop ends at once; without projection it counts an indefinite end. */
 TEST(a_maximum_is_counted_without_projection)
 {
     static const struct {
@@ -131,10 +131,10 @@ TEST(a_maximum_is_counted_without_projection)
     }
 }
 
-/* A spring from a pinned node to a node of 1 kg at (1/2, 0) has half its rest
- * length; a force pulls sideways. With h = 1 the sideways entry of the Hessian
- * is 1 - 3/2 k. If it is nearly 0, a direction of 1e38 m is downhill, but only
- * for alpha below 2^-64. With projection the spring swings out. */
+/* A spring of stiffness k and rest length 1 joins a pinned node and a node of 1
+ * kg at (1/2, 0); a force pulls sideways. With h = 1 the sideways entry of the
+ * Hessian is 1 - 3/2 k. An entry near 0 makes p 1e38 m long: E falls only for
+ * alpha below 2^-64. With projection the spring swings out. */
 TEST(nearly_singular_steps_end_or_say_why_not)
 {
     static const struct {
@@ -178,9 +178,9 @@ static bool store_shift(void *user, const NewtonRecord *record)
     return true;
 }
 
-/* Beside springs of 1e30 J/m^2 rounding loses masses, and pivots of a free
- * square are rounding. A shift, small beside h^2 k, makes a factor possible,
- * and conjugate gradients restore the masses and the mean velocity. */
+/* Springs of 1e30 J/m^2 hide the masses in the rounding of H, which leaves the
+ * last pivots of a free square near 0. A shift, small against h^2 k, replaces
+ * the masses; conjugate gradients restore them and the mean velocity. */
 TEST(tiny_masses_keep_their_velocity)
 {
     double shift = 0;
@@ -207,7 +207,7 @@ static bool pause_always(void *unused, const NewtonRecord *record)
     return false;
 }
 
-/* Checks that E never rises in iterates and steps from rest; 1e-9: rounding. */
+/* Checks that no iterate raises E, and no step from rest the total energy. */
 static bool check_energy_falls(void *unused, char *line)
 {
     (void)unused;

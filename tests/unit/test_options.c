@@ -71,8 +71,8 @@ static bool part_is_about_option(const char *part)
     return strchr("=+-", part[0]) && part[1] == ' ';
 }
 
-/* Checks a part of a row: "= NAME NUMBER..." is the value of an option, "+
- * NAME" and "- NAME" an option on or off; others are words of the message. */
+/* Checks a part of a row of lines.txt: an option's value ("= NAME NUMBER..."),
+ * an option on or off ("+ NAME", "- NAME"), or words of the message. */
 static bool row_part_holds(const char *part, const Options *options,
                            const char *message)
 {
@@ -93,7 +93,7 @@ static bool row_part_holds(const char *part, const Options *options,
     return true;
 }
 
-/* Each line of tests/data/lines.txt is accepted or explained in all panes. */
+/* Each line of tests/data/lines.txt is accepted, or refused with the reason. */
 TEST(command_lines_are_accepted_or_explained)
 {
     char row[512], message[512];
@@ -138,8 +138,8 @@ static void append_random_piece(Random *random, char *word)
     strncat(word, at, strcspn(at, "|"));
 }
 
-/* Random lines are understood, or refused with one short line. Pieces follow
- * each other, some after a '='. */
+/* Random command lines are understood, or refused with one short line. A word
+ * is a random piece, or two pieces with a '=' between. */
 TEST(random_lines_end_well)
 {
     Random random = {1};
@@ -177,7 +177,7 @@ TEST(texts_become_one_line)
 {
     static const char *const rows[][2] = {
         {"a\nb\tc\177\033", "a?b?c??"},
-        /* signs of units and of degrees, a face */
+        /* UTF-8 stays: signs of degree and micro, an emoji */
         {"5\302\260 2\302\265m", "5\302\260 2\302\265m"},
         {"\360\237\231\202", "\360\237\231\202"}};
     char line[16];

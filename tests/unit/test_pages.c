@@ -1,5 +1,5 @@
-/* test_pages.c - pages of the lecture: claims that no window shows (others:
- * tests/data/claims.txt), their code, and frames with readable words */
+/* test_pages.c - pages of the lecture: claims on numbers that no window shows
+ * (other claims: tests/data/claims.txt), their code, and readable frames */
 #include "test.h"
 
 #include <limits.h>
@@ -187,7 +187,7 @@ TEST(pages_show_their_code)
         name = strtok_r(rest, ",", &rest);
         for (const char *const *line = page->code; *line; line++) {
             lit += strstr(*line, page->lit_code) != NULL;
-            CHECK(!strstr(*line, "FAIL(")); /* pages leave out error messages */
+            CHECK(!strstr(*line, "FAIL(")); /* listings omit error messages */
             ends += (*line)[0] == '}';
             if (name && ends == functions && strstr(*line, name)) {
                 name = strtok_r(rest, ",", &rest);
@@ -264,7 +264,7 @@ int __wrap_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
     Box word = {(int)left + 1, (int)y, (int)wide - 2, (int)(0.4 * style->size)};
     char *end;
     strtod(markup, &end);
-    /* words of a picture may touch */
+    /* Overlaps count for numbers, and for words in the column of cards. */
     bool counts = !*end || box_contains(seen.column, left + 1, y);
     for (int i = 0; i < seen.word_count && counts; i++)
         seen.overlaps += word.x < seen.word[i].x + seen.word[i].width &&
@@ -288,7 +288,7 @@ void __wrap_plot_curve(const Plot *plot, int count, const double *x,
     __real_plot_curve(plot, count, x, y, width, colour);
 }
 
-/* Cards, large cards after and before the answer, code, the list of pages */
+/* Views: cards, large cards with answer, with question, code, list of pages */
 enum { CARDS_VIEW, LARGE_VIEW, ASK_VIEW, CODE_VIEW, LIST_VIEW, VIEW_COUNT };
 
 /* Returns the first line of a text that is not drawn whole, or NULL. */
@@ -316,7 +316,7 @@ static const char *find_missing_text(const FrameContent *content)
     return missing;
 }
 
-/* Draws a frame, and stores the findings in `seen`. */
+/* Draws a frame, and stores properties of its words and curves in `seen`. */
 static void inspect_frame(const FrameContent *content, Paper *paper)
 {
     memset(&seen, 0, sizeof seen);
@@ -371,10 +371,9 @@ static void check_frame(const LecturePage *page, Simulation *simulation,
             missing ? missing : "");
 }
 
-/* On each page, at its start and later, letters have a 55th of the height, in
- * large type a 35th and no text is cut; code of lecture.c, whose lines have up
- * to 80 letters, a 50th. No word is outside its card or over another, no curve
- * outside its axes. */
+/* On each page, at its start and later, letters are at least 1/55 of the frame
+ * high, code of lecture.c 1/50, large type 1/35 without ellipses. No word
+ * leaves its card or covers another, and no curve leaves its axes. */
 TEST(pages_are_legible_from_the_back_row)
 {
     static const int sizes[][2] = {{1280, 800}, {1366, 768}, {1920, 1080}};
@@ -395,7 +394,7 @@ TEST(pages_are_legible_from_the_back_row)
         }
         paper_free(&paper);
     }
-    FrameContent content; /* large letters outside of the lecture */
+    FrameContent content; /* --big also enlarges scenes without a page */
     frame_create(simulate("square --big"), &content);
     CHECK(layout_create(&content, 1280, 800).em > 800 / 40);
 }

@@ -45,7 +45,7 @@ static void edit_past(CommandKind kind, long number, double x, double y)
 
 enum { STEPS = 48 };
 
-/* Goes to the steps from ... to; hash [to + 1] out. */
+/* Goes to each step `from` ... `to` and stores its hash. hash [to + 1] out */
 static void go_to_each_step(long from, long to, uint64_t *hash)
 {
     for (long step = from; step <= to; step++)
@@ -115,8 +115,8 @@ TEST(states_come_back)
     }
 }
 
-/* A pane that has ended beside another one has the same states from random
- * steps, with memory for all states or for a few. */
+/* A pane that ended while another pane went on has the same states again at
+ * random steps, with memory for all states or for a few. */
 TEST(a_pane_that_has_ended_comes_back)
 {
     enum { STEPS = 60 };
@@ -162,7 +162,7 @@ TEST(states_of_many_edits_have_a_limit)
     past_free(&past);
 }
 
-/* An edit that continues a gesture discards what was undone after it. */
+/* An edit of the same gesture discards the edits that were undone before. */
 TEST(an_edit_ends_what_was_undone)
 {
     const Command grab = {.kind = COMMAND_GRAB, .number = 5};
@@ -219,7 +219,7 @@ TEST(keys_are_given_once)
 
 /* ---- the hand ------------------------------------------------------------ */
 
-/* Returns sum m |v - v_n|^2/2, J. */
+/* Returns the kinetic energy of the change of velocities, v - v_n, J. */
 static double find_motion_change(const Simulation *simulation,
                                  const double *v_n)
 {
@@ -247,11 +247,11 @@ static void drag_randomly(Random *random, int step)
                   random_uniform(random, -5, 5));
 }
 
-/* Makes one step after a jerk, in which E never rises. Backward Euler ends
- * where E is at most that at x_n: sum m |v - v_n|^2/2 + P <= sum m |v_n|^2/2 +
- * P_n plus the work of the hand, up to rounding. Returns false above 1e20 J,
- * which undamped methods may reach without NaN, and after an explicit step that
- * overflowed and changed nothing. */
+/* Makes a step after a jerk, and checks that no update raises E. After backward
+ * Euler sum m |v - v_n|^2/2 + P is at most the start's sum m |v_n|^2/2 + P plus
+ * the work of the hand, up to rounding (P: potential, v_n: old velocities).
+ * Returns false above 1e20 J, which undamped methods may reach, and after an
+ * explicit step that overflowed and changed nothing. */
 static bool make_step_after_jerk(bool descends)
 {
     const Simulation *simulation = &past.pane[0].simulation;
@@ -286,7 +286,7 @@ static bool make_step_after_jerk(bool descends)
 }
 
 /* Every step ends, whatever the jerks of the mouse, the time step and the
- * method. A run with too much energy begins again. Long: 10 000 steps each. */
+ * method. A run with too much energy (runaway) begins again. */
 TEST(random_drags_end)
 {
     const int steps = choose_case_count(10000, 150);

@@ -209,7 +209,7 @@ static void paint_step(const char *line, int step, Canvas frame[2])
     end_player();
 }
 
-/* README pictures equal frames drawn now; late steps only in long tests. */
+/* README pictures equal frames drawn now (slow pictures only in long tests). */
 TEST(readme_pictures_are_current)
 {
     char name[32], line[128], file[64];

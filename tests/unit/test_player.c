@@ -5,9 +5,8 @@
 #include <math.h>
 #include <time.h>
 
-/* The curve E(x + alpha p) - E(x) goes through the point at the step length
- * that was taken, with polynomials and with contact.  At the last update the
- * card shows the curve along its p, or none. */
+/* The curve E(x + alpha p) - E(x), with polynomials and with contact, gives the
+ * recorded change of E at the alpha of each update. */
 TEST(the_curve_goes_through_the_step)
 {
     static const char *const lines[] = {"square", "drop --segments 6",
@@ -92,7 +91,7 @@ TEST(steps_are_due_at_the_speed_that_was_asked_for)
         while (player.play.log_speed != speed)
             CHECK_OK(
                 obey_line(player.play.log_speed < speed ? "faster" : "slower"));
-        CHECK_OK(player_make_frame(&player)); /* the start is a frame, too */
+        CHECK_OK(player_make_frame(&player)); /* frame of the start */
         const double every = ldexp(1, speed < 0 ? -speed : 0) / 60;
         CHECK_NEAR(player_find_wait_time(&player), fmin(1e3 * every, 200), 1);
         const long before = player.past.step;
@@ -118,7 +117,7 @@ TEST(the_overview_is_alive)
         for (int i = 0; i < content->sheet.cells; i++) {
             const Simulation *cell = content->sheet.cell[i].simulation;
             const bool moves = cell->scene->parts & HAS_TIME;
-            if (i > 0) /* cell 0 shows a page, which may end */
+            if (i > 0) /* cell 0 shows pages, whose runs may end */
                 assert_int_equal(cell->steps, moves ? frames + 2 : 0);
         }
     assert_int_equal(player.past.step, 0);
@@ -133,8 +132,8 @@ static const History *get_history(void)
     return &history;
 }
 
-/* Curves have the known steps in order, of a long run the first and the newest;
- * an edit at an old step shortens them, and undo restores them. */
+/* Curves show the known steps in order, of a long run every second or fourth
+ * step. An edit at an old step shortens the curves, and undo restores them. */
 TEST(curves_span_what_is_known)
 {
     begin_player("square --segments 1 --stretch 1 --gravity 9.81");

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { STEPS = 36 }; /* not a multiple of 37, see check_steps_are_pure */
+enum { STEPS = 36 }; /* no multiple of 37, so 37 i % STEPS visits each step */
 
 /* Makes a step and saves the state. bytes out */
 static void make_saved_step(Simulation *simulation, void *bytes)
@@ -69,8 +69,8 @@ static void check_step_is_pure(const Options *options, Simulation *old,
     free(bytes);
 }
 
-/* Makes steps in order, and each of them again in another order. Returns false
- * if the method refuses the scene. */
+/* Makes steps in order, and then checks each of them again. Returns false if
+ * the method refuses the scene. */
 static bool check_steps_are_pure(const Options *options)
 {
     Simulation simulation;

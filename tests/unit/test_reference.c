@@ -134,7 +134,7 @@ static bool case_is_for(const ReferenceCase *one, const char *who)
     return strcmp(one->tested_program, who) == 0;
 }
 
-/* Reads the first state of a file; nodes move by at most `most`, m. */
+/* Reads the start of a run. Checks that nodes move by at most `most`, m. */
 static void read_start_state(FILE *file, TimeIntegrator *run, double most)
 {
     for (int i = 0; i < 2 * run->system->nodes; i += 2) {
@@ -145,12 +145,12 @@ static void read_start_state(FILE *file, TimeIntegrator *run, double most)
     }
 }
 
-/* The program follows the references: lessons 2, 3 and 4 by the slides'
- * programs at the tolerance 1e-6; lessons 6, 7 and 8 by a second program at
- * 1e-9 (the slides' one cuts Hessian entries to integers), with pulled,
- * sliding, collapsing, pressed and rubbing blocks, from the first step of the
- * file. The program minimises to 1e-9 m/s; the tolerance 1e-6 leaves errors of
- * 2e-8 m a step, in up to 120 steps. */
+/* The program, at the tolerance 1e-9 m/s, follows the trajectories of files.
+ * Lessons 2, 3 and 4: the slides' programs wrote the files at 1e-6 m/s, which
+ * leaves an error of 2e-8 m in each of up to 120 steps. Lessons 6, 7 and 8:
+ * another program wrote the files at 1e-9 m/s, because the slides' program cuts
+ * entries of the Hessian to integers. These runs begin at the file's first
+ * state. */
 TEST(the_program_follows_the_slides)
 {
     for (int i = 0; i < count; i++) {
@@ -175,9 +175,9 @@ TEST(the_program_follows_the_slides)
     }
 }
 
-/* The fifth program, solved tightly: a ceiling comes down at 0.5 m/s. A stiff
- * spring pulls it in the reference, with an error of 1e-6 m; here its motion is
- * exact. Only the ground has friction. */
+/* The slides' fifth program at a small tolerance: a ceiling comes down at 0.5
+ * m/s. A stiff spring pulls the ceiling of the reference, with an error of 1e-6
+ * m; here the ceiling moves exactly. Only the ground has friction. */
 TEST(a_ceiling_comes_down_as_in_the_lesson)
 {
     Simulation *scene = simulate(
@@ -210,8 +210,8 @@ static void free_solid(Solid *solid)
     free(solid->e);
 }
 
-/* lecture.c follows the slides; velocities have the error of two positions,
- * 1e-9, over h. Steps leak no memory; the C library may keep 20 kB. */
+/* lecture.c follows the slides: x agrees to 1e-9 m, v to 1e-8 m/s. Steps leak
+ * no memory; the C library may keep 20 kB. */
 TEST(lecture_follows_the_slides)
 {
     static NewtonUpdates got, expected;
@@ -242,7 +242,7 @@ TEST(lecture_follows_the_slides)
     }
 }
 
-/* Sends an event with one or two numbers to lecture.c; false: it quits. */
+/* Sends lecture.c an event with one or two numbers; false: the event quits. */
 static bool send_event(Screen *screen, Solid *solid, Uint32 type, int a, int b)
 {
     SDL_Event event = {.type = type};
@@ -255,9 +255,9 @@ static bool send_event(Screen *screen, Solid *solid, Uint32 type, int a, int b)
     return handle_event(screen, solid, &event);
 }
 
-/* The mouse holds the nearest node, which comes a third of the way to it in a
- * step, until the button is up or the window has lost the focus. Space pauses,
- * R restarts, Esc ends. 600 x 600 pixels, of which 150 are a metre here. */
+/* The mouse holds the nearest node until the button is released or the window
+ * loses the focus; in a step the node moves a third of the way to the mouse.
+ * Space pauses, R restarts, Escape ends. Here 150 of 600 pixels are 1 m. */
 TEST(hands_act_on_lecture)
 {
     Solid solid = square(1, 4, 1000, 1e5);
@@ -329,10 +329,10 @@ static void make_step_tested_last(Solid *solid, double h, double tol, int step,
     free(x_n);
 }
 
-/* Checks that updates agree. The program may omit the last one of a step if its
- * residual is at most `negligible`, m/s (p below a millionth of a spring). A
- * direction by an older factor has an error of 1e-4 of itself, which is 2 % of
- * the next p if this is 200 times shorter; else 1e-3 of the tolerance. */
+/* Checks that updates agree. The program may omit updates whose residual is at
+ * most `negligible`, m/s (p: a millionth of a spring). Residuals agree to 2 %
+ * plus 1e-3 of the tolerance: p by an older factor is wrong by 1e-4 of its
+ * length, which is 2 % of a next p that is 200 times shorter. */
 static void check_same_updates(const NewtonUpdates *got,
                                const NewtonUpdates *expected, double tolerance,
                                double negligible)
@@ -355,9 +355,9 @@ static void check_same_updates(const NewtonUpdates *got,
     CHECK(i == got->count && i > 10);
 }
 
-/* The program makes the updates of lecture.c with p tested after the update: at
- * the slides' tolerance x differs by 1e-5 m in 15 steps, since directions are
- * refined, and at the tolerance 1e-9 m/s by 1e-8 m. */
+/* The program makes the same updates as lecture.c with p tested after the
+ * update. In 15 steps x differs by at most 1e-5 m at the slides' tolerance, as
+ * the program refines directions, and by 1e-8 m at the tolerance 1e-9 m/s. */
 TEST(the_program_makes_the_updates_of_lecture)
 {
     static NewtonUpdates got, expected;
@@ -414,7 +414,7 @@ TEST(explicit_euler_agrees_with_the_program)
 }
 
 /* Returns the largest relative change of the energy of the stretched square in
- * `steps` steps of c/n_seg, at most 1000. */
+ * `steps` time steps of c/n_seg s, at most 1000. */
 static double find_largest_deviation(int n_seg, double c, int steps)
 {
     Solid solid = square(1, n_seg, 1000, 1e5);
@@ -434,9 +434,9 @@ static double find_largest_deviation(int n_seg, double c, int steps)
     return most;
 }
 
-/* The comment above explicit_euler names a stable and an unstable time step,
- * and both are so. The energy deviates by a tenth with 4 segments, since x and
- * v are half a step apart. Measured deviations: 0.19, 0.09 and 0.05. */
+/* The comment above explicit_euler in lecture.c is right about a stable and an
+ * unstable time step. With the stable one the energy deviates by 0.19, 0.09 and
+ * 0.05 of its start, because x and v are half a step apart. */
 TEST(symplectic_euler_stays_as_long_as_it_says)
 {
     static const int n_seg[] = {4, 8, 16};

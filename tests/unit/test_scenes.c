@@ -133,7 +133,7 @@ TEST(envelope_cells_are_runs)
         CHECK(cell->updates == simulation_sum_newton_counters(run).updates);
         CHECK_SAME_BITS(map->run[0].x, run->run[0].x, 2 * run->system.nodes);
     }
-    CHECK(refused >= 1); /* cells that did not converge are compared, too */
+    CHECK(refused >= 1); /* at least one cell did not converge */
 }
 
 /* The check that obstacles do not overlap the body uses the present place of a
@@ -153,8 +153,8 @@ TEST(obstacles_may_stand_where_cells_were_torn)
 }
 
 /* Two bodies at rest, 0.2 m apart, share no entries of the Hessian. A body that
- * comes within half of d_hat inside a step adds them once, and the direction
- * solves Newton's equation: 1e-10, rounding of a factor. */
+ * comes within half of d_hat inside a step adds entries once, and p solves
+ * Newton's equation up to the rounding of a factor, 1e-10. */
 TEST(pairs_that_come_up_inside_a_step_have_entries)
 {
     Simulation *scene = simulate("return --segments 2 --body 0,0 --body 0,1.2");

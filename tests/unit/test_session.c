@@ -1,5 +1,5 @@
-/* test_session.c - plays tests/data/sessions.txt: hands act in the window and
- * see its answers. Each line becomes the Input that a window would send. */
+/* test_session.c - plays tests/data/sessions.txt: a line becomes the Input that
+ * a window would send, or checks what the window shows. */
 #include "golden.h"
 #include "letters.h"
 #include "model/contact.h"
@@ -57,8 +57,8 @@ static uint64_t hash_positions(void)
                        2 * sizeof(double) * (size_t)nodes);
 }
 
-/* Returns a hash of the picture without message, of the cards, of the state or
- * of the shape. As in a window, only a change redraws the picture. */
+/* Returns a hash of the "state", the "shape" (positions), the "cards", or else
+ * of all pixels without the message. Pixels are redrawn only after a change. */
 static uint64_t hash_aspect(const char *aspect)
 {
     char note[sizeof player.note];
@@ -82,8 +82,8 @@ static char window_text[1 << 16], column_text[1 << 15];
 static Box column;
 static struct {
     size_t offset; /* offset in window_text */
-    double x, y;   /* pixels, middle of the left end */
-    double size;   /* pixels */
+    double x, y;   /* pixels, middle of the text's left end */
+    double size;   /* pixels, size of the font */
     Colour colour;
 } texts[1024];
 static int text_count;
@@ -102,7 +102,7 @@ int __wrap_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
     texts[text_count].colour = style->colour;
     text_count += text_count < 1023;
     snprintf(window_text + used, sizeof window_text - used, "%s\n", markup);
-    if (box_contains(column, x, y)) /* bold: a key, whose meaning follows */
+    if (box_contains(column, x, y)) /* a bold key and its meaning: one line */
         snprintf(column_text + more, sizeof column_text - more, "%s%s", markup,
                  style->face == FACE_BOLD ? " " : "\n");
     return __real_text_draw(text, canvas, style, x, y, align, markup);
@@ -118,8 +118,8 @@ static void collect_drawn_texts(void)
     CHECK_STATUS(player_draw(&player), STATUS_OK);
 }
 
-/* Checks "reads", "lacks" and "list": the window, or the column, has a text
- * with these words. \ stands between two texts that follow each other. */
+/* Checks that the window "reads" or "lacks" some words, or that its column
+ * ("list") has them. A \ separates words of two texts in succession. */
 static void check_window_words(const char *verb, char *words)
 {
     const char *among = strcmp(verb, "list") == 0 ? column_text : window_text;
@@ -165,7 +165,7 @@ static double find_pane_scale(void)
 
 static void finish_session(void)
 {
-    static double lost; /* bytes of all sessions; caches may keep 1e6 */
+    static double lost; /* bytes left by all sessions; caches may keep 1e6 */
     if (player_is_open) {
         end_player();
         lost += count_heap_bytes() - heap_before_player;
@@ -262,8 +262,8 @@ static bool move_mouse_in_pane(const char *place, const Layout *layout)
         return false;
     Camera camera = make_pane_camera(content, layout, p);
     camera_to_pixel(&camera, at, mouse);
-    if (place[0] == 'g' &&
-        !is_on_grip(layout, i)) /* the grip lies on a curve above the axis */
+    /* A grip on a curve is listed on the axis: search from the top. */
+    if (place[0] == 'g' && !is_on_grip(layout, i))
         for (mouse[1] = layout->pane[p].y; !is_on_grip(layout, i); mouse[1]++)
             assert_true(mouse[1] < layout->height);
     return true;
@@ -326,7 +326,7 @@ static void move_mouse(const char *place)
     }
 }
 
-/* Sends an action of the mouse; false: no such verb. */
+/* Sends an action of the mouse. Returns false if no action has this verb. */
 static bool send_mouse_action(const char *verb, const char *place)
 {
     static const struct {
@@ -396,7 +396,7 @@ static void check_replay(const char *line)
 {
     char script[65536] = "", paused[160];
     glob_t found;
-    /* The command, since a selected number could take its key Y as text. */
+    /* Not the command's key Y, which a selected number would take as text. */
     show_refusal(obey_line("hash"));
     assert_int_equal(glob("elasto_*.script", 0, NULL, &found), 0);
     FILE *file = fopen(found.gl_pathv[0], "r");
@@ -409,7 +409,7 @@ static void check_replay(const char *line)
     snprintf(paused, sizeof paused, "%s --paused", line);
     begin_scripted_player(script, paused);
     player_is_open = true;
-    player_run(&player); /* some scenes have steps that do not converge */
+    player_run(&player); /* status ignored: some steps do not converge */
     CHECK(player_hash(&player) == hash && !player.commands.has_refused_line);
 }
 
@@ -453,7 +453,7 @@ static void check_picture(const char *name)
 
 /* ---- facts of the window ----------------------------------------------- */
 
-static char facts[1 << 15]; /* a fact a line: "at 3", "says\tTEXT" */
+static char facts[1 << 15]; /* lines such as "at 3" and "says\tTEXT" */
 
 static void add_fact(const char *format, ...)
 {
@@ -588,7 +588,7 @@ static void clear_record(void)
     record[0] = facts[0] = recorded_texts[0] = '\0';
 }
 
-/* Adds lines of a text to the record that an earlier text does not have. */
+/* Adds to the record the lines of a text that are not in an earlier text. */
 static void add_new_lines(const char *before, const char *now)
 {
     for (size_t length; *now; now += length + (now[length] == '\n')) {
@@ -601,8 +601,8 @@ static void add_new_lines(const char *before, const char *now)
     }
 }
 
-/* Adds a line of a session to the record, and the facts and values it changed,
- * except run times and the number of pages; on a page also except texts. */
+/* Adds a session's line to the record, and the facts and values that changed,
+ * except run times and the number of pages. On a page dots replace texts. */
 static void add_changed_facts_to_record(const char *line)
 {
     static char before[sizeof facts], head[160];
@@ -624,7 +624,7 @@ static void add_changed_facts_to_record(const char *line)
         if (simulation->status_counts[i] > 0)
             add_fact("steps with status %d: %d", i,
                      simulation->status_counts[i]);
-    add_fact("values %d", values->count); /* a value may have vanished */
+    add_fact("values %d", values->count); /* shows lost values */
     add_fact(must_redraw ? "must be redrawn" : "stays as it is drawn");
     player.screen.must_redraw = false;
     for (int i = 0; i < values->count; i++) {
@@ -649,8 +649,8 @@ static const char *find_card_name(const Layout *layout, double x, double y)
     return "";
 }
 
-/* Writes the red, green and blue that a box lacks, in white pixels, and the
- * centre of what is lacking, pixels from the corner of the box. */
+/* Writes the ink of a box: the sums over its pixels of 1 - red, 1 - green and
+ * 1 - blue (0: white), and the ink's centre, pixels from the box's corner. */
 static int write_ink_amount(const Canvas *canvas, Box box, const char *name,
                             char *out)
 {
@@ -760,7 +760,7 @@ static void add_window_to_record(const char *unused)
     add_new_lines(before, recorded_texts);
 }
 
-/* Adds a file to the record; of the log, l, without the run times. */
+/* Adds a file to the record; the log, named "l", without its run times. */
 static void add_file_to_record(const char *name)
 {
     char line[1024];
@@ -837,7 +837,7 @@ static void check_fact(const char *line)
 
 /* ---- numbers ------------------------------------------------------------- */
 
-/* Returns the number of Newton's records, of a descent or of the last step. */
+/* Returns the records of a descent, else of the last step, and their number. */
 static int get_newton_records(const Simulation *simulation,
                               const NewtonRecord **row)
 {
@@ -1033,7 +1033,7 @@ static double count_unconverged_steps(const Simulation *simulation)
     return (double)simulation->unconverged_steps;
 }
 
-/* Counters of all steps of the run */
+/* Numbers by their names in sessions, and the functions that find them */
 static const struct {
     const char *name;
     double (*find)(const Simulation *simulation);
@@ -1059,8 +1059,8 @@ static const struct {
                {"way from stop", find_distance_from_stop},
                {"unconverged", count_unconverged_steps}};
 
-/* Finds a number by its name: of a table above, a coordinate of a node, a field
- * of a record, an entry of the ledger, or a value of texts; NaN: unknown. */
+/* Returns the number with a name: in `numbers` or `counters`, of a node, a run,
+ * an update, the ledger or the live values of texts. NaN: unknown name */
 static double find_value_by_name(const char *name)
 {
     static const char *const fields[] = {"alpha",  "residual", "projected",
@@ -1294,8 +1294,8 @@ static const struct SceneRow {
 };
 enum { SCENE_ROW_COUNT = sizeof rows / sizeof *rows };
 
-/* Fills the places of a scene into a line. Returns false if the line is for
- * other scenes: "[k] " needs the letter k, "[-k] " its absence. */
+/* Replaces START, ON and BACK in a pattern by the scene's drag. Returns false
+ * if the scene lacks the letter k of "[k] ", or has the letter k of "[-k] ". */
 static bool fill_action_line(const char *pattern, const struct SceneRow *row,
                              char *line, size_t size)
 {
@@ -1384,7 +1384,7 @@ static void random_keys_stay_in_their_field(void **unused)
     Random random = {19};
     int set = 0, refused = 0;
     for (int round = 0; round < ROUNDS; round++) {
-        if (round == 0 || set > 0) { /* a number was set: begin anew */
+        if (round == 0 || set > 0) { /* new session after a changed number */
             run_session_line("begin square --segments 2 --paused");
             run_session_line("key N N");
         }
@@ -1472,9 +1472,9 @@ static void undo_and_redo_all(uint64_t started)
     CHECK(player_hash(&player) == end);
 }
 
-/* Acts at random, with memory for many states or few: each step of each change
- * keeps its bits, the saved script leads to the same bits without a refused
- * line, and the window shows the same. */
+/* Acts at random, with memory for few or many states. Undo and redo restore the
+ * bits of each step, the saved script leads to the same bits without a refused
+ * line, and the changed facts are those of the record. */
 static void record_of_random_hands(void **unused)
 {
     (void)unused;

@@ -156,7 +156,7 @@ TEST(distant_nodes_are_drawn_or_reported)
         CHECK(count_stage_pixels(COLOUR_X) > 500 &&
               count_stage_pixels(COLOUR_WARNING) == 0);
     }
-    for (int i = 0; i < size; i++) /* only two nodes are far above and below */
+    for (int i = 0; i < size; i++) /* one node far above, one far below 0 */
         x[i] = i == 2 * 11 + 1 ? 1e220 : i == 2 * 13 + 1 ? -1e220 : 0;
     draw_picture();
     CHECK(count_stage_pixels(COLOUR_X) > 300);
@@ -171,8 +171,8 @@ TEST(distant_nodes_are_drawn_or_reported)
     }
 }
 
-/* The camera moves by a small part of the stage in a step, except where the
- * view grows or shrinks by 1.5, once each way. */
+/* In a step the camera moves by a small part of the stage. Only two jumps are
+ * allowed, where the view grows or shrinks by at most the factor 1.5. */
 TEST(the_camera_does_not_jump)
 {
     static const char *const lines[] = {
@@ -231,7 +231,7 @@ TEST(the_mouse_finds_nodes_and_springs)
         lens_zoom(&view.lens, layout.pane[0], at[0], at[1], 2.5);
     }
     view.lens = LENS_FITS;
-    for (int s = 0; s < system->springs; s++) { /* also where diagonals cross */
+    for (int s = 0; s < system->springs; s++) { /* diagonals cross nearby */
         const double *p = x + 2 * system->e[2 * s];
         const double *q = x + 2 * system->e[2 * s + 1];
         CHECK(pick_is(
@@ -321,8 +321,8 @@ TEST(texts_contain_known_values)
 
 /* ---- cards --------------------------------------------------------------- */
 
-/* On the map of inertia, |x - x_tilde|^2 / 2, labels of contours stand at their
- * values along a ray. 4 pixels: the ray has points every 5 mm. */
+/* On the map of inertia, |x - x_tilde|^2 / 2, labels stand where a ray crosses
+ * their contours, to 4 pixels, because the ray has points every 5 mm. */
 TEST(maps_of_inertia_label_their_contours)
 {
     static const double levels[] = {0.2, 0.6, 1};
@@ -343,7 +343,7 @@ TEST(maps_of_inertia_label_their_contours)
         CHECK_AT_MOST(near, 4);
     }
     draw_without_words();
-    for (int k = 0; k < 3; k++) { /* the contour passes below the target */
+    for (int k = 0; k < 3; k++) { /* pixels of the contour below x_tilde */
         double at[2], far = sqrt(2 * levels[k]);
         int darkest = -9;
         plot_to_pixel(&stage, (double[]){target[0], target[1] - far}, at);

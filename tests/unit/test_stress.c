@@ -1,4 +1,4 @@
-/* test_stress.c - a short `make stress`, whose judge notices broken promises */
+/* test_stress.c - a short `make stress`, and tests that it finds wrong steps */
 #include "test.h"
 #include "stress.h"
 
@@ -19,7 +19,7 @@ TEST(named_cases_keep_the_promise)
     }
 }
 
-/* Random scenes of each kind keep the promise, and most of them converge. */
+/* Steps of random scenes keep the promise of stress.h, and most converge. */
 TEST(random_scenes_keep_the_promise)
 {
     static const char *const kinds[] = {"s", "cccctbww", "f", "mn", "k"};
@@ -120,7 +120,7 @@ TEST(broken_promises_are_noticed)
     }
 }
 
-/* Stops at record number *user, which counts down; at 0 never. */
+/* Stops Newton's method at the record that counts *user down to 0; 0: never. */
 static bool stop_at_record(void *user, const NewtonRecord *record)
 {
     (void)record;
@@ -157,7 +157,7 @@ TEST(interruptions_leave_no_trace)
         }
 }
 
-/* The judge of large squares rejects an iterate before the last one. */
+/* test_large_residual rejects the first iterate and accepts the last one. */
 TEST(an_unfinished_search_is_noticed)
 {
     Simulation *simulation = simulate("--segments 12 --solver multigrid");

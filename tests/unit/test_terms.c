@@ -16,7 +16,7 @@
 #include "model/mass_spring_energy.h"
 #include "model/self_contact.h"
 
-enum { SIZE = 2 * 40 }; /* coordinates at most */
+enum { SIZE = 2 * 40 }; /* largest number of coordinates */
 
 /* A system of a few nodes with one kind of energy, or two */
 typedef struct TermRow {
@@ -24,11 +24,10 @@ typedef struct TermRow {
     enum { SPRING, GRAPH, WALL, BALL, FREE_BALL, CORNER, GRID, PAIR } shape;
     double yield, hardening; /* read as one array by plastic_energy.configure */
     double damping, pull;    /* 0: none; pull in J/m^2 */
-    bool rubs, flat;         /* flat: springs have no rest length */
+    bool rubs, flat;         /* flat: springs have (nearly) no length at x */
     bool is_solid;           /* triangles instead of springs */
     double reach;            /* largest alpha, if no term limits it */
-    const OptionRow
-        *option; /* row of the option that brings the term, or NULL */
+    const OptionRow *option; /* option whose term is tested; NULL: none */
 } TermRow;
 
 static const TermRow rows[] = {
@@ -130,7 +129,7 @@ static void make_cell_grid(const TermRow *row, Random *random, TermCase *c)
 }
 
 /* Makes two cells whose springs have no energy: a corner of the second, turned
- * cell is near the right edge of the first, or beyond its end. */
+ * cell is near the right edge of the first, or beyond an end of this edge. */
 static void make_cell_pair(const TermRow *row, Random *random, TermCase *c)
 {
     const Barrier barrier = {.d_hat = 0.2, .c = 24};
@@ -150,8 +149,7 @@ static void make_cell_pair(const TermRow *row, Random *random, TermCase *c)
         square_mesh_rest_position(&mesh, i, x);
         if (i < 4)
             continue;
-        double right = x[0] + 0.5,
-               high = x[1] - 0.5; /* offsets from the corner */
+        double right = x[0] + 0.5, high = x[1] - 0.5; /* from the corner */
         x[0] = 0.5 + away + cos(angle) * right - sin(angle) * high;
         x[1] = up + sin(angle) * right + cos(angle) * high;
     }
@@ -189,7 +187,7 @@ static void make_shape(const TermRow *row, Random *random, TermCase *c)
     c->system.k[0] = 7;
 }
 
-/* Adds a field and a hand, which pull one node each. */
+/* Adds a central field and a hand, each of which pulls one node. */
 static void add_pulls(Random *random, double strength, System *system)
 {
     const NodePull all = {.node = random_below(random, system->nodes),
@@ -287,7 +285,7 @@ static double case_dot(const TermCase *c, const double *a, const double *b)
 static const TermRow *row; /* row of the running test */
 static long comparisons;   /* number of comparisons */
 
-/* Returns energy and derivatives by the oracle; noise: errors by an ulp. */
+/* Returns energy and derivatives by the oracle. noise out: allowed errors */
 static Jet evaluate_oracle(const TermCase *c, const TermKind *kind, Real alpha,
                            Jet *noise)
 {
@@ -316,8 +314,8 @@ static void compare(const char *what, Real got, Real expected, Real tolerance)
     check_near(what, got, expected, tolerance, __FILE__, __LINE__);
 }
 
-/* Returns two ulps of the sum of |a_i b_i|.  An ulp in a coordinate changes a.b
- * by less, also where a and b are nearly orthogonal. */
+/* Returns the allowed error of the scalar product a.b: four ulps of the sum of
+ * |a_i b_i|, since a.b itself is small if a and b are nearly orthogonal. */
 static Real dot_noise(const TermCase *c, const double *a, const double *b)
 {
     Real sum = 0;
@@ -326,7 +324,7 @@ static Real dot_noise(const TermCase *c, const double *a, const double *b)
     return 4 * DBL_EPSILON * sum;
 }
 
-/* Returns two ulps of each product in p H q. */
+/* Returns the allowed error of p H q: four ulps of each product in the sum. */
 static Real hessian_noise(TermCase *c, const TermKind *kind)
 {
     Real sum = 0;
@@ -377,12 +375,12 @@ static void check_derivatives(TermCase *c, const TermKind *kind)
         sum[2] += (Real)arm * g[i];
         size += fabs(g[i]) * (1 + fabs(c->x[i]));
     }
-    /* friction with the tangent at x_n has a torque */
+    /* Self-friction has a torque, since its tangents are those at x_n. */
     for (int i = 0; i < (kind == &self_friction_energy ? 2 : 3); i++)
         compare("forces add up to nothing", sum[i], 0, 1e-14L * size);
 }
 
-/* Checks E along p: large changes exactly, tiny ones to their last digits. */
+/* Checks the change of E along p without its linear part, also a tiny one. */
 static void check_line_change(TermCase *c, const TermKind *kind, Random *random)
 {
     double q[3] = {0}, g[SIZE] = {0}, reach = INFINITY;
@@ -427,7 +425,7 @@ static double find_remaining_share(const TermCase *c, const double *x)
                          smallest_area_ratio(&c->system, c->x);
 }
 
-/* Checks that points before the limit are feasible, where a tenth is left. */
+/* Checks that x is feasible up to the limit: 0.1 of a gap or area is left. */
 static void check_max_step(TermCase *c, const TermKind *kind)
 {
     double x[SIZE],
@@ -443,7 +441,7 @@ static void check_max_step(TermCase *c, const TermKind *kind)
               edge_crossings(&c->system, x) == 0);
     }
     long crossings = 0;
-    for (int k = 2; k < 8; k++) { /* this step uses up the last tenth */
+    for (int k = 2; k < 8; k++) { /* points just behind the closed gap */
         double behind = (1 + pow(10, -k)) * alpha / 0.9;
         for (int i = 0; i < c->unknowns; i++)
             other.x[i] = c->x[i] + behind * c->p[i];
@@ -451,7 +449,7 @@ static void check_max_step(TermCase *c, const TermKind *kind)
     }
     if (row->shape == PAIR)
         CHECK(crossings > 0);
-    else if (row->shape != GRID) /* a grid has other corners, too */
+    else if (row->shape != GRID) /* GRID: the smallest triangle may change */
         compare("what the limit leaves", find_remaining_share(c, x), 0.1, 1e-8);
 }
 
@@ -500,7 +498,8 @@ static void check_projection(TermCase *c, Random *random)
             more += pq * ((Real)H[i] - plain[i]);
             expected += pq * (exact_H[i] - exact_plain[i]);
         }
-        /* An ulp of x is 1e-13 of a gap of 2 mm, and 3e-13 of its W''. */
+        /* An ulp of x changes a gap of 2 mm by 1e-13 of the gap, and the second
+         * derivative of its barrier energy by 3e-13 of this derivative. */
         Real relative = 1e-14L * n + (row->shape == PAIR ? 4e-13L : 0);
         compare("projection", more, expected, relative * scale);
     }
@@ -545,7 +544,7 @@ static void terms_match_the_oracle(void **state)
         for (const TermKind *kind; (kind = eval_point_next_term(&c.at));) {
             if (!kind->value)
                 continue;
-            CHECK(!(kind->value(&c.at) < 0)); /* tolerances are relative to E */
+            CHECK(!(kind->value(&c.at) < 0)); /* term.h promises P >= 0 */
             check_derivatives(&c, kind);
             check_max_step(&c, kind);
             check_line_change(&c, kind, &random);

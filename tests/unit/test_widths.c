@@ -1,5 +1,5 @@
-/* test_widths.c - loops of multigrid and of CHOLMOD's panels, compiled for one
- * and two numbers at a time, give the bits of the program (ELASTO, or
+/* test_widths.c - multigrid's loops, compiled for one number at a time, and the
+ * Cholesky panels, for two, give the same bits as the program (ELASTO, or
  * build/elasto), which uses the widest registers of the processor. */
 #include "test.h"
 

@@ -204,7 +204,7 @@ Simulation *simulate_observed(NewtonObserver observer, void *user,
     return tested.simulation[tested.count++] = run;
 }
 
-/* Applies and releases a control. */
+/* Applies a control to a simulation, and gives up the reference to it. */
 static Status apply_control(Simulation *simulation, UserControl *control)
 {
     Status status = control_apply(simulation, control);

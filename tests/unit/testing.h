@@ -48,8 +48,8 @@ void check_true(bool condition, const char *what, const char *file, int line);
 /* Returns true if all variations are to run (make long-test). */
 bool tests_are_long(void);
 
-/* Returns the number of random cases: `some`, or `all` with all variations, of
- * which the slow sanitizers run a fifth. */
+/* Returns the number of random cases: `some`, or `all` in long tests, where the
+ * address sanitizer cuts `all` to a fifth. */
 int choose_case_count(int all, int some);
 
 /* Random numbers by SplitMix64, equal on every machine */
@@ -75,10 +75,10 @@ void random_system(Random *random, SpringMix state, System *system, double *x);
 /* Writes a sparse matrix to a full one [size size]. */
 void fill_dense_matrix(const Sparse *A, double *dense);
 
-/* Returns a row up to " | " and moves the row behind it; NULL: it is empty. */
+/* Splits the part before " | " off a row and returns it; NULL: none is left. */
 char *take_next_part(char **row);
 
-/* Parses words between single spaces; "''" is an empty one. message [512] */
+/* Parses the words of a command line; "''" is an empty word. message [512] */
 Status parse_line(const char *line, int pane, Options *options, char *message);
 
 /* Returns the options of a command line, which must be valid. */
@@ -95,7 +95,7 @@ Simulation *simulate_observed(NewtonObserver observer, void *user,
     __attribute__((format(printf, 3, 4)));
 void free_simulations(void);
 
-/* Changes an option, by its slot, a pin or the held node (-1: none). */
+/* Change an option (with this slot), a pin, or the held node (-1: none). */
 Status change_option(Simulation *simulation, int slot, double value);
 Status simulation_pin(Simulation *simulation, int node, bool pinned);
 Status simulation_hold(Simulation *simulation, int node, double x, double y);

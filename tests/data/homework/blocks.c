@@ -1,5 +1,5 @@
-/* Valid homework that projects D before it builds the block, loops forever with
- * a break, and works on copies of x */
+/* Correct homework in another style than lecture.c: the 4x4 block is written
+ * out, the loop is endless with a break, and each update has a new x. */
 static void spring_hess(const Solid *solid, const Vec2 *x, double scale,
                         cholmod_triplet *H)
 {
