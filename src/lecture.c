@@ -320,7 +320,7 @@ static double residual(const Solid *solid, const Vec2 *p, double h)
 }
 
 /* One time step of implicit Euler, from t_n to t_n + h (slide: step_forward).
- * FAILs if tol is below the rounding errors of p.  elasto also adds the last p,
+ * Fails if tol is below the rounding errors of p.  elasto also adds the last p,
  * so its x is 3 to 1e11 times as accurate.  table: file of updates, or NULL. */
 static void step_forward(Solid *solid, double h, double tol, int step,
                          FILE *table)
@@ -373,10 +373,10 @@ enum { PIXELS = 600, MAX_PICTURES = 100, HELD_MASS_FACTOR = 1 << 20 };
 typedef struct Screen {
     SDL_Surface *picture; /* picture in memory; NULL: there is a window */
     SDL_Renderer *renderer;
-    double scale, radius; /* pixels in a metre; radius of a node in pixels */
+    double scale, node_radius; /* pixels per metre; pixels */
     Vec2 *x_start, mouse; /* [nodes] start positions (m); mouse position (m) */
     int pulled;           /* the node that the mouse pulls, or -1 */
-    bool paused;
+    bool is_paused;
 } Screen;
 
 /* Converts metres, y upwards, to pixels, y downwards. */
@@ -420,7 +420,7 @@ static void draw(const Screen *screen, const Solid *solid)
     for (const Spring *e = solid->e; e < solid->e + solid->springs; e++)
         draw_line(screen, solid->x[e->i], solid->x[e->j], 1);
     for (int i = 0; i < solid->nodes; i++)
-        draw_line(screen, solid->x[i], solid->x[i], screen->radius);
+        draw_line(screen, solid->x[i], solid->x[i], screen->node_radius);
     SDL_RenderPresent(screen->renderer);
 }
 
@@ -431,7 +431,7 @@ static Screen open_screen(const Solid *solid)
     Screen screen = {.scale = PIXELS / (4 * size), .pulled = -1};
     screen.x_start = allocate(solid->nodes, sizeof(Vec2));
     memcpy(screen.x_start, solid->x, (size_t)solid->nodes * sizeof(Vec2));
-    screen.radius = fmax(0.1 * screen.scale * sqrt(solid->e[0].l2), 1.5);
+    screen.node_radius = fmax(0.1 * screen.scale * sqrt(solid->e[0].l2), 1.5);
     SDL_Window *window = NULL;
     if (SDL_Init(SDL_INIT_VIDEO) == 0 &&
         strcmp(SDL_GetCurrentVideoDriver(), "dummy") != 0 &&
@@ -459,7 +459,7 @@ static Screen open_screen(const Solid *solid)
 static bool handle_event(Screen *screen, Solid *solid, const SDL_Event *event)
 {
     SDL_Keycode key = event->type == SDL_KEYDOWN ? event->key.keysym.sym : 0;
-    screen->paused ^= key == SDLK_SPACE;
+    screen->is_paused ^= key == SDLK_SPACE;
     for (int i = 0; i < solid->nodes && key == SDLK_r; i++) {
         solid->x[i] = screen->x_start[i];
         solid->v[i] = (Vec2){0, 0};
@@ -506,7 +506,7 @@ static bool show(Screen *screen, Solid *solid, double h, int step)
             draw(screen, solid); /* the window may have been resized */
         }
         SDL_Delay(5); /* under X11 SDL_WaitEvent may fail on closing */
-    } while (screen->paused || !SDL_TICKS_PASSED(SDL_GetTicks(), end));
+    } while (screen->is_paused || !SDL_TICKS_PASSED(SDL_GetTicks(), end));
     if (screen->pulled >= 0) { /* the node moves 1/3 of the way to the mouse */
         Vec2 way = sub(screen->mouse, solid->x[screen->pulled]);
         solid->v[screen->pulled] = mul(1 / (3 * h), way);

@@ -25,7 +25,7 @@ static void on_signal(int number)
 
 /* Installs on_signal.  Ignores the signals of pipes without a reader and of
  * files at their size limit, so that the write fails instead. */
-static void handle_signals(void)
+static void install_signal_handlers(void)
 {
     struct sigaction action = {.sa_handler = on_signal, .sa_flags = SA_RESTART};
     struct sigaction old;
@@ -41,7 +41,7 @@ static void handle_signals(void)
 
 int main(int argc, char **argv)
 {
-    handle_signals();
+    install_signal_handlers();
     int code = program_begin(argc, argv, &window_sdl, &main_stop, &main_player);
     if (code == EXIT_NONE)
         code = program_end(&main_player, player_run(&main_player));

@@ -31,10 +31,10 @@ typedef struct LecturePage {
     const char *notes;     /* text for the lecturer */
     const char *file;      /* path of the source that the key K shows */
     const char *functions; /* names of the shown functions, separated by ',' */
-    const char *const *code; /* code lines of `functions`, then NULL */
-    const char *lit_code;    /* code lines with this text are highlighted */
+    const char *const *code;    /* code lines of `functions`, then NULL */
+    const char *highlight_text; /* code lines with this text are highlighted */
     /* [PAGE_HIGHLIGHT_LENGTH] text of the code lines that are highlighted at
-     * each line of Algorithm 3; NULL: `lit_code` */
+     * each line of Algorithm 3; NULL: `highlight_text` */
     const char *const *line_highlight;
     const char *claim;     /* statement that a test checks */
     unsigned switch_flips; /* bit s: switch s of the scene is turned over */

@@ -33,8 +33,9 @@ typedef struct Boundary {
     int *point_node;             /* [nodes] node of each point */
     SweptBox *edge_box;          /* [springs] boxes of the edges, sorted */
     SweptBox *point_box;         /* [nodes] box of the point at each node */
-    unsigned char *triangles_at_spring; /* [springs] count of solid triangles */
-    unsigned char *node_role; /* [nodes] bits: in a triangle, on an edge */
+    unsigned char
+        *spring_triangle_count; /* [springs] count of solid triangles */
+    unsigned char *node_role;   /* [nodes] bits: in a triangle, on an edge */
 
     /* Motion for which the boxes were made: from x by alpha (p - mean_p). */
     bool has_valid_boxes; /* the boxes are those of the present boundary */

@@ -34,10 +34,10 @@ typedef struct Obstacle {
     double n[2];   /* outward unit normal of a wall; not used for balls */
     double radius; /* m, R > 0; not used for walls */
     ObstacleMotion motion;
-    double v[2];         /* m/s, velocity in the present step */
-    double friction;     /* coefficient of friction mu >= 0 */
-    int node;            /* node at the centre of a free ball; -1: not free */
-    double options_o[2]; /* m, o in the options, before any motion */
+    double v[2];     /* m/s, velocity in the present step */
+    double friction; /* coefficient of friction mu >= 0 */
+    int node;        /* node at the centre of a free ball; -1: not free */
+    double configured_o[2]; /* m, o in the options, before any motion */
 } Obstacle;
 
 /* Width and strength of the barrier. */
@@ -72,11 +72,11 @@ enum { CONTACT_MAX_OBSTACLES = 20 };
 
 /* An obstacle that a hand pulls to a point (push.c). */
 typedef struct ObstaclePush {
-    bool is_held;     /* whether a hand holds an obstacle */
-    int obstacle;     /* number of the obstacle */
-    double target[2]; /* m, target of the obstacle's point o */
-    SquareMesh mesh;  /* mesh of the bodies, whose cells no ball may enter */
-    bool is_blocked;  /* the obstacle found no room to move in this step */
+    bool is_held;       /* whether a hand holds an obstacle */
+    int obstacle_index; /* number of the obstacle */
+    double target[2];   /* m, target of the obstacle's point o */
+    SquareMesh mesh;    /* mesh of the bodies, whose cells no ball may enter */
+    bool is_blocked;    /* the obstacle found no room to move in this step */
     double moving_fraction; /* fraction of the step before the obstacle stops */
 } ObstaclePush;
 
@@ -84,8 +84,9 @@ typedef struct Contact {
     Barrier barrier;
     int obstacle_count;
     Obstacle obstacle[CONTACT_MAX_OBSTACLES];
-    int free_ball;     /* number of the ball whose centre is a node; -1: none */
-    ObstaclePush hand; /* obstacle held by a hand */
+    int free_ball_index; /* number of the ball whose centre is a node; -1: none
+                          */
+    ObstaclePush hand;   /* obstacle held by a hand */
 } Contact;
 
 /* The sum of W over all pairs of a node and an obstacle; data: Contact.  In
@@ -120,4 +121,4 @@ void push_begin_step(Contact *contact, const System *system, const double *x,
 
 /* Returns the largest fraction of a step's way that the held obstacle may move
  * at once: a ball moves at most half its radius, so that it skips no node. */
-double push_max_fraction(const Contact *contact, double h);
+double push_max_step_fraction(const Contact *contact, double h);

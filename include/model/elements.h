@@ -24,8 +24,9 @@ typedef struct Element {
     int vector_count;               /* 1: W depends on a; 2: on a and b */
     int node[3];                    /* [nodes] */
     const double (*node_weight)[3]; /* [vectors] weights of the x_i in a, b */
-    int block_index; /* index of the block in the Hessian; -1: none yet */
-    int partner; /* obstacle (contact) or spring of the edge (self-contact) */
+    int block_index;   /* index of the block in the Hessian; -1: none yet */
+    int partner_index; /* obstacle (contact) or spring of the edge
+                          (self-contact) */
     int search_cursor; /* > 0: get_element(i) finds more elements from here */
     double derivative_factor; /* EvalPoint.weight; 1 if the kind's gradient
                                  and hessian contain this factor */
@@ -64,7 +65,7 @@ typedef struct Triangles {
 struct ElementKind {
     /* Finds the elements at x and, with p [2n], on the way to x + alpha p; is
      * called before count_elements.  NULL: the elements never change. */
-    void (*prepare)(const EvalPoint *at, const double *p, double alpha);
+    void (*find_elements)(const EvalPoint *at, const double *p, double alpha);
 
     /* Number of elements. */
     int (*count_elements)(const EvalPoint *at);
@@ -74,8 +75,8 @@ struct ElementKind {
     bool (*get_element)(const EvalPoint *at, int i, double way,
                         Element *element);
 
-    /* Number of dense blocks of the Hessian, each for 1 to 3 nodes.  All x have
-     * the same number, so EvalPoint.x may be NULL. */
+    /* Number of dense blocks of the Hessian, each for 1 to 3 nodes.  The
+     * number does not depend on x, so EvalPoint.x may be NULL. */
     int (*count_blocks)(const EvalPoint *at);
 
     /* Writes the nodes of a block of the Hessian, returns their number. */
@@ -120,7 +121,7 @@ struct ElementKind {
  * W > 0 on the way to x + alpha p: begins with elements_begin(at, p, alpha),
  * goes on while elements_next(&walk). */
 typedef struct ElementIterator {
-    const EvalPoint *point;
+    const EvalPoint *eval_point;
     const ElementKind *kind;
     double motion_bound;  /* m, limit of the change of a and b by alpha p */
     int i, element_count; /* present element: 0 ... element_count-1 */

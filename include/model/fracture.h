@@ -19,15 +19,16 @@ typedef struct SpringLoad {
 } SpringLoad;
 
 typedef struct Fracture {
-    double strength;      /* s_c > 0, mean strain at which springs break */
-    SpringLoad *overload; /* [springs] workspace, largest load first */
+    double mean_strength;  /* s_c > 0, mean strain at which springs break */
+    SpringLoad *candidate; /* [springs] workspace, largest load first */
     unsigned char *has_new_break; /* [nodes] 1: a spring broke there */
 } Fracture;
 
 /* Fracture as a term; data: Fracture.  The option's number is s_c.  The term
- * has no energy.  Its end_step breaks springs and books the energy that the
- * springs and their cells had.  Fracture stands behind all terms that lose
- * energy when springs break, so their end_step runs before the break. */
+ * has no energy.  The function end_step breaks springs and books the energy
+ * that the springs and their cells had.  Fracture stands behind the terms that
+ * lose energy when springs break, since their end_step must run before the
+ * break. */
 extern const TermKind fracture;
 
 /* Returns the strain at which spring s breaks. */

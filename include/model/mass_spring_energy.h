@@ -10,11 +10,11 @@ extern const TermKind mass_spring_energy;
 /* TermKind's functions for a term with one block for each spring.  The bound of
  * the curvature is the largest k. */
 void mass_spring_add_triplets(const EvalPoint *at, Triplets *triplets);
-double mass_spring_curvature_bound(const EvalPoint *at);
+double mass_spring_curvature_estimate(const EvalPoint *at);
 
 /* Adds factor * d to g [2n] at node e[0], and -factor * d at node e[1]. */
-static inline void spring_add_force(const int e[2], double factor,
-                                    const double d[2], double *g)
+static inline void spring_add_gradient(const int e[2], double factor,
+                                       const double d[2], double *g)
 {
     for (int c = 0; c < 2; c++) {
         g[2 * e[0] + c] += factor * d[c];

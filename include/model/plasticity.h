@@ -19,7 +19,7 @@
 /* Numbers of the function V(e) of one spring in this step, as above.  With
  * damping (damping.h) V has the further summand theta (e - e_n)^2/2. */
 typedef struct FlowLaw {
-    double ep;            /* plastic strain at the step's start */
+    double ep_n;          /* plastic strain at the step's start */
     double yield_strain;  /* Y_n > 0, yield strain in this step */
     double flow_fraction; /* 1/(1 + H), fraction of (|e| - Y_n) that flows */
     double plastic_slope; /* 1 - flow_fraction, slope of V' beyond Y_n */
@@ -38,10 +38,10 @@ double flow_law_eigenvalue_along(FlowLaw law, double e, double d2,
                                  double across);
 
 typedef struct Plasticity {
-    double yield_strain; /* yield strain Y > 0 */
-    double hardening;    /* hardening modulus H >= 0, relative to k */
-    double *ep;          /* [springs] plastic strain */
-    double *kappa;       /* [springs] accumulated |change of ep| */
+    double initial_yield_strain; /* yield strain Y > 0 */
+    double hardening;            /* hardening modulus H >= 0, relative to k */
+    double *ep;                  /* [springs] plastic strain */
+    double *kappa;               /* [springs] accumulated |change of ep| */
 } Plasticity;
 
 /* The sum of W over the springs; data: Plasticity.  The option's numbers are Y

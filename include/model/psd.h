@@ -14,9 +14,9 @@ typedef enum Projection {
     PROJECTION_CLAMP,     /* negative eigenvalues become 0, as on the slides */
     PROJECTION_NONE,      /* negative eigenvalues stay */
     PROJECTION_ABS,       /* eigenvalues become their absolute values */
-    PROJECTION_ON_DEMAND, /* NONE for a single block; for the whole Hessian
-                             NONE, and CLAMP for some iterations after a
-                             Cholesky factor did not exist */
+    PROJECTION_ON_DEMAND, /* as NONE; after a failed Cholesky factorisation
+                             of the whole Hessian as CLAMP for some
+                             iterations */
     PROJECTION_COUNT
 } Projection;
 

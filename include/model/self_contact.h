@@ -25,7 +25,7 @@
 
 /* A point and an edge that have a block in the Hessian. */
 typedef struct PointEdgePair {
-    int node, edge; /* numbers of the node and of the edge's spring */
+    int node, edge_spring; /* numbers of the node and of the edge's spring */
 } PointEdgePair;
 
 typedef struct SelfContact {

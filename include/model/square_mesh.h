@@ -17,15 +17,15 @@ enum {
 };
 
 typedef struct SquareMesh {
-    int segments;      /* number of segments a side; of columns in a beam */
-    int rows;          /* number of rows of cells */
-    int bodies;        /* number of bodies */
-    double side;       /* m, width of a body */
-    double spacing;    /* m, distance of neighbouring nodes, side/segments */
-    int nodes;         /* n, number of nodes of all bodies */
-    int springs;       /* number of springs of all bodies */
-    int cells;         /* number of cells of all bodies; four triangles each */
-    int outline_edges; /* number of outer edges of all bodies */
+    int columns;    /* number of segments a side; of columns in a beam */
+    int rows;       /* number of rows of cells */
+    int bodies;     /* number of bodies */
+    double side;    /* m, width of a body */
+    double spacing; /* m, distance of neighbouring nodes, side/segments */
+    int nodes;      /* n, number of nodes of all bodies */
+    int springs;    /* number of springs of all bodies */
+    int cells;      /* number of cells of all bodies; four triangles each */
+    int outline_edge_count; /* number of outer edges of all bodies */
 } SquareMesh;
 
 /* Returns twice the signed area of the triangle a b p (m^2): positive if p is

@@ -127,8 +127,8 @@ static inline double max_or_nan(double a, double b)
     return b <= a || isnan(a) ? a : b;
 }
 
-/* Returns the largest curvature_bound of all terms (J/m^2). */
-double system_curvature_bound(const System *system);
+/* Returns the largest curvature_estimate of all terms (J/m^2). */
+double system_curvature_estimate(const System *system);
 
 /* Returns |g|_(M^-1) = sqrt(sum |g_i|^2/m_i).  g [2n] in. */
 double system_inverse_mass_norm(const System *system, const double *g);

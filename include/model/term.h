@@ -130,15 +130,15 @@ struct TermKind {
 
     /* Returns an estimate of the Hessian's largest eigenvalue at rest (J/m^2),
      * for springs the largest k; if is_diagonal, an upper bound. */
-    double (*curvature_bound)(const EvalPoint *at);
+    double (*curvature_estimate)(const EvalPoint *at);
 
     /* Frees the allocations that data points to, not data itself. */
     void (*free)(void *data);
 
-    bool is_diagonal;      /* P is a sum of c/2 |x_i - o|^2, o fixed points, so
-                              its Hessian is a diagonal matrix; c > 0 */
-    bool is_external;      /* has forces that move the centre of mass */
-    bool depends_on_start; /* P depends on x_n too; rotating a body changes P */
+    bool is_diagonal;    /* P is a sum of c/2 |x_i - o|^2, o fixed points, so
+                            its Hessian is a diagonal matrix; c > 0 */
+    bool is_external;    /* has forces that move the centre of mass */
+    bool depends_on_x_n; /* P depends on x_n too; rotating a body changes P */
     bool supports_all_integrators; /* works with every integrator; other terms
                                       only with backward Euler */
 };

@@ -45,7 +45,7 @@ typedef struct NewtonTrace {
     double residual;       /* |p|/h, m/s; |g| in Algorithm 1 */
     bool has_failed;       /* the step has ended without convergence */
     double slope;          /* grad E . p (J s^2) */
-    int projected;         /* number of projected blocks; < 0: unknown */
+    int projected_blocks;  /* number of projected blocks; < 0: unknown */
     const double *x_n;     /* [2n] x^n (m); or NULL */
     const double *x_tilde; /* [2n] x_tilde (m), drawn as a ghost; or NULL */
     EnergyDifference energy_difference; /* change of E along p; or NULL */
@@ -55,7 +55,7 @@ typedef struct NewtonTrace {
     bool is_accepted;            /* the last trial was accepted */
 } NewtonTrace;
 
-enum { MAX_LIVE_VALUES = 160, VALUES_RUNS = 3 };
+enum { MAX_LIVE_VALUES = 160, VALUES_MAX_RUNS = 3 };
 
 /* A value that texts use by its name (live_values.h). */
 typedef struct LiveValue {
@@ -71,26 +71,27 @@ typedef struct LiveValues {
     int count;    /* number of values */
     int next_run; /* run of the values that are added next; 0: all runs */
     /* Colours of the text lines that begin with "#0" to "#3"; run r: "#r". */
-    Colour colour[VALUES_RUNS + 1];
+    Colour line_colour[VALUES_MAX_RUNS + 1];
     LiveValue value[MAX_LIVE_VALUES];
 } LiveValues;
 
 /* ---- the stage ---------------------------------------------------------- */
 
-enum { HISTORY_SERIES = 16, HISTORY_POINTS = 1024 };
+enum { MAX_HISTORY_SERIES = 16, HISTORY_MAX_POINTS = 1024 };
 
 /* Quantities over time, for plots. */
 typedef struct History {
-    int series;                       /* number of quantities */
-    const char *name[HISTORY_SERIES]; /* names; the first energy is the total */
-    int count;                        /* number of points in time */
-    double time[HISTORY_POINTS];      /* s, ascending */
-    double value[HISTORY_SERIES][HISTORY_POINTS];
+    int series_count; /* number of quantities */
+    const char
+        *name[MAX_HISTORY_SERIES];   /* names; the first energy is the total */
+    int point_count;                 /* number of points in time */
+    double time[HISTORY_MAX_POINTS]; /* s, ascending */
+    double value[MAX_HISTORY_SERIES][HISTORY_MAX_POINTS];
 } History;
 
 /* Appends a point in time, unless the history is full or a number is not
  * finite.  The values of a new quantity before this time are 0.  Quantities
- * beyond HISTORY_SERIES are left out.
+ * beyond MAX_HISTORY_SERIES are left out.
  *   time  s, in: later than the last point
  *   row   [rows] in, value of each quantity */
 void history_add_point(History *history, double time, int rows,
@@ -113,7 +114,7 @@ typedef struct Pane {
     const History *history;  /* energies, radii, positions over time */
     const NewtonTrace *trace; /* trace of the time step, or NULL */
     const char *label;        /* differences from other panes, "h 0.01, k 5" */
-    Status failure;           /* OK, or why the shown or next step has failed */
+    Status step_status;       /* OK, or why the shown or next step has failed */
     /* frame_compute_values fills values, descent and shown_trace. */
     LiveValues values;
     DescentTrace descent;
@@ -135,16 +136,16 @@ typedef enum PickKind {
 
 typedef struct Pick {
     PickKind kind;
-    int pane, index;  /* number of the pane, number of the part */
-    int nearest_node; /* nearest node within 3/4 of a spacing; -1: none */
-    double point[2];  /* m, position of the mouse in the world */
+    int pane_index, index; /* number of the pane, number of the part */
+    int nearest_node;      /* nearest node within 3/4 of a spacing; -1: none */
+    double point[2];       /* m, position of the mouse in the world */
 } Pick;
 
 /* Bounds of a pane's view while the mouse drags a thing: the view stands still,
  * so that the thing stays under the mouse. */
 typedef struct DragBounds {
     bool is_dragging;
-    bool mouse_has_left; /* the mouse is off the stage: the view may move */
+    bool is_mouse_off_stage; /* the mouse is off the stage: the view may move */
     int pane_index;
     double bounds[4]; /* left, bottom, right, top (m) */
 } DragBounds;
@@ -152,7 +153,7 @@ typedef struct DragBounds {
 /* Zoom, pan, mouse and selection with which a frame is drawn. */
 typedef struct FrameView {
     Lens lens;
-    Pick hovered;        /* part of the picture under the mouse */
+    Pick hovered_part;   /* part of the picture under the mouse */
     WindowHit mouse_hit; /* part of the window under the mouse */
     DragBounds drag_bounds;
     int selected_cell; /* index of the selected cell of the overview */
@@ -192,9 +193,9 @@ typedef struct StepBar {
 } StepBar;
 
 typedef struct TimeLine {
-    long steps;     /* number of stored steps */
-    long step;      /* the step on the stage, 0 ... steps */
-    bool is_paused; /* the run is paused */
+    long steps;      /* number of stored steps */
+    long shown_step; /* the step on the stage, 0 ... steps */
+    bool is_paused;  /* the run is paused */
     /* Returns the bar of a step 1 ... steps.  NULL: no bars are drawn. */
     StepBar (*get_bar)(const void *bar_data, long step);
     const void *bar_data;      /* first argument of get_bar */
@@ -227,7 +228,7 @@ typedef struct CardSets {
     unsigned closed_cards;  /* cards of which only the title is drawn */
     unsigned hidden_cards;  /* cards that the picture or the page leaves out */
     unsigned covered_cards; /* cards that stay empty until a guess */
-    int enlarged;           /* card that fills the column; -1: none */
+    int enlarged_card;      /* card that fills the column; -1: none */
 } CardSets;
 
 /* A row of a list: a key or a number, and what it does. */
@@ -235,13 +236,14 @@ typedef struct ListRow {
     char key[VALUE_SIZE], text[SENTENCE_SIZE];
     /* ROW_GREY: an option without effect now, or a page that lectures skip */
     enum { ROW_PLAIN, ROW_GREY, ROW_HEADING } style;
-    int target; /* index of the page or option that a click opens; -1: none */
+    int target_index; /* index of the page or option that a click opens; -1:
+                         none */
 } ListRow;
 
-typedef struct RowList {
+typedef struct ListContent {
     int row_count;
     ListRow row[LAYOUT_MAX_ROWS];
-} RowList;
+} ListContent;
 
 /* A scene in the sheet, the overview of scenes. */
 typedef struct SheetCell {
@@ -280,8 +282,8 @@ typedef struct HandGrip {
 } HandGrip;
 
 typedef struct FrameContent {
-    int panes;       /* number of panes, 1 ... LAYOUT_MAX_PANES */
-    int active_pane; /* index of the pane whose numbers the cards show */
+    int panes;             /* number of panes, 1 ... LAYOUT_MAX_PANES */
+    int active_pane_index; /* index of the pane whose numbers the cards show */
     Pane pane[LAYOUT_MAX_PANES];
     const FrameView *view;
     HandGrip hand;      /* node or obstacle that is held */
@@ -297,7 +299,7 @@ typedef struct FrameContent {
     ChipRow chips;
     ColumnContent column;
     CardSets cards;
-    RowList list; /* shown if `column` is not COLUMN_CARDS or COLUMN_CODE */
+    ListContent list; /* shown if `column` is not COLUMN_CARDS or COLUMN_CODE */
     SheetContent sheet;
     LectureContent lecture;
 } FrameContent;
@@ -308,11 +310,11 @@ void frame_create(const Simulation *simulation, FrameContent *content);
 /* Returns the pane whose numbers the cards show. */
 static inline const Pane *active_pane(const FrameContent *content)
 {
-    return &content->pane[content->active_pane];
+    return &content->pane[content->active_pane_index];
 }
 
 /* Returns the positions that a pane shows, [2n] m. */
-const double *pane_positions(const Pane *pane);
+const double *pane_get_positions(const Pane *pane);
 
 /* Finds the bounding box of all finite nodes of run 0 to run `runs` - 1: left,
  * bottom, right, top, m. */
@@ -339,8 +341,8 @@ Pick frame_find_pick(const FrameContent *content, const Layout *layout,
                      double x, double y);
 
 /* Finds the row of the list at this pixel; -1: none. */
-int frame_find_row(const FrameContent *content, const Layout *layout, double x,
-                   double y);
+int frame_find_list_row(const FrameContent *content, const Layout *layout,
+                        double x, double y);
 
 /* Finds the step 0 ... steps that the time line has at pixel column x. */
 long frame_find_bar_step(const FrameContent *content, const Layout *layout,

@@ -36,28 +36,29 @@ typedef struct Layout {
     int width, height; /* pixels of the window */
     double em;         /* pixels of an em, the size of plain text */
     Box title_bar, stage, column, settings_row, time_line, chip_row;
-    int panes, cards, settings, chips; /* numbers of boxes */
-    bool has_list; /* the column shows code or a list, not cards */
+    int pane_count, card_count, setting_count,
+        chip_count; /* numbers of boxes */
+    bool has_list;  /* the column shows code or a list, not cards */
     Box pane[LAYOUT_MAX_PANES];
     Box card[LAYOUT_MAX_CARDS]; /* the cards; a main card is on the stage */
     Box setting[LAYOUT_MAX_SETTINGS];
     Box chip[LAYOUT_MAX_CHIPS]; /* a chip that does not fit has no width */
     int chips_left_out;         /* number of chips that do not fit */
-    Box bars;                   /* bars of the steps, inside the time line */
-    int cells;                  /* number of cells of the overview */
+    Box step_bars;              /* bars of the steps, inside the time line */
+    int cell_count;             /* number of cells of the overview */
     Box cell[LAYOUT_MAX_CELLS]; /* scene's square and name, no heading */
 } Layout;
 
 typedef enum WindowZone {
     ZONE_NONE,
-    ZONE_TITLE,
+    ZONE_TITLE_BAR,
     ZONE_STAGE,      /* index: number of the pane */
     ZONE_CARD,       /* index: number of the card */
     ZONE_CARD_CLOSE, /* the cross that closes a card; index: its number */
     ZONE_LIST,       /* the column with code or a list */
     ZONE_LIST_CLOSE, /* the cross that closes code or list */
     ZONE_SETTING,    /* index: number of the setting */
-    ZONE_TIME,
+    ZONE_TIME_LINE,
     ZONE_CHIP, /* index: number of the chip */
     ZONE_CELL  /* index: number of the cell of the overview */
 } WindowZone;
@@ -84,9 +85,10 @@ typedef struct Camera {
 
 /* The user's zoom and pan, relative to the view that fits the scene. */
 typedef struct Lens {
-    double zoom;    /* magnification; 0 means 1 */
-    double pan[2];  /* shift in widths and heights of the box at zoom 1 */
-    bool shows_all; /* the view widens to every obstacle, however far away */
+    double zoom;   /* magnification; 0 means 1 */
+    double pan[2]; /* shift in widths and heights of the box at zoom 1 */
+    bool shows_all_obstacles; /* the view widens to every obstacle, however far
+                                 away */
 } Lens;
 
 extern const Lens LENS_FITS;

@@ -10,12 +10,12 @@ enum { MAX_WORD_BOXES = 64 };
 
 typedef struct Paper {
     Canvas canvas;
-    Text *text;        /* NULL: no font was found; texts are left out */
-    double em;         /* pixels */
-    double unit;       /* pixels, 1/14 em */
-    double min_letter; /* ems, least size of normal letters */
+    Text *text;             /* NULL: no font was found; texts are left out */
+    double em;              /* pixels */
+    double unit;            /* pixels, 1/14 em */
+    double min_letter_size; /* ems, least size of normal letters */
     Box word_boxes[MAX_WORD_BOXES]; /* boxes that new labels must not cover */
-    int word_count; /* boxes so far; the newest MAX_WORD_BOXES are kept */
+    int word_box_count; /* boxes so far; the newest MAX_WORD_BOXES are kept */
 } Paper;
 
 /* Creates white paper of this size in pixels.  The caller frees it, also after

@@ -25,7 +25,8 @@ typedef struct Card {
     double min_height; /* ems */
     /* Returns the minimum height in ems of a card whose content is `wide` ems
      * wide; an em has `em` pixels.  NULL: min_height. */
-    double (*find_height)(const FrameContent *content, double wide, double em);
+    double (*find_least_height)(const FrameContent *content, double wide,
+                                double em);
     double height_weight;   /* weight with which the card shares free height */
     bool fits_half_width;   /* two such cards may share a row */
     bool fits_half_page;    /* on a page, two such cards may share a row */
@@ -48,11 +49,11 @@ typedef struct Card {
     /* Draws the content: curves, words, table and legend; on the web page
      * only curves.  NULL: `words` or `listing` is written. */
     void (*draw)(const Plot *card);
-    bool has_no_curves; /* draws only text, which the web page writes itself */
+    bool is_text_only; /* draws only text, which the web page writes itself */
 } Card;
 
 typedef struct Picture {
-    int count; /* number of cards */
+    int card_count; /* number of cards */
     const Card *const *cards;
     bool is_stretched;  /* scales x and y differently, to fill the stage */
     bool draws_handles; /* draws and picks the scene's handles itself */
@@ -70,7 +71,7 @@ typedef struct Picture {
      * place in the world.  NULL: finds only switches, handles and positions. */
     void (*pick)(const Plot *stage, double x, double y, Pick *pick);
     /* Draws a note about the picture's part under the mouse; may be NULL. */
-    void (*draw_hover)(Plot *stage);
+    void (*draw_hover_note)(Plot *stage);
     /* Samples energies for the history; may be NULL. */
     int (*get_energies)(const Simulation *simulation, Energy *row);
 } Picture;

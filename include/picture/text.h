@@ -60,7 +60,7 @@ int text_draw(Text *text, Canvas *canvas, const TextStyle *style, double x,
 
 /* Returns the colour with this name of `length` bytes ("warning", "p",
  * "elastic"); COLOUR_TEXT for an unknown name. */
-Colour colour_find_name(const char *name, size_t length);
+Colour colour_find_by_name(const char *name, size_t length);
 
 /* Whether this brace of a text belongs to the markup. */
 bool text_is_markup_brace(const char *text, const char *brace);

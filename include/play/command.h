@@ -43,11 +43,11 @@ typedef enum KeyScope {
 } KeyScope;
 
 enum {
-    REPEATS = 1,    /* is repeated while the key is held down */
-    IN_SCRIPT = 2,  /* is written into the script of a session */
-    KEEPS_STEP = 4, /* does not abandon a step that is being made */
-    REPLACES = 8,   /* in a gesture, replaces the last command of its kind */
-    KEEPS_NOTE = 16 /* does not clear the message below the picture */
+    REPEATS = 1,       /* is repeated while the key is held down */
+    IN_SCRIPT = 2,     /* is written into the script of a session */
+    KEEPS_STEP = 4,    /* does not abandon a step that is being made */
+    REPLACES_LAST = 8, /* in a gesture, replaces the last command of its kind */
+    KEEPS_NOTE = 16    /* does not clear the message below the picture */
 };
 
 typedef struct CommandRow {

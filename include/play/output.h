@@ -26,9 +26,9 @@ typedef struct OutputFile {
 
 /* Part of a file that output_close keeps. */
 typedef enum CloseAction {
-    KEEP_FILE,   /* the file gets its name and replaces an old one */
-    KEEP_PART,   /* NAME.part stays */
-    KEEP_NOTHING /* NAME.part is removed */
+    KEEP_FILE,      /* the file gets its name and replaces an old one */
+    KEEP_PART_FILE, /* NAME.part stays */
+    KEEP_NOTHING    /* NAME.part is removed */
 } CloseAction;
 
 /* Opens a file.  Returns OK, FILE_FAILED (message and errno say why). */
@@ -48,7 +48,7 @@ Status output_report_failure(const OutputFile *output, const char *why);
 /* Returns the text of a status; for FILE_FAILED the text of errno. */
 const char *output_explain(Status status);
 
-/* Prints a formatted text as one line (replace_line_breaks). */
+/* Prints a formatted text as one line (replace_control_characters). */
 void print_line(FILE *file, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
@@ -66,7 +66,7 @@ enum {
  * have 17 digits: a reader gets the same double. */
 typedef struct CsvTable {
     OutputFile output;
-    int columns; /* number of columns */
+    int column_count; /* number of columns */
     struct {
         char name[TABLE_NAME_SIZE];
         char kind; /* 'w': whole number, 't': text, 0: number */

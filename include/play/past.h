@@ -32,7 +32,8 @@
 /* Bytes for states and samples; beyond them every second state is dropped. */
 #define PAST_BYTES ((size_t)256 << 20)
 
-/* Largest max_x of a drawn step, in units of step 1's max_x. */
+/* Largest max_coordinate of a drawn step, in units of step 1's max_coordinate.
+ */
 #define PAST_EXPLODED 10
 
 enum { ALL_PANES = -1 }; /* past_edit edits each pane */
@@ -41,7 +42,7 @@ enum { ALL_PANES = -1 }; /* past_edit edits each pane */
 typedef struct SavedState {
     int ref_count;              /* number of entries that share the state */
     size_t size;                /* bytes of memory, with this struct */
-    bool is_set;                /* set by the user, not made by a step */
+    bool is_set_by_user;        /* set by the user, not made by a step */
     const UserControl *control; /* control under which the state was saved */
     unsigned char bytes[];      /* the state (state_save) */
 } SavedState;
@@ -50,7 +51,8 @@ typedef struct SavedState {
 typedef struct EnergySample {
     double time; /* s */
     int energy_count;
-    Energy energy[HISTORY_SERIES]; /* [energy_count] energies of the plots */
+    Energy
+        energy[MAX_HISTORY_SERIES]; /* [energy_count] energies of the plots */
 } EnergySample;
 
 /* The summary of a step, which outlives its iterations. */
@@ -58,18 +60,18 @@ typedef struct StepOutcome {
     int updates;          /* number of Newton's updates in all substeps */
     Status status;        /* last status other than OK in the substeps, or OK */
     double energy_change; /* change of the minimised E in the step, J s^2 */
-    double max_x;         /* largest |coordinate| of a node in run 0, m */
+    double max_coordinate; /* largest |coordinate| of a node in run 0, m */
 } StepOutcome;
 
 /* A step that a pane has made. */
 typedef struct PastEntry {
-    /* Control of the next step; NULL: this entry's step is still being made. */
-    const UserControl *control;
+    /* Control of the next step; NULL while the entry's step is being made. */
+    const UserControl *next_control;
     SavedState *state;    /* state after the step; NULL: not stored */
     EnergySample *sample; /* energies under the entry's control, or NULL */
     /* Number of steps of the simulation in this step of the panes.  0: the
      * scene is over, or the pane has ended with the failure in `outcome`. */
-    int substeps;
+    int substep_count;
     StepOutcome outcome;
 } PastEntry;
 
@@ -77,10 +79,10 @@ typedef struct PastEntry {
 typedef struct Branch {
     bool from_options; /* starts from options, not from the branch below */
     long first_step;   /* step of entry 0 */
-    long entries;      /* number of entries, at least 1 */
+    long entry_count;  /* number of entries, at least 1 */
     long capacity;     /* entries that memory is reserved for */
-    int copied;        /* number of entries from the branch below, 0 ... 2 */
-    long left_step;    /* step that was shown when the user left the branch */
+    int copied_count;  /* number of entries from the branch below, 0 ... 2 */
+    long exit_step;    /* step that was shown when the user left the branch */
     long stride;       /* every stride-th entry stores its state */
     int panes;         /* number of panes */
     PastEntry *entry;  /* [capacity][panes]; entry[entries] is being made */
@@ -96,29 +98,29 @@ typedef struct PastPane {
     bool has_state;            /* the simulation has the state of `step` */
     long step;                 /* last step that the pane has finished */
     bool is_iterating;         /* a step of the simulation has begun */
-    int substeps;              /* steps of the simulation since `step` */
+    int substep_count;         /* steps of the simulation since `step` */
     long steps_before_substep; /* steps of the simulation before this substep */
     StepOutcome outcome;       /* outcome of the present step, or of the last */
     bool has_failed;           /* the step after `step` could not be made */
     StepTrace trace;           /* iterates of the last step that was made */
     bool has_trace;            /* `trace` is of `step` or of the failed step */
-    NewtonRecords records;     /* records of the last step, for the log */
+    NewtonRecords newton_records; /* records of the last step, for the log */
 } PastPane;
 
 /* Stages of the work that leads to the step that is to be shown. */
 typedef enum WorkStage {
-    WORK_DONE,      /* no work is left: goal_step is shown */
-    WORK_LOADING,   /* the panes load stored states */
-    WORK_REPEATING, /* known steps are made once more */
-    WORK_MAKING,    /* a new step is made; no pane has finished its part */
-    WORK_MADE       /* a pane has finished its part of the new step */
+    WORK_DONE,       /* no work is left: goal_step is shown */
+    WORK_LOADING,    /* the panes load stored states */
+    WORK_REPEATING,  /* known steps are made once more */
+    WORK_MAKING,     /* a new step is made; no pane has finished its part */
+    WORK_PARTLY_MADE /* a pane has finished its part of the new step */
 } WorkStage;
 
 typedef struct Past {
     Branch *branch; /* [branches] branches from the bottom of the stack */
-    int branches, capacity; /* number of branches; room for branches */
-    int current; /* index of the present branch; higher ones are undone */
-    long step;   /* step that is shown in all panes */
+    int branch_count, capacity; /* number of branches; room for branches */
+    int branch_index; /* index of the present branch; higher ones are undone */
+    long shown_step;  /* step that is shown in all panes */
     PastPane pane[OPTIONS_MAX_PANES];
     bool stores_states;    /* states are stored: the user may go back */
     bool panes_fail_alone; /* a pane that fails ends alone; the others go on */
@@ -129,9 +131,9 @@ typedef struct Past {
     WorkStage work_stage; /* stage of the work that leads to `goal_step` */
     long goal_step;       /* step that is to be shown */
     long step_to_load;    /* step to which WORK_LOADING brings the panes */
-    bool samples_energy;  /* every iteration samples E(x + alpha p) */
-    double end_time;      /* end of the new step, s */
-    Status bad_status;    /* last status other than OK in the new step, or OK */
+    bool samples_line_energy; /* every iteration samples E(x + alpha p) */
+    double step_end_time;     /* end of the new step, s */
+    Status bad_status; /* last status other than OK in the new step, or OK */
 } Past;
 
 /* Whether work is left before goal_step is shown. */
@@ -186,19 +188,19 @@ Status past_finish_work(Past *past);
  * Returns the edit that was undone or redone, or NULL. */
 const Command *past_undo(Past *past, int way);
 
-int past_pane_count(const Past *past);
+int past_count_panes(const Past *past);
 
 /* Returns the newest step; a step that is being made does not count. */
-long past_newest(const Past *past);
+long past_find_newest(const Past *past);
 
 /* Returns the entry of a step; NULL: the step is not made yet. */
-const PastEntry *past_entry(const Past *past, int pane, long step);
+const PastEntry *past_find_entry(const Past *past, int pane, long step);
 
 /* Returns the control with which the step after the shown step is made. */
-const UserControl *past_control(const Past *past, int pane);
+const UserControl *past_get_control(const Past *past, int pane);
 
 /* Returns the control with which the run was started. */
-const UserControl *past_start_control(const Past *past, int pane);
+const UserControl *past_get_start_control(const Past *past, int pane);
 
 /* Returns the last step up to `step` that a pane has made: an earlier one if a
  * failure has ended the pane before. */

@@ -46,10 +46,10 @@ typedef enum PlayMode {
 /* Action after the work that leads to a step. */
 typedef enum ActionAfterWork {
     AFTER_NOTHING,
-    AFTER_SHOW_FIRST, /* show the step's first line of Algorithm 3 */
-    AFTER_SHOW_LAST,  /* show the step's last line of Algorithm 3 */
-    AFTER_SHOW_END,   /* show the step's end; if E exploded, its peak */
-    AFTER_COMPARE     /* compare the outcomes before and after an edit */
+    AFTER_SHOW_FIRST_LINE, /* show the step's first line of Algorithm 3 */
+    AFTER_SHOW_LAST_LINE,  /* show the step's last line of Algorithm 3 */
+    AFTER_SHOW_END,        /* show the step's end; if E exploded, its peak */
+    AFTER_COMPARE_OUTCOMES /* compare the outcomes before and after an edit */
 } ActionAfterWork;
 
 /* How a pane shows the present step. */
@@ -66,10 +66,12 @@ typedef struct Playback {
     ActionAfterWork after_work;
     TracePosition wanted_position; /* shown after an edit; iterate < 0: none */
     int log_speed;                 /* 2^log_speed steps a frame */
-    double due_time;    /* time of the next step on the wall clock, s */
-    double work_start;  /* start of the work on the wall clock, s; 0: no work */
-    bool has_warned;    /* the run was stopped where a step did not converge */
-    bool reported_gain; /* a rise of the total energy was reported */
+    double due_time;        /* time of the next step on the wall clock, s */
+    double work_start_time; /* start of the work on the wall clock, s; 0: no
+                               work */
+    bool has_stopped_unconverged; /* the run was stopped where a step did not
+                                     converge */
+    bool has_reported_gain;       /* a rise of the total energy was reported */
 } Playback;
 
 enum { MAX_QUEUED_COMMANDS = 16 };
@@ -87,10 +89,10 @@ typedef struct CommandQueue {
 /* Queue, journal and gestures.  Undo takes back all commands of a gesture. */
 typedef struct Commands {
     CommandQueue queue;
-    int gesture;      /* id of the present gesture, which is undone as one */
-    int gestures;     /* number of gestures so far, the id of the newest */
-    int held_gesture; /* gesture of the last grab or push, and of its drags */
-    Script journal;   /* commands of the session, with undo and redo */
+    int gesture;       /* id of the present gesture, which is undone as one */
+    int gesture_count; /* number of gestures so far, the id of the newest */
+    int drag_gesture;  /* gesture of the last grab or push, and of its drags */
+    Script journal;    /* commands of the session, with undo and redo */
     CommandKind leave_command; /* command that ends the program if repeated */
     bool has_refused_line;     /* a line of the script was refused */
 } Commands;
@@ -100,9 +102,10 @@ typedef struct Tour {
     const LecturePage *last_page;     /* page that was last open, or NULL */
     const LecturePage *revealed_page; /* page whose answer is shown, or NULL */
     char asked_question[ANSWER_SIZE]; /* question of revealed_page */
-    char verdict[VALUE_SIZE];   /* verdict on the guess at the page, or "" */
-    int guesses, right_guesses; /* number of guesses; of right guesses */
-    bool is_page_running;       /* a page's commands are running */
+    char verdict[VALUE_SIZE]; /* verdict on the guess at the page, or "" */
+    int guess_count,
+        right_guess_count; /* number of guesses; of right guesses */
+    bool is_page_running;  /* a page's commands are running */
     Options page_options[OPTIONS_MAX_DRAWN_PANES]; /* options of each pane */
 } Tour;
 
@@ -115,7 +118,7 @@ typedef struct WindowFrame {
     NewtonTrace trace[LAYOUT_MAX_PANES];
     char label[LAYOUT_MAX_PANES][LABEL_SIZE];   /* how each pane differs */
     CommandKind chip_command[LAYOUT_MAX_CHIPS]; /* command of each chip */
-    int options; /* number of options in the row */
+    int option_count; /* number of options in the row */
     const OptionRow *option[OPTIONS_MAX_ROWS];
 } WindowFrame;
 
@@ -145,32 +148,33 @@ typedef struct Mouse {
     double x, y;              /* pixels */
     bool has_position;        /* x and y are known */
     CommandKind drag_command; /* kind of drag; COMMAND_NONE: no drag */
-    int dragged_id;        /* index of the dragged part; -1: none, or an edge */
+    int dragged_index;     /* index of the dragged part; -1: none, or an edge */
     double drag_start[2];  /* pixels, mouse at start of drag or at last pan */
     bool has_moved;        /* the mouse has moved farther than a click may */
     double grip_offset[2]; /* from the mouse to the dragged obstacle, m */
     bool repins_node;      /* the dragged node is pinned again after the drag */
     bool was_wheel_turn;   /* the last input was a turn of the wheel */
-    int gesture;           /* gesture id of the last key, click or wheel turn */
+    int input_gesture;     /* gesture id of the last key, click or wheel turn */
     Options start_options; /* options at the start of a drag of a number */
 } Mouse;
 
 /* Objects that the user holds or has selected, and the typed text. */
 typedef struct Hands {
-    Mouse mouse;      /* mouse and its drag */
-    bool is_holding;  /* a node or an obstacle is held */
-    long pulled_step; /* step at which the hand last moved what it holds */
-    const OptionRow *selected; /* selected number, or NULL */
-    uint64_t added_rows;       /* bit r: the row of numbers also has option r */
-    bool is_typing;            /* a field is open: keys go into `typed` */
-    char typed[28]; /* typed value, answer, or number of a list's line */
+    Mouse mouse;         /* mouse and its drag */
+    bool is_holding;     /* a node or an obstacle is held */
+    long last_pull_step; /* step at which the hand last moved what it holds */
+    const OptionRow *selected_option; /* selected number, or NULL */
+    uint64_t
+        added_option_rows; /* bit r: the row of numbers also has option r */
+    bool is_typing;        /* a field is open: keys go into `typed` */
+    char typed_text[28];   /* typed value, answer, or number of a list's line */
 } Hands;
 
 typedef struct Player {
     PlayerSetup setup;
     Past past;
     PaneView view_of_pane[OPTIONS_MAX_PANES];
-    int active; /* index of the active pane, whose numbers are shown */
+    int active_pane; /* index of the active pane, whose numbers are shown */
     Recording recording;
     Playback play;
     Commands commands;
@@ -231,7 +235,7 @@ bool player_has_ended(const Player *player);
 void player_write_label(const Player *player, int pane, char label[LABEL_SIZE]);
 
 /* Returns the hash of the present states of all panes (state_hash). */
-uint64_t player_hash(const Player *player);
+uint64_t player_compute_hash(const Player *player);
 
 /* Copies the present options of all panes.  Returns the number of panes. */
 int player_copy_options(const Player *player,

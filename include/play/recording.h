@@ -18,7 +18,7 @@
 typedef struct Film {
     const struct FilmKind *kind;
     int width, height; /* pixels of the first frame */
-    long frames;       /* number of frames so far */
+    long frame_count;  /* number of frames so far */
     OutputFile output;
     FILE *pipe; /* input of ffmpeg; NULL: ffmpeg does not run */
 } Film;
@@ -55,10 +55,10 @@ enum { MAX_FRAMES = 1000000 }; /* frames have numbers of six digits */
 
 typedef struct Recording {
     const char *folder;          /* folder of the frames, or NULL */
-    long frames;                 /* number of frames written */
+    long frame_count;            /* number of frames written */
     unsigned char *is_old_frame; /* [step] 1: left by an earlier run */
     Film film;
-    int panes; /* number of panes at the start of the run */
+    int pane_count; /* number of panes at the start of the run */
     CsvTable table[RECORDING_TABLE_COUNT];
     bool has_tables;             /* a table is open */
     bool uses_stdout;            /* a table goes to standard output */

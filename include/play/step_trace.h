@@ -61,7 +61,7 @@ typedef struct StepTrace {
 } StepTrace;
 
 /* Begins the trace of a step.  A last iteration with alpha 0 samples E along p.
- *   all   in, each iteration samples E along p, for a walk through the step
+ *   all   in, samples at each iteration, for a walk through the step
  *   last  in, the last iteration samples E along p, for a card */
 void step_trace_begin(StepTrace *trace, const Simulation *simulation, bool all,
                       bool last);

@@ -132,7 +132,7 @@ Status race_make_reference(Simulation *simulation, double time);
  * Returns OK, or the failure that ended the run. */
 Status race_measure_method(Simulation *simulation,
                            const IntegratorMethod *method, double time,
-                           long steps, TimeIntegrator *run, RacePoint *point);
+                           long steps, TimeIntegrator *run, RaceResult *point);
 
 /* Makes run[0], the start of the measured runs, and run[1], the exact end. */
 Status create_race_scene(Simulation *simulation);

@@ -50,5 +50,5 @@ Status body_check(const Options *options, Message message);
  * line that cannot be read, or another number of nodes, springs or runs. */
 Status start_table_read(const Options *options, int run, int nodes, double *x,
                         double *v, Message message);
-Status start_springs_read(const Options *options, int run, System *system,
-                          Message message);
+Status start_table_read_springs(const Options *options, int run, System *system,
+                                Message message);

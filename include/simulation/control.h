@@ -19,7 +19,7 @@ typedef struct UserControl {
 
 /* Make a control from a simulation, with nothing held, or copy a control.  The
  * caller may change the result before control_retain.  NULL: no memory. */
-UserControl *control_from_simulation(const Simulation *simulation);
+UserControl *control_create(const Simulation *simulation);
 UserControl *control_copy(const UserControl *from);
 
 /* Whether the mouse holds a node or an obstacle. */

@@ -32,7 +32,7 @@ enum { DESCENT_MAX_RECORDS = 256 };
 
 /* A minimisation that is shown iteration by iteration. */
 typedef struct Descent {
-    int count;                                /* number of records */
+    int record_count;                         /* number of records */
     NewtonRecord record[DESCENT_MAX_RECORDS]; /* Newton's first iterations */
     double iterate[2];                        /* present iterate (m) */
     double value;         /* value of the minimised function at the iterate */
@@ -55,16 +55,17 @@ enum LandscapePart {
 enum { DIAL_POINTS = 41 };
 
 typedef struct DialCurve {
-    double h[DIAL_POINTS];        /* time steps in ascending order (s) */
-    double point[DIAL_POINTS][2]; /* m, minimiser for each h */
+    double h[DIAL_POINTS];            /* time steps in ascending order (s) */
+    double minimiser[DIAL_POINTS][2]; /* m, minimiser for each h */
 } DialCurve;
 
 /* ---- run time against error ---------------------------------------------- */
 
 #define RACE_TIME 0.064 /* s, simulated time of each run */
 
-/* RACE_SHOWN_ROW: index of the step size that the table of methods shows. */
-enum { RACE_SHOWN_ROW = 1, RACE_METHODS = 4, RACE_STEP_SIZES = 7 };
+/* RACE_SHOWN_STEP_SIZE: index of the step size that the table of methods shows.
+ */
+enum { RACE_SHOWN_STEP_SIZE = 1, RACE_METHODS = 4, RACE_STEP_SIZES = 7 };
 
 /* An explicit run counts as stable if RACE_EXTRA_STEPS further steps, which are
  * not measured, leave the energy below RACE_MAX_ENERGY_RATIO times that of the
@@ -72,18 +73,18 @@ enum { RACE_SHOWN_ROW = 1, RACE_METHODS = 4, RACE_STEP_SIZES = 7 };
 enum { RACE_EXTRA_STEPS = 2048, RACE_MAX_ENERGY_RATIO = 2 };
 
 /* A run of the race: a method with a time step. */
-typedef struct RacePoint {
+typedef struct RaceResult {
     const IntegratorMethod *method;
-    double h;       /* s, time step */
-    double error;   /* m, largest error of a node; NaN: the run failed */
-    double seconds; /* s, processor time */
-    bool converged; /* every step converged */
-    bool is_stable; /* the energy stays bounded when the run goes on */
-} RacePoint;
+    double h;              /* s, time step */
+    double error;          /* m, largest error of a node; NaN: the run failed */
+    double processor_time; /* s, processor time */
+    bool converged;        /* every step converged */
+    bool is_stable;        /* the energy stays bounded when the run goes on */
+} RaceResult;
 
 typedef struct Race {
-    int count; /* number of runs that were made so far */
-    RacePoint point[RACE_METHODS * RACE_STEP_SIZES];
+    int run_count; /* number of runs that were made so far */
+    RaceResult result[RACE_METHODS * RACE_STEP_SIZES];
 } Race;
 
 /* ---- how far the solver can be trusted ----------------------------------- */
@@ -99,7 +100,7 @@ typedef struct EnvelopeCell {
 /* Whether the square converges, by stiffness (row) and time step (column). */
 typedef struct EnvelopeMap {
     EnvelopeCell cell[ENVELOPE_ROWS][ENVELOPE_COLUMNS];
-    int column, row; /* cell whose run is shown; -1: none */
+    int shown_column, shown_row; /* cell whose run is shown; -1: none */
 } EnvelopeMap;
 
 /* ---- data of all scenes, points and switches ----------------------------- */
@@ -108,11 +109,11 @@ typedef struct EnvelopeMap {
 typedef struct SmallSceneData {
     double exact_start[4]; /* x (m) and v (m/s) where the exact path starts */
     double x_tilde[2];     /* inertial target (m); one unknown uses only [0] */
-    unsigned switches;     /* bit s: 1 if switch s is on; with LAYER_KINDS
-                              1 if the springs of kind s are off */
-    DialCurve dial;        /* curve of minimisers in scene `dial` */
-    Race race;             /* runs of scene `race` */
-    EnvelopeMap envelope;  /* runs of scene `envelope` */
+    unsigned switches;    /* bit s: 1 if switch s is on; with LAYER_SPRING_KINDS
+                             1 if the springs of kind s are off */
+    DialCurve dial;       /* curve of minimisers in scene `dial` */
+    Race race;            /* runs of scene `race` */
+    EnvelopeMap envelope; /* runs of scene `envelope` */
 } SmallSceneData;
 
 /* Lists the points that can be dragged, m.  Returns how many there are. */

@@ -19,7 +19,7 @@
     } while (0)
 
 /* Replaces control characters by '?', so that a text stays one line. */
-void replace_line_breaks(char *text);
+void replace_control_characters(char *text);
 
 /* Appends to a text, as far as it fits.
  *   text  [size] in/out */

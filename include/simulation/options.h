@@ -16,14 +16,16 @@ struct LecturePage;
 
 /* Layers of a picture that can be added to its scene, as bits. */
 typedef enum PictureLayer {
-    LAYER_NUMBERS = 1 << 0,  /* number of each node */
-    LAYER_FORCES = 1 << 1,   /* force on each node, as an arrow */
-    LAYER_MODES = 1 << 2,    /* node displacements; eigenvectors of a spring */
-    LAYER_KINDS = 1 << 3,    /* a colour and a switch for each kind of spring */
-    LAYER_CUTS = 1 << 4,     /* filled cells; springs only with the answer */
+    LAYER_NODE_NUMBERS = 1 << 0, /* number of each node */
+    LAYER_FORCES = 1 << 1,       /* force on each node, as an arrow */
+    LAYER_MODES = 1 << 2, /* node displacements; eigenvectors of a spring */
+    LAYER_SPRING_KINDS =
+        1 << 3, /* a colour and a switch for each kind of spring */
+    LAYER_FILLED_CELLS =
+        1 << 4,              /* filled cells; springs only with the answer */
     LAYER_DOWNHILL = 1 << 5, /* -grad E and all directions in which E falls */
-    LAYER_CURVES = 1 << 6,   /* curves on which a component of grad E is 0 */
-    LAYER_FIRST_STEP = 1 << 7 /* draws only the first step, enlarged */
+    LAYER_ZERO_CURVES = 1 << 6, /* curves on which a component of grad E is 0 */
+    LAYER_FIRST_STEP = 1 << 7   /* draws only the first step, enlarged */
 } PictureLayer;
 
 /* Effect of the key N. */
@@ -141,16 +143,17 @@ int names_count(NameTable names);
 
 /* Returns the index of the name for a value of OPTION_NAME.  The value -1, for
  * an option that was not given, means name 0. */
-static inline int option_name_index(double value)
+static inline int option_get_name_index(double value)
 {
     return value > 0 ? (int)value : 0;
 }
 
 /* When a changed option takes effect. */
 typedef enum ChangeEffect {
-    EFFECT_NEW_RUN,   /* takes effect in a new run */
-    EFFECT_NEXT_STEP, /* takes effect in the next step */
-    EFFECT_REPEAT     /* takes effect in the present step, which is repeated */
+    EFFECT_NEW_RUN,      /* takes effect in a new run */
+    EFFECT_NEXT_STEP,    /* takes effect in the next step */
+    EFFECT_REPEATED_STEP /* takes effect in the present step, which is repeated
+                          */
 } ChangeEffect;
 
 /* How the window shows an option and changes it by mouse, wheel and keys. */
@@ -169,20 +172,22 @@ typedef struct OptionRow {
     const char *placeholder; /* value in --help; NULL: the option is a switch */
     const char *help;        /* description in --help */
     OptionKind kind;
-    int slot;              /* OPTION_SLOT of the option's first number */
-    size_t offset;         /* OPTION_TEXT: offset of the field in Options */
-    bool is_table;         /* OPTION_TEXT: the file is a CSV table */
-    int count;             /* how many numbers a value has; 0 means 1 */
-    unsigned short_counts; /* bit n: the first n numbers are enough */
+    int slot;         /* OPTION_SLOT of the option's first number */
+    size_t offset;    /* OPTION_TEXT: offset of the field in Options */
+    bool is_table;    /* OPTION_TEXT: the file is a CSV table */
+    int number_count; /* how many numbers a value has; 0 means 1 */
+    unsigned allowed_short_counts;  /* bit n: the first n numbers are enough */
     const double *omitted_defaults; /* [count] defaults of omitted numbers */
     char separator;                 /* separator of the numbers; 0: a comma */
-    int max_times;  /* limit of repetitions; 0: only the last value counts */
-    int count_slot; /* max_times > 0: slot of the number of values */
-    double default_value;  /* default, as on the slides */
-    double low, high;      /* range, both ends included */
-    const char *unit;      /* unit of the numbers, or "" if they have none */
-    NameTable names;       /* OPTION_NAME: the values */
-    unsigned needs_any_of; /* bits of ScenePart: the scene needs one of them */
+    int max_repetitions; /* limit of repetitions; 0: only the last value counts
+                          */
+    int count_slot;      /* max_repetitions > 0: slot of the number of values */
+    double default_value; /* default, as on the slides */
+    double low, high;     /* range, both ends included */
+    const char *unit;     /* unit of the numbers, or "" if they have none */
+    NameTable names;      /* OPTION_NAME: the values */
+    unsigned needs_any_scene_part; /* bits of ScenePart: the scene needs one of
+                                      them */
     /* Returns why the option has no effect with the present options, or NULL.
      * The pointer is NULL for options that always have an effect. */
     const char *(*idle_reason)(const Options *options);
@@ -255,10 +260,10 @@ double option_find_value_after_wheel(const OptionRow *row,
 
 /* Returns the place of an obstacle in the options, [2] m.
  *   number  of the obstacle: grounds first, then balls */
-double *options_obstacle_point(Options *options, int number);
+double *options_get_obstacle_point(Options *options, int number);
 
 /* Returns the chosen integrator, or the first of the table. */
-const IntegratorMethod *options_method(const Options *options);
+const IntegratorMethod *options_get_method(const Options *options);
 
 /* Returns the name of a solver on the command line. */
 const char *get_solver_name(int solver);

@@ -31,12 +31,13 @@ enum ScenePart {
     HAS_TIME = 2,            /* motion in time, by an integrator */
     HAS_START = 4,           /* a point to start from */
     HAS_SPRINGS = 8,         /* springs: projection of their Hessian */
-    HAS_MINIMUM = 16,        /* a minimisation: tolerance, line search */
+    HAS_MINIMISATION = 16,   /* a minimisation: tolerance, line search */
     HAS_ONE_COORDINATE = 32, /* a start with one coordinate, x */
     HAS_TIMESTEP = 64,       /* a time step h */
     HAS_BODY = 128,          /* a body: options --turn, --at, --pin and more */
     HAS_MOTION = HAS_TIME | HAS_TIMESTEP,
-    HAS_SQUARE = HAS_MESH | HAS_MOTION | HAS_SPRINGS | HAS_MINIMUM | HAS_BODY
+    HAS_SQUARE =
+        HAS_MESH | HAS_MOTION | HAS_SPRINGS | HAS_MINIMISATION | HAS_BODY
 };
 
 /* Limits of the numbers of draggable points and of switches in a picture. */
@@ -53,10 +54,11 @@ typedef struct SceneBody {
     double aspect;         /* height over width; 0: a square */
     double cell_stiffness; /* stiffness of cells / that of springs; 0: 1/2 */
     double pin_speed;      /* outward speed of pinned nodes, side lengths/s */
-    double notch[2];    /* ends of a slit in the middle line: heights above the
-                           centre, divided by the body's height */
-    int runs;           /* number of runs, each with a body; 0 means 1 */
-    double height_step; /* height of run r above r + 1, in side lengths */
+    double notch_ends[2];  /* ends of a slit in the middle line: heights above
+                         the  centre, divided by the body's height */
+    int runs;              /* number of runs, each with a body; 0 means 1 */
+    double
+        height_between_runs; /* height of run r above r + 1, in side lengths */
     double friction_factor[3]; /* factors on the runs' friction; 0 means 1 */
     /* Returns a further obstacle, at its start; NULL: no obstacle. */
     struct Obstacle (*make_obstacle)(const struct Options *options);
@@ -64,16 +66,18 @@ typedef struct SceneBody {
 
 /* A row of the table of scenes.  0 and NULL mean "none", or the usual value. */
 typedef struct Scene {
-    const char *name;     /* name on the command line */
-    const char *title;    /* heading above the picture */
-    const char *sentence; /* description, at most 60 letters */
+    const char *name;        /* name on the command line */
+    const char *title;       /* heading above the picture */
+    const char *description; /* description, at most 60 letters */
     PictureKind picture;
-    unsigned parts;   /* bits of ScenePart: what the scene has */
-    const char *args; /* options with other values than on the slides */
+    unsigned parts; /* bits of ScenePart: what the scene has */
+    const char
+        *default_options; /* options with other values than on the slides */
     /* Fills simulation->system and the mesh, and starts each run
      * (simulation_start_run). */
     Status (*create)(struct Simulation *simulation);
-    double speed;   /* steps per frame at the start; 0: 1, without time 1/32 */
+    double steps_per_frame; /* steps per frame at the start; 0: 1, without time
+                               1/32 */
     double view[4]; /* m, left, bottom, right, top of the view; 0: automatic */
     double strain_colour_max; /* strain of the full colour; 0: no colours */
     bool needs_dissipation;   /* the sentence describes a motion that dies away,
@@ -81,9 +85,9 @@ typedef struct Scene {
     const char *step_name; /* word for a step, as "iteration"; NULL: "step" */
     bool starts_paused;    /* the window waits at step 0 */
     const char *group_heading; /* heading of the group that this scene begins */
-    bool is_hidden;  /* has no key and no cell in the overview; the table ends
-                        with these scenes */
-    const char *pin; /* default of option --pin */
+    bool is_hidden; /* has no key and no cell in the overview; the table ends
+                       with these scenes */
+    const char *default_pin; /* default of option --pin */
     SceneBody body;
     /* Makes one step; NULL: a step in time of each run. */
     Status (*step)(struct Simulation *simulation);

@@ -9,7 +9,7 @@
 #include "solve/newton.h"
 #include "model/square_mesh.h"
 
-enum { SIMULATION_MAX_RUNS = 3, SIMULATION_MODE_NODES = 64 };
+enum { SIMULATION_MAX_RUNS = 3, SIMULATION_MAX_MODE_NODES = 64 };
 
 /* Energies that a run has added up since its start.  In a step of backward
  * Euler the total energy can grow by more than the work: the minimiser may lie
@@ -31,7 +31,7 @@ struct Simulation {
     int runs; /* number of runs, 1 ... SIMULATION_MAX_RUNS */
     TimeIntegrator run[SIMULATION_MAX_RUNS];
     EnergyLedger ledger[SIMULATION_MAX_RUNS];
-    int step_run;      /* run whose step is being computed */
+    int current_run;   /* run whose step is being computed */
     Status bad_status; /* OK, or the last other status of this step's runs */
     Descent descent;   /* minimisation; zero in scenes that move in time */
     SmallSceneData exhibit;  /* data of the small scenes; switches */
@@ -42,8 +42,8 @@ struct Simulation {
     long unconverged_steps;  /* steps so far that did not converge */
     int status_counts[STATUS_COUNT]; /* unconverged steps by their status */
     Status status;                   /* status of the last step */
-    bool is_over;                /* the scene has ended: a step does nothing */
-    NewtonCounters old_counters; /* counters of replaced integrators */
+    bool is_over; /* the scene has ended: a step does nothing */
+    NewtonCounters replaced_counters; /* counters of replaced integrators */
 };
 
 /* A quantity of energy by its name: "elastic", "friction". */
@@ -107,7 +107,7 @@ Status simulation_begin_step(Simulation *simulation);
 Status simulation_advance(Simulation *simulation);
 
 /* Returns the simulated time, s; 0 in scenes without time. */
-double simulation_time(const Simulation *simulation);
+double simulation_get_time(const Simulation *simulation);
 
 /* Computes the energies of a run. */
 Energies simulation_get_energies(const Simulation *simulation, int run);
@@ -120,7 +120,8 @@ NewtonCounters simulation_sum_newton_counters(const Simulation *simulation);
 
 /* Returns when a change of row's option takes effect, usually row->effect.  The
  * result is EFFECT_NEW_RUN for the method of several runs, and in scenes
- * without time, where EFFECT_REPEAT is kept if the scene has HAS_START. */
+ * without time, where EFFECT_REPEATED_STEP is kept if the scene has HAS_START.
+ */
 ChangeEffect simulation_find_option_effect(const Simulation *simulation,
                                            const OptionRow *row);
 
@@ -149,17 +150,17 @@ bool simulation_has_projection(const Simulation *simulation);
 bool simulation_has_line_search(const Simulation *simulation);
 
 /* Whether springs are the only terms whose Hessian may need the projection. */
-bool simulation_projects_springs(const Simulation *simulation);
+bool simulation_projects_only_springs(const Simulation *simulation);
 
 /* Finds the point that a scene shows: the iterate, or the only mass of run 0.
  *   at  [2] out, m
  * Returns how many coordinates are used: 1 for a function of one variable, 0 if
  * the scene has several points. */
-int simulation_find_point(const Simulation *simulation, double at[2]);
+int simulation_find_shown_point(const Simulation *simulation, double at[2]);
 
 /* Finds the fastest small oscillation around x, M mode'' = -H mode, with the
  * Hessian H of P, not projected.  Returns its angular frequency, 1/s; NaN if no
- * mode oscillates, or with more than SIMULATION_MODE_NODES nodes.
+ * mode oscillates, or with more than SIMULATION_MAX_MODE_NODES nodes.
  *   x     [2n] m, in
  *   mode  [2n] out, of length 1 */
 double simulation_find_fastest_mode(const Simulation *simulation,

@@ -35,14 +35,14 @@ typedef struct NewtonRecord {
     ResidualKind residual_kind; /* how well the residual is known */
     double alpha;               /* step length along p; 0: no step along p */
     int trials;                 /* number of step lengths that were tried */
-    double slope;        /* J s^2, grad E . p; below 0: p leads downhill */
-    double change;       /* J s^2, change of E by the update */
-    int projected;       /* number of blocks of H that projection changed */
-    int negative_pivots; /* number of negative pivots of the Hessian that gave
-                            p; 0 for a projected Hessian */
-    bool has_new_factor; /* has a new factor of the Hessian */
-    double shift;        /* kg, added to the diagonal of the Hessian */
-    double seconds;      /* computing time of the iteration */
+    double slope;         /* J s^2, grad E . p; below 0: p leads downhill */
+    double energy_change; /* J s^2, change of E by the update */
+    int projected_blocks; /* number of blocks of H that projection changed */
+    int negative_pivots;  /* number of negative pivots of the Hessian that gave
+                             p; 0 for a projected Hessian */
+    bool has_new_factor;  /* has a new factor of the Hessian */
+    double shift;         /* kg, added to the diagonal of the Hessian */
+    double seconds;       /* computing time of the iteration */
     Status status; /* RUNNING, or how the iteration ended the minimisation */
     Solver solver; /* NEWTON or MULTIGRID */
     double x_before[2]; /* m, node of a one-node scene before the update */
@@ -67,13 +67,14 @@ typedef struct NewtonSettings {
 typedef struct NewtonCounters {
     long updates;          /* number of updates of x */
     long factorisations;   /* number of factorisations of the Hessian */
-    long solves;           /* number of linear solves with a factor of H */
-    long projected;        /* number of projected blocks of factored Hessians */
-    long cycles;           /* number of V-cycles of multigrid */
+    long linear_solves;    /* number of linear solves with a factor of H */
+    long projected_blocks; /* number of projected blocks of factored Hessians */
+    long v_cycles;         /* number of V-cycles of multigrid */
     long tile_sweeps;      /* number of sweeps of multigrid's tiles (tiles.h) */
-    long indefinite_ends;  /* minimisations that converged with a last p from a
-                              Hessian with negative pivots: perhaps a maximum */
-    long handed_to_newton; /* number of minimisations that Newton took over */
+    long indefinite_convergences; /* minimisations that converged with a last p
+                             from a Hessian with negative pivots: perhaps a
+                             maximum */
+    long newton_takeovers; /* number of minimisations that Newton took over */
 } NewtonCounters;
 
 /* Adds each member of counters to sum. */
@@ -85,26 +86,26 @@ void newton_counters_add(const NewtonCounters *counters, NewtonCounters *sum);
  * Where h^2 k outweighs the masses by more than the 16 digits of a double, H
  * has no Cholesky factor in floating point.  Then H + shift I is factored, and
  * conjugate gradients on H itself, applied spring by spring, correct p. */
-typedef struct SearchDirection {
-    Projection projection;    /* projection of the Hessian in A */
-    CholeskyKind factor_kind; /* kind of factor that cholesky holds */
-    unsigned
-        analysed_pattern; /* System.pattern_version at the symbolic analysis */
-    Sparse A;             /* Hessian, one triangle, in elimination order */
-    Cholesky *cholesky;   /* factor of A; NULL: not created yet */
-    double shift;         /* kg, added to the diagonal before factoring */
+typedef struct FactoredHessian {
+    Projection projection;             /* projection of the Hessian in A */
+    CholeskyKind factor_kind;          /* kind of factor that cholesky holds */
+    unsigned analysed_pattern_version; /* System.pattern_version at the symbolic
+                                          analysis */
+    Sparse A;                  /* Hessian, one triangle, in elimination order */
+    Cholesky *cholesky;        /* factor of A; NULL: not created yet */
+    double shift;              /* kg, added to the diagonal before factoring */
     double moved_since_factor; /* m, bound of displacements since factoring */
     double *b;                 /* right-hand side in elimination order */
     double *r, *z, *q, *d;     /* vectors of conjugate gradients */
-} SearchDirection;
+} FactoredHessian;
 
 /* Data for the rounding errors of a minimisation (rounding.c). */
 typedef struct RoundingChecks {
     unsigned bounds_version; /* 1 + System.version of min_mass, max_curvature
                                 and shortest_spring; 0: not computed yet */
     double min_mass;         /* kg, the smallest mass */
-    double max_curvature;    /* J/m^2, the largest curvature_bound of a term */
-    double shortest_spring;  /* m, rest length; 1 without springs */
+    double max_curvature; /* J/m^2, the largest curvature_estimate of a term */
+    double shortest_spring; /* m, rest length; 1 without springs */
     bool is_stiff; /* P's weight times max_curvature > 1e5 min_mass; a decrease
                       of E is then computed twice */
     bool factor_is_inexact; /* P's weight times max_curvature > 1e10 min_mass:
@@ -126,7 +127,7 @@ typedef struct Newton {
     NewtonCounters counters;
     NewtonRecord record; /* record of the last iteration */
     Status status;       /* RUNNING, or how the minimisation ended */
-    long step;           /* number of the time step, for the records */
+    long step_number;    /* number of the time step, for the records */
     double tolerance;    /* m/s, limit of the residual in this minimisation */
     const System *system;
     double *memory;  /* memory that holds all arrays */
@@ -135,18 +136,19 @@ typedef struct Newton {
     /* [2n] m, point that the line search tries.  When the observer is called
      * after an update: the iterate before the update. */
     double *u_trial, *x_trial;
-    SearchDirection direction; /* the Hessian and its factor */
-    bool has_gradient;         /* has the gradient at x in iterate.g */
-    bool passes_test;          /* p of the last iteration passes the test */
-    int clamps_left;           /* number of next iterations that must clamp H */
+    FactoredHessian factored_hessian; /* the Hessian and its factor */
+    bool has_gradient;                /* has the gradient at x in iterate.g */
+    bool passes_test;            /* p of the last iteration passes the test */
+    int clamped_iterations_left; /* number of next iterations that must clamp H
+                                  */
     RoundingChecks rounding;
     Multigrid *multigrid; /* data of multigrid; NULL: not created yet */
     Solver active_solver; /* solver of the next iteration: NEWTON, MULTIGRID */
     const char *refusal_reason; /* why multigrid refused to work, or NULL */
     double change_sum;          /* J s^2, sum of the updates' changes of E */
     double change_abs_sum;      /* J s^2, sum of the absolute changes of E */
-    double total_change; /* J s^2, E at the end - E at the start, summed over
-                            minimisations; the caller resets it to 0 */
+    double total_energy_change; /* J s^2, E at the end - E at the start, summed
+                            over minimisations; the caller resets it to 0 */
 } Newton;
 
 /* Allocates the minimiser of a system, which must outlive the object.  Returns

@@ -63,8 +63,8 @@ struct TimeIntegrator {
     Status unconverged_status; /* OK, or why a stage did not converge */
     double weight;             /* s^2, factor of the potential P in E */
     double remaining_fraction; /* fraction that is left to move; 0 if blocked */
-    int parts_made;            /* number of parts of the motion that are done */
-    long updates_before;       /* Newton's updates before this step */
+    int motion_parts_made;     /* number of parts of the motion that are done */
+    long updates_before_step;  /* Newton's updates before this step */
     bool is_blocked; /* walls and pins cannot move on: a body is in their way */
 };
 

@@ -57,11 +57,11 @@ static Options make_slides_options(int segments)
  * 16, 32, ... steps, until a run takes too long or is accurate enough. */
 typedef struct TimedMotion {
     const char *name;
-    double stiffness; /* J/m^2 */
-    double stretch;   /* factor on all x at the start */
-    double spin;      /* angular velocity at the start, rad/s */
-    double time;      /* duration, s */
-    int segments[4];  /* segments of each square, then 0 */
+    double stiffness;      /* J/m^2 */
+    double stretch;        /* factor on all x at the start */
+    double spin;           /* angular velocity at the start, rad/s */
+    double duration;       /* duration, s */
+    int segment_counts[4]; /* segments of each square, then 0 */
 } TimedMotion;
 
 /* A stiffness 10^4 times as large makes vibrations 100 times as fast.  The last
@@ -73,10 +73,10 @@ static const TimedMotion motions[] = {
 };
 enum { MOTION_COUNT = sizeof motions / sizeof *motions };
 
-enum { COARSEST_STEPS = 8, ERROR_TARGETS = 5 };
+enum { FEWEST_STEPS = 8, TARGET_COUNT = 5 };
 
 /* Errors for which the fastest methods are named, m */
-static const double targets[ERROR_TARGETS] = {1e-2, 1e-3, 1e-4, 1e-5, 1e-6};
+static const double targets[TARGET_COUNT] = {1e-2, 1e-3, 1e-4, 1e-5, 1e-6};
 
 /* Expected error of the first run, m */
 static const double first_error = 1e-2;
@@ -84,7 +84,7 @@ static const double first_error = 1e-2;
 /* The fastest run with an error below a target. */
 typedef struct FastestRun {
     const char *name; /* method; NULL: no run met the target */
-    double ms;        /* run time */
+    double run_ms;    /* run time */
 } FastestRun;
 
 /* Creates a simulation: run 0 is the start of the motion, run 1 its end. */
@@ -103,7 +103,7 @@ static Status create_motion_simulation(const TimedMotion *motion, int segments,
         start->v[i] = -motion->spin * start->x[i + 1];
         start->v[i + 1] = motion->spin * start->x[i];
     }
-    return race_make_reference(simulation, motion->time);
+    return race_make_reference(simulation, motion->duration);
 }
 
 /* Measures a method with 8, 16, 32, ... steps, up to a run that takes too long
@@ -116,32 +116,33 @@ static Status create_motion_simulation(const TimedMotion *motion, int segments,
 static Status measure_method(bool quick, const TimedMotion *motion,
                              Simulation *simulation,
                              const IntegratorMethod *method,
-                             FastestRun best[ERROR_TARGETS])
+                             FastestRun best[TARGET_COUNT])
 {
     int segments = simulation->options.segments;
     double longest = quick ? 0.01 : segments / 64.0 + 0.25;
     double enough = quick ? 1e-5 : 1e-8, expected = first_error;
-    RacePoint now = {.error = INFINITY};
-    for (long steps = COARSEST_STEPS; !(now.error < enough); steps *= 2) {
+    RaceResult now = {.error = INFINITY};
+    for (long steps = FEWEST_STEPS; !(now.error < enough); steps *= 2) {
         TimeIntegrator run = {0};
-        simulation->options.tolerance = 2 * expected / (steps * motion->time);
-        Status status = race_measure_method(simulation, method, motion->time,
-                                            steps, &run, &now);
+        simulation->options.tolerance =
+            2 * expected / (steps * motion->duration);
+        Status status = race_measure_method(
+            simulation, method, motion->duration, steps, &run, &now);
         time_integrator_free(&run);
         if (status == STATUS_OUT_OF_MEMORY)
             return status;
         bool failed = !(now.converged && now.error < simulation->options.side);
-        double ms = 1e3 * now.seconds;
+        double ms = 1e3 * now.processor_time;
         printf("%s,%d,%s,%s,%d,%ld,%.6g,%.6g,%.6g,%d\n", motion->name, segments,
                method->name, method->stages > 0 ? "multigrid" : "none",
-               method->order, steps, simulation->options.tolerance, now.seconds,
-               fmin(now.error, 1e300), failed);
+               method->order, steps, simulation->options.tolerance,
+               now.processor_time, fmin(now.error, 1e300), failed);
         if (failed)
             now.error = INFINITY;
-        for (int t = 0; t < ERROR_TARGETS; t++)
-            if (now.error <= targets[t] && ms < best[t].ms)
+        for (int t = 0; t < TARGET_COUNT; t++)
+            if (now.error <= targets[t] && ms < best[t].run_ms)
                 best[t] = (FastestRun){method->name, ms};
-        if (2 * now.seconds > longest)
+        if (2 * now.processor_time > longest)
             break;
         expected = fmin(now.error, first_error) / (1 << method->order);
     }
@@ -153,10 +154,9 @@ static Status measure_method(bool quick, const TimedMotion *motion,
 static Status measure_motion(bool quick, const TimedMotion *motion,
                              Simulation *simulation)
 {
-    FastestRun best[2][ERROR_TARGETS];
-    for (int i = 0; i < 2 * ERROR_TARGETS; i++)
-        best[i / ERROR_TARGETS][i % ERROR_TARGETS] =
-            (FastestRun){NULL, INFINITY};
+    FastestRun best[2][TARGET_COUNT];
+    for (int i = 0; i < 2 * TARGET_COUNT; i++)
+        best[i / TARGET_COUNT][i % TARGET_COUNT] = (FastestRun){NULL, INFINITY};
     for (const IntegratorMethod *method = integrator_methods; method->name;
          method++) {
         Status status = measure_method(quick, motion, simulation, method,
@@ -167,27 +167,28 @@ static Status measure_motion(bool quick, const TimedMotion *motion,
     printf("# %s, %g segments\n#  error m  best explicit             ms  best "
            "implicit        ms  implicit/explicit\n",
            motion->name, simulation->options.segments);
-    for (int t = 0; t < ERROR_TARGETS; t++) {
+    for (int t = 0; t < TARGET_COUNT; t++) {
         const FastestRun *one = &best[0][t], *other = &best[1][t];
         if (one->name && other->name)
             printf("#  %7.0e  %-16s %11.3f  %-14s %8.3f  %8.3g: implicit %s\n",
-                   targets[t], one->name, one->ms, other->name, other->ms,
-                   other->ms / one->ms, other->ms > one->ms ? "loses" : "wins");
+                   targets[t], one->name, one->run_ms, other->name,
+                   other->run_ms, other->run_ms / one->run_ms,
+                   other->run_ms > one->run_ms ? "loses" : "wins");
     }
     return STATUS_OK;
 }
 
-static Status measure_errors(bool quick)
+static Status measure_work_precision(bool quick)
 {
     Status status = STATUS_OK;
     for (int m = 0; m < MOTION_COUNT; m++)
-        for (int i = 0; motions[m].segments[i] && !status; i++) {
+        for (int i = 0; motions[m].segment_counts[i] && !status; i++) {
             const TimedMotion *motion = &motions[m];
             Simulation simulation;
             if (quick && i > 0)
                 break;
             status = create_motion_simulation(
-                motion, quick ? 4 : motion->segments[i], &simulation);
+                motion, quick ? 4 : motion->segment_counts[i], &simulation);
             if (!status)
                 status = measure_motion(quick, motion, &simulation);
             simulation_free(&simulation);
@@ -199,24 +200,26 @@ static Status measure_errors(bool quick)
 
 /* Rounding decides how the square folds when it buckles.  Every program
  * therefore runs from nine starts, whose stretches differ by 1e-9. */
-enum { STARTS = 9, STEPS_PER_START = 10, SOLVERS = 3 };
+enum { START_COUNT = 9, STEPS_PER_START = 10, PROGRAM_COUNT = 3 };
 
-typedef enum BenchSolver { LECTURE, NEWTON, MULTIGRID } BenchSolver;
+typedef enum BenchProgram { LECTURE, NEWTON, MULTIGRID } BenchProgram;
 
 static const struct {
     const char *name;
     int max_segments; /* largest number of segments that is measured */
-} programs[SOLVERS] = {{"lecture.c", 32}, {"newton", 64}, {"multigrid", 512}};
+} programs[PROGRAM_COUNT] = {
+    {"lecture.c", 32}, {"newton", 64}, {"multigrid", 512}};
 
 /* Time after which no further start of the same size begins, s */
 static const double time_limit = 60;
 
 /* Results of one program on one square, for each start. */
 typedef struct ProgramResults {
-    double ms[STARTS];                 /* processor time a step */
-    double updates_per_step[STARTS];   /* number of updates of x per step */
-    double end_energy_percent[STARTS]; /* % of the energy at the start */
-    long unconverged; /* steps without convergence, of all starts together */
+    double step_ms[START_COUNT];          /* processor time a step */
+    double updates_per_step[START_COUNT]; /* number of updates of x per step */
+    double end_energy_percent[START_COUNT]; /* % of the energy at the start */
+    long unconverged_steps; /* steps without convergence, of all starts together
+                             */
 } ProgramResults;
 
 /* Makes a step by step_forward of lecture.c, with the springs and masses of a
@@ -243,7 +246,7 @@ static Status make_lecture_step(const System *system, double h, double tol,
 }
 
 /* Runs a program from one start and stores its results. */
-static Status measure_run_from_start(BenchSolver program, int segments,
+static Status measure_run_from_start(BenchProgram program, int segments,
                                      int start, int steps, ProgramResults *runs)
 {
     Simulation simulation;
@@ -260,11 +263,11 @@ static Status measure_run_from_start(BenchSolver program, int segments,
                                          simulation.run[0].v)
                      : simulation_step(&simulation);
         if (status_is_unconverged(status)) {
-            runs->unconverged++;
+            runs->unconverged_steps++;
             status = STATUS_OK;
         }
     }
-    runs->ms[start] = 1e3 * (clock_processor_time() - began) / steps;
+    runs->step_ms[start] = 1e3 * (clock_processor_time() - began) / steps;
     runs->updates_per_step[start] =
         (double)simulation_sum_newton_counters(&simulation).updates / steps;
     if (!status)
@@ -276,28 +279,31 @@ static Status measure_run_from_start(BenchSolver program, int segments,
 
 /* Runs all programs from each start of one square, and prints the medians.
  *   ms  out, median time a step */
-static Status measure_solvers(bool quick, int segments, double ms[SOLVERS])
+static Status measure_programs(bool quick, int segments,
+                               double ms[PROGRAM_COUNT])
 {
-    ProgramResults runs[SOLVERS] = {{.unconverged = 0}};
-    int starts = quick ? 1 : STARTS, steps = quick ? 3 : STEPS_PER_START;
+    ProgramResults runs[PROGRAM_COUNT] = {{.unconverged_steps = 0}};
+    int starts = quick ? 1 : START_COUNT, steps = quick ? 3 : STEPS_PER_START;
     int count = 0;
     double began = clock_now();
     Status status = STATUS_OK;
     for (; count < starts && clock_now() - began < time_limit && !status;
          count++)
-        for (int m = 0; m < SOLVERS && !status; m++)
+        for (int m = 0; m < PROGRAM_COUNT && !status; m++)
             if (segments <= programs[m].max_segments)
-                status = measure_run_from_start((BenchSolver)m, segments, count,
-                                                steps, &runs[m]);
-    for (int m = 0; m < SOLVERS && !status; m++) {
+                status = measure_run_from_start((BenchProgram)m, segments,
+                                                count, steps, &runs[m]);
+    for (int m = 0; m < PROGRAM_COUNT && !status; m++) {
         ProgramResults *all = &runs[m];
         if (segments > programs[m].max_segments)
             continue;
-        ms[m] = find_median(all->ms, count); /* sorts ms */
+        ms[m] = find_median(all->step_ms, count); /* sorts ms */
         printf("%d,%s,%d,%.6g,%.6g,%.6g,%.6g,%.6g,%ld\n", segments,
-               programs[m].name, count, ms[m], all->ms[0], all->ms[count - 1],
+               programs[m].name, count, ms[m], all->step_ms[0],
+               all->step_ms[count - 1],
                find_median(all->updates_per_step, count),
-               find_median(all->end_energy_percent, count), all->unconverged);
+               find_median(all->end_energy_percent, count),
+               all->unconverged_steps);
     }
     return status;
 }
@@ -306,8 +312,8 @@ static Status measure_step_times(bool quick)
 {
     Status status = STATUS_OK;
     for (int n = 4; n <= (quick ? 32 : 512) && !status; n *= 2) {
-        double ms[SOLVERS] = {0};
-        status = measure_solvers(quick, n, ms);
+        double ms[PROGRAM_COUNT] = {0};
+        status = measure_programs(quick, n, ms);
         if (status || quick)
             continue;
         if (n == 32)
@@ -325,11 +331,11 @@ static Status measure_step_times(bool quick)
 /* ---- the program --------------------------------------------------------- */
 
 static const struct {
-    const char *name, *sentence;
+    const char *name, *description;
     Status (*run)(bool quick);
-    const char *columns; /* heading of the table */
+    const char *heading; /* heading of the table */
 } tables[] = {
-    {"work", "error against run time of all methods", measure_errors,
+    {"work", "error against run time of all methods", measure_work_precision,
      "case,segments,integrator,solver,order,steps,tolerance_m_s,run_time_s,"
      "error_m,failed"},
     {"steps", "milliseconds a step: the slides' program, newton, multigrid",
@@ -337,19 +343,20 @@ static const struct {
      "segments,solver,starts,median_ms,least_ms,most_ms,updates,"
      "energy_end_percent,unconverged"},
 };
-enum { TABLES = sizeof tables / sizeof *tables };
+enum { TABLE_COUNT = sizeof tables / sizeof *tables };
 
 int main(int argc, char **argv)
 {
     bool quick = argc == 3 && strcmp(argv[2], "--quick") == 0;
     int t = 0;
-    while (t < TABLES && (argc < 2 || strcmp(argv[1], tables[t].name) != 0))
+    while (t < TABLE_COUNT &&
+           (argc < 2 || strcmp(argv[1], tables[t].name) != 0))
         t++;
-    if (t == TABLES || argc != 2 + quick) {
+    if (t == TABLE_COUNT || argc != 2 + quick) {
         fprintf(stderr, "usage: elasto-bench TABLE [--quick]; tables:");
-        for (t = 0; t < TABLES; t++)
-            fprintf(stderr, " %s (%s)%s", tables[t].name, tables[t].sentence,
-                    t + 1 < TABLES ? "," : "\n");
+        for (t = 0; t < TABLE_COUNT; t++)
+            fprintf(stderr, " %s (%s)%s", tables[t].name, tables[t].description,
+                    t + 1 < TABLE_COUNT ? "," : "\n");
         return 2;
     }
     setvbuf(stdout, NULL, _IOLBF, 0); /* each line is written at once */
@@ -358,7 +365,7 @@ int main(int argc, char **argv)
            ELASTO_VERSION, SUITESPARSE_MAIN_VERSION, SUITESPARSE_SUB_VERSION,
            SUITESPARSE_SUBSUB_VERSION, SDL_MAJOR_VERSION, SDL_MINOR_VERSION,
            SDL_PATCHLEVEL, __VERSION__, BENCH_FLAGS, quick ? "quick" : "full",
-           tables[t].columns);
+           tables[t].heading);
     Status status = tables[t].run(quick);
     if (status)
         fprintf(stderr, "elasto-bench: %s\n", status_text(status));

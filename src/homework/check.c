@@ -27,7 +27,7 @@ enum { TASK_FUNCTIONS };
 
 /* A function of lecture.c with a frequent mistake, a row of mistakes.txt. */
 typedef struct Mistake {
-    int task; /* number of the function */
+    int task_index; /* number of the function */
     TaskFunction *function;
     const char *sentence; /* sentence for the student; NULL ends the table */
 } Mistake;
@@ -45,7 +45,7 @@ int main(int argc, char **argv);
 #undef exit
 
 enum {
-    MAX_SENTENCE = 400,       /* size of a sentence, bytes */
+    MAX_SENTENCE_BYTES = 400, /* size of a sentence, bytes */
     MAX_RESULT_NUMBERS = 400, /* largest count of numbers in a result */
     MAX_NODES = 9,            /* number of nodes of the largest case */
     MAX_UNKNOWNS = 2 * MAX_NODES
@@ -53,10 +53,11 @@ enum {
 
 /* Memory that the process of a check shares with its parent. */
 typedef struct SharedMemory {
-    char case_name[MAX_SENTENCE]; /* name of the case for messages, or "" */
-    char fault[MAX_SENTENCE];     /* description of the fault, or "" */
-    bool finished;                /* the check came to its end */
-    bool must_fail;               /* lecture.c calls FAIL in this case */
+    char case_name[MAX_SENTENCE_BYTES]; /* name of the case for messages, or ""
+                                         */
+    char fault[MAX_SENTENCE_BYTES];     /* description of the fault, or "" */
+    bool is_finished;                   /* the check came to its end */
+    bool must_fail;                     /* lecture.c calls FAIL in this case */
 } SharedMemory;
 static SharedMemory *shared;
 
@@ -65,7 +66,7 @@ static void set_fault(const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(shared->fault, MAX_SENTENCE, format, arguments);
+    vsnprintf(shared->fault, MAX_SENTENCE_BYTES, format, arguments);
     va_end(arguments);
 }
 
@@ -90,13 +91,19 @@ static Vec2 *make_random_points(int n, double size)
 }
 
 /* Meaning of the numbers of a result. */
-typedef enum ResultKind { NUMBER, POINTS, MATRIX, SEARCH, STATE } ResultKind;
+typedef enum ResultKind {
+    RESULT_NUMBER,
+    RESULT_POINTS,
+    RESULT_MATRIX,
+    RESULT_SEARCH,
+    RESULT_STATE
+} ResultKind;
 
 typedef struct Task {
     int index; /* TASK_name of the function, its index in student[] */
     const char *name;
-    TaskFunction *truth;       /* function of lecture.c */
-    ResultKind kind;           /* kind of the result */
+    TaskFunction *lecture_function; /* function of lecture.c */
+    ResultKind result_kind;         /* kind of the result */
     const char *case_names[5]; /* name of each case for messages, then NULL */
     int steps; /* calls of step_forward; only the first call gets a table */
     unsigned needed_tasks; /* bit i: the task calls the function of task i */
@@ -222,15 +229,17 @@ static void store_result(const Task *task, const TaskCase *c, FILE *table,
     size_t bytes = (size_t)c->solid.nodes * sizeof(Vec2);
     for (int r = 0; r < 4 && task->index == TASK_make_psd; r++)
         memcpy(result + r * MAX_UNKNOWNS, c->block[r], sizeof c->block[r]);
-    if (task->index != TASK_make_psd && task->kind == MATRIX)
+    if (task->index != TASK_make_psd && task->result_kind == RESULT_MATRIX)
         store_matrix_entries(c, result);
-    for (int i = 0; i < 2 * c->solid.nodes && task->kind == POINTS; i++)
+    for (int i = 0;
+         i < 2 * c->solid.nodes && task->result_kind == RESULT_POINTS; i++)
         result[i] = (&c->g->x)[i] - (&c->g_before->x)[i];
-    if (task->kind == SEARCH)
+    if (task->result_kind == RESULT_SEARCH)
         memcpy(result + 1, c->x_new, bytes);
-    if (task->kind == SEARCH && memcmp(c->x, c->solid.x, bytes) != 0)
+    if (task->result_kind == RESULT_SEARCH &&
+        memcmp(c->x, c->solid.x, bytes) != 0)
         set_fault("the function changes x; write to x_new only");
-    if (task->kind != STATE)
+    if (task->result_kind != RESULT_STATE)
         return;
     memcpy(result, c->solid.x, bytes);
     memcpy(result + MAX_UNKNOWNS, c->solid.v, bytes);
@@ -290,47 +299,50 @@ static void call_function(const Task *task, int case_number,
 #define TASK(name) TASK_##name, #name, (TaskFunction *)name
 
 static const Task tasks[] = {
-    {TASK(inertia_val), NUMBER, {""}},
-    {TASK(inertia_grad), POINTS, {""}},
-    {TASK(inertia_hess), MATRIX, {""}},
+    {TASK(inertia_val), RESULT_NUMBER, {""}},
+    {TASK(inertia_grad), RESULT_POINTS, {""}},
+    {TASK(inertia_hess), RESULT_MATRIX, {""}},
     {TASK(make_psd),
-     MATRIX,
+     RESULT_MATRIX,
      {"", "with three small negative eigenvalues: ",
       "a matrix without negative eigenvalues has to stay as it is: ",
       "of zeros: "}},
-    {TASK(spring_val), NUMBER, {"", "", ""}},
-    {TASK(spring_grad), POINTS, {"", "", ""}},
-    {TASK(spring_hess), MATRIX, {"", "", ""}, .needed_tasks = BIT(make_psd)},
+    {TASK(spring_val), RESULT_NUMBER, {"", "", ""}},
+    {TASK(spring_grad), RESULT_POINTS, {"", "", ""}},
+    {TASK(spring_hess),
+     RESULT_MATRIX,
+     {"", "", ""},
+     .needed_tasks = BIT(make_psd)},
     {TASK(line_search),
-     SEARCH,
+     RESULT_SEARCH,
      {"along Newton's direction: ", "along a direction that is too long: ",
       "along p = 0, where E stays the same: ", "where no step lowers E: "},
      .needed_tasks = BIT(inertia_val) | BIT(spring_val)},
-    {TASK(residual), NUMBER, {""}},
-    {TASK(step_forward), STATE, {"", ""}, 2, BIT(step_forward) - 1},
+    {TASK(residual), RESULT_NUMBER, {""}},
+    {TASK(step_forward), RESULT_STATE, {"", ""}, 2, BIT(step_forward) - 1},
     {TASK(explicit_euler),
-     STATE,
+     RESULT_STATE,
      {"forward Euler: ", "symplectic Euler: "},
      .needed_tasks = BIT(spring_grad)},
     {TASK_step_forward,
      "twenty steps",
      (TaskFunction *)step_forward,
-     STATE,
+     RESULT_STATE,
      {""},
      20,
      2 * BIT(step_forward) - 1}};
 enum { TASK_COUNT = sizeof tasks / sizeof *tasks };
 
 /* Returns the name of number i of a result, for messages. */
-static const char *name_result_number(ResultKind kind, int i)
+static const char *describe_result_number(ResultKind kind, int i)
 {
     static char text[60];
-    bool v = kind == STATE && i >= MAX_UNKNOWNS;
-    if (kind == NUMBER)
+    bool v = kind == RESULT_STATE && i >= MAX_UNKNOWNS;
+    if (kind == RESULT_NUMBER)
         return "the result";
-    if (kind == SEARCH && i-- == 0)
+    if (kind == RESULT_SEARCH && i-- == 0)
         return "alpha";
-    if (kind == MATRIX)
+    if (kind == RESULT_MATRIX)
         snprintf(text, sizeof text, "the number in row %d, column %d",
                  i / MAX_UNKNOWNS, i % MAX_UNKNOWNS);
     else if (i >= 2 * MAX_UNKNOWNS)
@@ -373,7 +385,7 @@ static const char *find_mistake(const Task *task, int case_number,
 {
     double other[MAX_RESULT_NUMBERS];
     for (const Mistake *mistake = mistakes; mistake->sentence; mistake++)
-        if (mistake->task == task->index &&
+        if (mistake->task_index == task->index &&
             run_function(task, case_number, mistake->function, other) &&
             find_first_difference(yours, other) == MAX_RESULT_NUMBERS)
             return mistake->sentence;
@@ -410,7 +422,7 @@ static void explain_difference(const Task *task, int case_number,
         if (!(fabs(yours[i]) < 1e100)) {
             set_fault("%s is %g: is a variable used before it has a value, or "
                       "does something divide by zero?",
-                      name_result_number(task->kind, i), yours[i]);
+                      describe_result_number(task->result_kind, i), yours[i]);
             return;
         }
     if (first == MAX_RESULT_NUMBERS)
@@ -421,8 +433,8 @@ static void explain_difference(const Task *task, int case_number,
         set_fault("%s", words);
     else
         set_fault("%s is %.9g, and should be %.9g",
-                  name_result_number(task->kind, first), yours[first],
-                  truth[first]);
+                  describe_result_number(task->result_kind, first),
+                  yours[first], truth[first]);
 }
 
 /* Runs the cases of a task up to the first fault.
@@ -434,7 +446,8 @@ static void check_task(const Task *task, int errors)
     dup2(nowhere, STDOUT_FILENO);
     for (int t = 0; task->case_names[t] && !*shared->fault; t++) {
         dup2(nowhere, STDERR_FILENO);
-        shared->must_fail = !run_function(task, t, task->truth, truth);
+        shared->must_fail =
+            !run_function(task, t, task->lecture_function, truth);
         dup2(errors, STDERR_FILENO);
         run_function(task, t, student[task->index], yours);
         if (shared->must_fail)
@@ -474,7 +487,9 @@ static void report_error_output(FILE *errors)
         set_fault("%s", reason);
 }
 
-enum { MAX_SECONDS = 4 }; /* a function that runs longer counts as endless */
+enum {
+    MAX_CHECK_SECONDS = 4
+}; /* a function that runs longer counts as endless */
 
 /* Runs one check in its own process.  The fault is then in `shared`. */
 static void run_check(const Task *task)
@@ -486,9 +501,9 @@ static void run_check(const Task *task)
     if (child < 0)
         FAIL(1, "cannot run a check: %s\n", strerror(errno));
     if (child == 0) {
-        alarm(MAX_SECONDS);
+        alarm(MAX_CHECK_SECONDS);
         check_task(task, fileno(errors));
-        shared->finished = true;
+        shared->is_finished = true;
         _exit(0);
     }
     waitpid(child, &status, 0);
@@ -496,8 +511,8 @@ static void run_check(const Task *task)
         set_fault("the function does not end");
     else if (shared->must_fail && !*shared->fault && WIFEXITED(status) &&
              WEXITSTATUS(status) == 1)
-        shared->finished = true;
-    else if (status != 0 || !shared->finished)
+        shared->is_finished = true;
+    else if (status != 0 || !shared->is_finished)
         report_error_output(errors);
     fclose(errors);
 }
@@ -506,7 +521,7 @@ int main(int argc, char **argv)
 {
     unsigned failed = 0;
     int right = 0;
-    char first[3 * MAX_SENTENCE] = "";
+    char first[3 * MAX_SENTENCE_BYTES] = "";
     FILE *out = fdopen(3, "w");
     if (argc < 2 || !out)
         FAIL(2, "check.sh runs this\n");

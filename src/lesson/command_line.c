@@ -83,18 +83,18 @@ static Status apply_option_numbers(const ArgLine *line, const ArgWord *word)
     Options *options = line->options;
     double number[BODY_OPTION_NUMBERS] = {0};
     double *times = &options->number[row->count_slot];
-    int most = row->count ? row->count : 1, used = 0;
-    bool x_alone = row->needs_any_of == HAS_START &&
+    int most = row->number_count ? row->number_count : 1, used = 0;
+    bool x_alone = row->needs_any_scene_part == HAS_START &&
                    (options->scene->parts & HAS_ONE_COORDINATE);
     int count = x_alone ? 1 : most;
     if ((x_alone && strchr(word->text, ',')) ||
         !option_parse(row, count, word->text, number))
         return refuse_value(line, word, count);
-    if (row->max_times && *times >= row->max_times)
+    if (row->max_repetitions && *times >= row->max_repetitions)
         return refuse(line->message,
                       "--%s: '%.60s' is one too many; at most %d are possible",
-                      row->name, word->text, row->max_times);
-    if (row->max_times)
+                      row->name, word->text, row->max_repetitions);
+    if (row->max_repetitions)
         used = (int)(*times)++;
     memcpy(&options->number[row->slot + used * most], number,
            (size_t)most * sizeof *number);
@@ -146,15 +146,16 @@ static Status check_needed_parts(const Options *options, const OptionRow *row,
                                  Message message)
 {
     const Scene *scene = options->scene;
-    const char *missing = row->needs_any_of & HAS_MESH   ? "square"
-                          : row->needs_any_of & HAS_TIME ? "time steps"
-                          : row->needs_any_of & HAS_TIMESTEP
-                              ? "time step to choose"
-                          : row->needs_any_of & HAS_SPRINGS ? "springs"
-                          : row->needs_any_of & HAS_START   ? "start to choose"
-                          : row->needs_any_of & HAS_BODY    ? "body"
-                                                            : "minimum to find";
-    return !row->needs_any_of || (row->needs_any_of & scene->parts)
+    const char *missing =
+        row->needs_any_scene_part & HAS_MESH       ? "square"
+        : row->needs_any_scene_part & HAS_TIME     ? "time steps"
+        : row->needs_any_scene_part & HAS_TIMESTEP ? "time step to choose"
+        : row->needs_any_scene_part & HAS_SPRINGS  ? "springs"
+        : row->needs_any_scene_part & HAS_START    ? "start to choose"
+        : row->needs_any_scene_part & HAS_BODY     ? "body"
+                                                   : "minimum to find";
+    return !row->needs_any_scene_part ||
+                   (row->needs_any_scene_part & scene->parts)
                ? STATUS_OK
                : refuse(message, "--%s: the scene '%s' has no %s", row->name,
                         scene->name, missing);
@@ -171,8 +172,8 @@ Status options_set(Options *options, const OptionRow *row, const char *text,
     const ArgWord word = {row, text[0] ? text : number, NULL, ""};
     if (!status && text[0])
         status = apply_option_word(&line, &word);
-    else if (!status && (row->count > 1 || !option_allows(row, value)))
-        status = refuse_value(&line, &word, row->count);
+    else if (!status && (row->number_count > 1 || !option_allows(row, value)))
+        status = refuse_value(&line, &word, row->number_count);
     else if (!status)
         options->number[row->slot] = value;
     if (status)
@@ -180,7 +181,7 @@ Status options_set(Options *options, const OptionRow *row, const char *text,
     /* The integrator must allow the new value.  If the value begins a new run,
      * the body must be able to start. */
     bool is_start = row->effect == EFFECT_NEW_RUN &&
-                    (row->needs_any_of & HAS_SQUARE) &&
+                    (row->needs_any_scene_part & HAS_SQUARE) &&
                     (options->scene->parts & HAS_BODY);
     status = body_check_method(options, message);
     return status || !is_start ? status : body_check(options, message);
@@ -205,8 +206,9 @@ static Phrase hint_at_split_value(const ArgWord *before, const char *text)
 /* Refuses an unknown name, the part of a word before '='.
  *   hint   in, end of the message, or ""
  *   where  in, end of the message without a hint: where to look */
-static Status refuse_unknown(const ArgLine *line, const char *what,
-                             const char *word, Phrase hint, const char *where)
+static Status refuse_unknown_name(const ArgLine *line, const char *what,
+                                  const char *word, Phrase hint,
+                                  const char *where)
 {
     int length = (int)fmin(strcspn(word, "="), 60);
     return refuse(line->message, "%s '%.*s'%s", what, length, word,
@@ -229,13 +231,13 @@ static const OptionRow *find_named_option(const ArgLine *line, const char *word)
     if (instead)
         refuse(line->message, "--%s is gone: %s", name, instead);
     else if (!found)
-        refuse_unknown(line, "there is no option", word,
-                       isdigit((unsigned char)name[0])
-                           ? hint_at_split_value(before, name)
-                       : scene_find(name) || strcmp(name, "scene") == 0
-                           ? (Phrase){"; a scene has no dashes: elasto drop"}
-                           : suggest_name(name, "--", NAMES_OF(option_rows)),
-                       "; see elasto --help");
+        refuse_unknown_name(
+            line, "there is no option", word,
+            isdigit((unsigned char)name[0]) ? hint_at_split_value(before, name)
+            : scene_find(name) || strcmp(name, "scene") == 0
+                ? (Phrase){"; a scene has no dashes: elasto drop"}
+                : suggest_name(name, "--", NAMES_OF(option_rows)),
+            "; see elasto --help");
     return found;
 }
 
@@ -298,8 +300,8 @@ static Status refuse_unknown_scene(const ArgLine *line, const ArgWord *word)
         hint = (Phrase){"; an option begins with two signs '-'"};
     else if (!hint.text[0])
         hint = hint_at_split_value(word > line->word ? word - 1 : NULL, text);
-    return refuse_unknown(line, "there is no scene", text, hint,
-                          "; see elasto --list");
+    return refuse_unknown_name(line, "there is no scene", text, hint,
+                               "; see elasto --list");
 }
 
 /* Finds the scene or the page of a line.  Refuses a second scene, a scene
@@ -345,20 +347,20 @@ static Status set_defaults(ArgLine *line)
     for (const OptionRow *row = option_rows; row->name; row++)
         if (row->default_value != 0)
             options->number[row->slot] = row->default_value;
-    Status status = read_text_words(options->scene->args, &own);
+    Status status = read_text_words(options->scene->default_options, &own);
     for (int i = 0; i < own.words && !status; i++)
         status = apply_option_word(&own, &own.word[i]);
     /* --body replaces the scene's body, and with the body its pins */
     if (!find_word(line, "body"))
-        options->pin = options->scene->pin;
+        options->pin = options->scene->default_pin;
     for (const OptionRow *row = option_rows; row->name; row++)
-        if (row->max_times && find_word(line, row->name))
+        if (row->max_repetitions && find_word(line, row->name))
             options->number[row->count_slot] = 0;
     return status;
 }
 
 /* Picks this pane's value from each list; the last list changes fastest. */
-static Status select_values(ArgLine *line, int pane)
+static Status select_pane_values(ArgLine *line, int pane)
 {
     bool is_drawn = !find_word(line, "headless") || find_word(line, "frames") ||
                     find_word(line, "film");
@@ -441,11 +443,12 @@ static Status apply_argument_line(ArgLine *line, int pane)
 {
     Options *options = line->options;
     *options = (Options){.panes = 1};
-    if (find_scene(line) || set_defaults(line) || select_values(line, pane))
+    if (find_scene(line) || set_defaults(line) ||
+        select_pane_values(line, pane))
         return STATUS_INVALID_INPUT;
     for (int i = 0; i < line->words; i++) {
         const OptionRow *row = line->word[i].row;
-        if (row && options->page && row->needs_any_of)
+        if (row && options->page && row->needs_any_scene_part)
             return refuse(line->message,
                           "--%s: a page of --lecture has its own value; change "
                           "it in the window, or leave --lecture out",

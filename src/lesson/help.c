@@ -46,7 +46,7 @@ static void describe_option_row(const OptionRow *row, char *words, size_t size)
     if (is_name && row->default_value >= 0)
         append(words, size, " [%s]",
                names_get(row->names, (int)row->default_value));
-    else if (row->high > row->low && !row->count &&
+    else if (row->high > row->low && !row->number_count &&
              row->default_value >= row->low)
         append(words, size, " [%g]", row->default_value);
 }
@@ -57,7 +57,7 @@ void options_print_help(FILE *help)
                   "number, else square\nscenes:\n");
     for (int i = 0; scenes[i].name; i++)
         fprintf(help, "  %2d %-15s  %s\n", i + 1, scenes[i].name,
-                scenes[i].sentence);
+                scenes[i].description);
     for (const OptionRow *row = option_rows; row->name; row++) {
         char start[80], words[512];
         if (!row->name[0]) {

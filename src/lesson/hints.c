@@ -27,18 +27,20 @@ static bool letters_match(char typed, char letter)
 }
 
 enum {
-    NAME_LETTERS = 24,     /* largest number of letters that are compared */
-    SHORT_NAME_LETTERS = 4 /* longest text whose first letter must fit */
+    MAX_COMPARED_LETTERS = 24, /* largest number of letters that are compared */
+    MAX_SHORT_NAME_LETTERS = 4 /* longest text whose first letter must fit */
 };
 
 /* Number of typing mistakes (Damerau 1964) between a text, of at most
- * NAME_LETTERS, and a name or its beginning, so that "seg" fits segments.  A
- * mistake is a letter too many, missing or wrong, or two letters exchanged. */
+ * MAX_COMPARED_LETTERS, and a name or its beginning, so that "seg" fits
+ * segments.  A mistake is a letter too many, missing or wrong, or two letters
+ * exchanged. */
 static int count_typing_errors(const char *text, const char *name)
 {
     /* [i][j]: mistakes between i letters of the text and j of the name */
-    int least[NAME_LETTERS + 1][NAME_LETTERS + 1];
-    int rows = (int)strlen(text), columns = (int)strnlen(name, NAME_LETTERS);
+    int least[MAX_COMPARED_LETTERS + 1][MAX_COMPARED_LETTERS + 1];
+    int rows = (int)strlen(text),
+        columns = (int)strnlen(name, MAX_COMPARED_LETTERS);
     for (int i = 0; i <= rows; i++)
         for (int j = 0; j <= columns; j++) {
             least[i][j] = i + j;
@@ -97,19 +99,20 @@ static const struct Synonyms {
 };
 
 /* A text of n > 2 letters may have (n + 1)/3 mistakes, rounded down.  A text of
- * at most SHORT_NAME_LETTERS must have the right first letter. */
+ * at most MAX_SHORT_NAME_LETTERS must have the right first letter. */
 Phrase suggest_name(const char *text, const char *dashes, NameTable names)
 {
     Phrase hint = {""};
     const char *name, *meant = NULL;
-    char word[NAME_LETTERS + 3];
+    char word[MAX_COMPARED_LETTERS + 3];
     int letters = (int)strlen(text);
     int fewest = letters > 2 ? (letters + 1) / 3 + 1 : 1;
-    bool is_comparable = letters > 1 && letters <= NAME_LETTERS;
+    bool is_comparable = letters > 1 && letters <= MAX_COMPARED_LETTERS;
     for (int i = 0; is_comparable && (name = names_get(names, i)); i++) {
         int mistakes = count_typing_errors(text, name);
         if (name[0] && mistakes < fewest &&
-            (letters > SHORT_NAME_LETTERS || letters_match(text[0], name[0]))) {
+            (letters > MAX_SHORT_NAME_LETTERS ||
+             letters_match(text[0], name[0]))) {
             fewest = mistakes;
             meant = name;
         }

@@ -61,7 +61,8 @@ function put_word(    part)
         print ".next_action = NEXT_" of_next[text] ","
     else if (word == "code" && split(text, part, " ") >= 3)
         print ".file = " quoted(part[1]) ", .functions = " quoted(part[2]) \
-              ", .lit_code = " quoted(substr(text, length(part[1] part[2]) + 3)) \
+              ", .highlight_text = " \
+              quoted(substr(text, length(part[1] part[2]) + 3)) \
               ", .code = (const char *const[]){" \
               code_of(part[1], part[2]) "NULL}," \
               (part[2] in walk ? ".line_highlight = (const char *const[PAGE_HIGHLIGHT_LENGTH]){" \
@@ -108,8 +109,8 @@ BEGIN {
     numbers["pause"] = "pause_step"
     of_next["shorten"] = "SHORTENS_SPRING"
     of_next["spring"] = "ADDS_SPRING"
-    split("numbers forces modes kinds cuts downhill curves first_step",
-          layer)
+    split("node_numbers forces modes spring_kinds filled_cells downhill " \
+          "zero_curves first_step", layer)
     for (i in layer)
         layers[layer[i]]
 }

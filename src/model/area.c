@@ -33,7 +33,7 @@ void fill_triangle_element(const EvalPoint *at, int t, Element *element)
     element->block_index = t;
     element->derivative_factor = at->weight;
     const int *node = element->node;
-    subtract_node(at->x, node[1], node[2], node[0], element->v);
+    compute_node_differences(at->x, node[1], node[2], node[0], element->v);
 }
 
 /* Solves s + alpha J1 + alpha^2 J2 = (1 - ELEMENT_LIMIT) s for alpha > 0. */

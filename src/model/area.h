@@ -43,8 +43,8 @@ static inline Triangles make_right_triangles(int count, double leg, void *node)
 }
 
 /* Writes the vectors x_i - x_0 and x_j - x_0 of three nodes.  e [4] out. */
-static inline void subtract_node(const double *x, int i, int j, int node_0,
-                                 double e[4])
+static inline void compute_node_differences(const double *x, int i, int j,
+                                            int node_0, double e[4])
 {
     const double *x_0 = x + 2 * node_0;
     for (int c = 0; c < 2; c++) {

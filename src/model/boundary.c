@@ -24,9 +24,9 @@ Status boundary_create(const SquareMesh *mesh, Boundary *boundary)
     boundary->point_node = (int *)(boundary->point_box + nodes);
     boundary->near_list_end = boundary->point_node + nodes;
     boundary->near_edge = boundary->near_list_end + nodes;
-    boundary->triangles_at_spring =
+    boundary->spring_triangle_count =
         (unsigned char *)(boundary->near_edge + NEAR_EDGES_PER_NODE * nodes);
-    boundary->node_role = boundary->triangles_at_spring + springs;
+    boundary->node_role = boundary->spring_triangle_count + springs;
     return STATUS_OK;
 }
 
@@ -40,7 +40,7 @@ enum { IN_A_TRIANGLE = 1, ON_AN_EDGE = 2 };
 static void find_boundary(Boundary *boundary, const System *system)
 {
     const SquareMesh *shape = &boundary->mesh;
-    memset(boundary->triangles_at_spring, 0, (size_t)shape->springs);
+    memset(boundary->spring_triangle_count, 0, (size_t)shape->springs);
     memset(boundary->node_role, 0, (size_t)shape->nodes);
     boundary->point_count = boundary->edge_count = 0;
     for (int c = 0; c < shape->cells; c++) {
@@ -56,11 +56,11 @@ static void find_boundary(Boundary *boundary, const System *system)
         for (int k = other; k < 4; k += 2)
             for (int i = 0; i < 3 && solid >> k & 1; i++) {
                 boundary->node_role[node[k][i]] |= IN_A_TRIANGLE;
-                boundary->triangles_at_spring[side[k][i]]++;
+                boundary->spring_triangle_count[side[k][i]]++;
             }
     }
     for (int s = 0; s < shape->springs; s++) {
-        if (boundary->triangles_at_spring[s] != 1)
+        if (boundary->spring_triangle_count[s] != 1)
             continue;
         boundary->edge_box[boundary->edge_count++].edge_spring = s;
         for (int end = 0; end < 2; end++)

@@ -17,7 +17,7 @@ static bool cell_get_element(const EvalPoint *at, int t, double way,
     const double *k = at->system->k;
     const int *node = cells->triangles.node[t], *side = cells->side_springs[t];
     double e[4], unit = cells->triangles.inverse_J0;
-    subtract_node(at->x, node[1], node[2], node[0], e);
+    compute_node_differences(at->x, node[1], node[2], node[0], e);
     double sides = fabs(e[0]) + fabs(e[1]) + fabs(e[2]) + fabs(e[3]);
     double J = cross(e, e + 2) / (2 * cells->triangles.rest_area);
     if (J >= CELL_J_HAT + unit * way * (sides + way) ||
@@ -75,7 +75,7 @@ static double cell_line_remainder(const EvalPoint *at, const Element *element,
 }
 
 /* Returns the curvature of W at J = J_hat if e1 and e2 have rest length. */
-static double cell_curvature_bound(const EvalPoint *at)
+static double cell_curvature_estimate(const EvalPoint *at)
 {
     const CellBarriers *cells = at->term->data;
     return 2 * cells->c / CELL_J_HAT / CELL_J_HAT / cells->triangles.rest_area;
@@ -98,7 +98,7 @@ const TermKind cell_energy = {
     ELEMENTS(triangle),
     .energy_name = "contact",
     .rank = RANK_CELLS,
-    .curvature_bound = cell_curvature_bound,
+    .curvature_estimate = cell_curvature_estimate,
 };
 
 Status cells_configure(System *system, const SquareMesh *shape,

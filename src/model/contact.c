@@ -48,13 +48,13 @@ bool contact_includes_pair(const Contact *contact, const System *system,
 
 double contact_node_radius(const Contact *contact, int node)
 {
-    if (contact->free_ball < 0)
+    if (contact->free_ball_index < 0)
         return 0;
-    const Obstacle *ball = &contact->obstacle[contact->free_ball];
+    const Obstacle *ball = &contact->obstacle[contact->free_ball_index];
     return ball->node == node ? ball->radius : 0;
 }
 
-static const Barrier *contact_barrier(const EvalPoint *at)
+static const Barrier *get_contact_barrier(const EvalPoint *at)
 {
     return &((const Contact *)at->term->data)->barrier;
 }
@@ -85,7 +85,7 @@ static bool contact_get_element(const EvalPoint *at, int i, double way,
     element->node_count = other->node < 0 ? 1 : 2;
     element->node[0] = element->block_index = node;
     element->node[1] = other->node;
-    element->partner = obstacle;
+    element->partner_index = obstacle;
     element->node_weight = difference;
     element->derivative_factor = 1;
     element->s = gap.d;
@@ -107,9 +107,9 @@ static int get_contact_block_nodes(const EvalPoint *at, int block, int node[3])
 {
     const Contact *contact = get_contact(at->system);
     node[0] = block;
-    if (contact->free_ball < 0)
+    if (contact->free_ball_index < 0)
         return 1;
-    node[1] = contact->obstacle[contact->free_ball].node;
+    node[1] = contact->obstacle[contact->free_ball_index].node;
     if (node[1] == block)
         node[1] += block > 0 ? -1 : 1;
     return 2;
@@ -117,7 +117,7 @@ static int get_contact_block_nodes(const EvalPoint *at, int block, int node[3])
 
 static double contact_value(const EvalPoint *at, const Element *element)
 {
-    const Barrier *barrier = contact_barrier(at);
+    const Barrier *barrier = get_contact_barrier(at);
     return barrier->c * barrier_value(element->s / barrier->d_hat);
 }
 
@@ -126,7 +126,7 @@ static void contact_gradient(const EvalPoint *at, const Element *element,
                              double g[4])
 {
     double factor =
-        -at->weight * contact_normal_force(contact_barrier(at), element->s);
+        -at->weight * contact_normal_force(get_contact_barrier(at), element->s);
     g[0] = factor * element->n[0];
     g[1] = factor * element->n[1];
 }
@@ -136,7 +136,7 @@ static void contact_gradient(const EvalPoint *at, const Element *element,
 static bool contact_hessian(const EvalPoint *at, const Element *element,
                             Projection projection, double H[4][4])
 {
-    const Barrier *barrier = contact_barrier(at);
+    const Barrier *barrier = get_contact_barrier(at);
     const double *n = element->n;
     double along = barrier->c / (barrier->d_hat * barrier->d_hat) *
                    barrier_curvature(element->s / barrier->d_hat);
@@ -176,7 +176,7 @@ static double contact_line_remainder(const EvalPoint *at,
                                      const Element *element, const double P[4],
                                      double alpha)
 {
-    const Barrier *barrier = contact_barrier(at);
+    const Barrier *barrier = get_contact_barrier(at);
     const double *n = element->n, p0 = alpha * P[0], p1 = alpha * P[1];
     double pn = n[0] * p0 + n[1] * p1, k = 0;
     double s = element->s / barrier->d_hat;
@@ -191,9 +191,9 @@ static double contact_line_remainder(const EvalPoint *at,
 }
 
 /* Returns the curvature at the start of the barrier, 2 c/d_hat^2. */
-static double contact_curvature_bound(const EvalPoint *at)
+static double contact_curvature_estimate(const EvalPoint *at)
 {
-    const Barrier *barrier = contact_barrier(at);
+    const Barrier *barrier = get_contact_barrier(at);
     return 2 * barrier->c / barrier->d_hat / barrier->d_hat;
 }
 
@@ -202,7 +202,7 @@ static double contact_friction_limit(const EvalPoint *at,
                                      double *speed)
 {
     const Contact *contact = at->term->data;
-    const Obstacle *obstacle = &contact->obstacle[element->partner];
+    const Obstacle *obstacle = &contact->obstacle[element->partner_index];
     t[0] = -element->n[1];
     t[1] = element->n[0];
     *speed = t[0] * obstacle->v[0] + t[1] * obstacle->v[1];
@@ -228,7 +228,7 @@ const TermKind contact_energy = {
     ELEMENTS(pairs),
     .energy_name = "contact",
     .rank = RANK_CONTACT,
-    .curvature_bound = contact_curvature_bound,
+    .curvature_estimate = contact_curvature_estimate,
     .is_external = true,
 };
 
@@ -245,10 +245,10 @@ Status contact_configure(System *system, const Barrier *barrier, int obstacles,
         return STATUS_OUT_OF_MEMORY;
     contact->barrier = *barrier;
     contact->obstacle_count = obstacles;
-    contact->free_ball = -1;
+    contact->free_ball_index = -1;
     memcpy(contact->obstacle, obstacle, (size_t)obstacles * sizeof *obstacle);
     for (int k = 0; k < obstacles; k++)
         if (obstacle[k].node >= 0)
-            contact->free_ball = k;
+            contact->free_ball_index = k;
     return STATUS_OK;
 }

@@ -10,8 +10,8 @@ ElementIterator elements_begin(const EvalPoint *at, const double *p,
     double most = 0;
     for (int i = 0; p && i < 2 * at->system->nodes; i++)
         most = fabs(p[i]) > most ? fabs(p[i]) : most;
-    if (kind->prepare)
-        kind->prepare(at, p, alpha);
+    if (kind->find_elements)
+        kind->find_elements(at, p, alpha);
     /* The change of a is alpha |sum w_k p_k|: sum |w_k| is at most 2, and |p_k|
      * at most 1.5 times its larger coordinate. */
     double way = 3 * alpha * most;
@@ -21,8 +21,8 @@ ElementIterator elements_begin(const EvalPoint *at, const double *p,
 bool elements_next(ElementIterator *walk)
 {
     while (walk->element.search_cursor > 0 || ++walk->i < walk->element_count)
-        if (walk->kind->get_element(walk->point, walk->i, walk->motion_bound,
-                                    &walk->element))
+        if (walk->kind->get_element(walk->eval_point, walk->i,
+                                    walk->motion_bound, &walk->element))
             return true;
     return false;
 }
@@ -30,8 +30,8 @@ bool elements_next(ElementIterator *walk)
 /* Adds factor times g, a vector of an element, to out, a vector of all nodes.
  *   g    [4] in, gradient or Hessian product in the element's vectors a and b
  *   out  [2n] in/out, gradient or Hessian product in the nodes' positions */
-static void element_add_vector(const Element *element, double factor,
-                               const double g[4], double *out)
+static void element_assemble_vector(const Element *element, double factor,
+                                    const double g[4], double *out)
 {
     for (int i = 0; i < 2 * element->node_count; i++) {
         double sum = 0;
@@ -56,15 +56,15 @@ void elements_gradient(const EvalPoint *at, double *g)
     for (ElementIterator walk = elements_begin(at, NULL, 0);
          elements_next(&walk);) {
         walk.kind->gradient(at, &walk.element, own);
-        element_add_vector(&walk.element, walk.element.derivative_factor, own,
-                           g);
+        element_assemble_vector(&walk.element, walk.element.derivative_factor,
+                                own, g);
     }
 }
 
 /* Number of 2x2 parts of a block of 3 nodes, and the two nodes of each part. */
-enum { NODE_PAIRS = 6 };
-static const int part[NODE_PAIRS][2] = {{0, 0}, {1, 1}, {2, 2},
-                                        {0, 1}, {0, 2}, {1, 2}};
+enum { NODE_PAIR_COUNT = 6 };
+static const int part[NODE_PAIR_COUNT][2] = {{0, 0}, {1, 1}, {2, 2},
+                                             {0, 1}, {0, 2}, {1, 2}};
 
 /* Returns the number of triplets of a block, the same for every block. */
 static int count_block_entries(const EvalPoint *at)
@@ -79,7 +79,7 @@ void elements_add_triplets(const EvalPoint *at, Triplets *triplets)
     int node[3], blocks = kind->count_blocks(at);
     for (int b = 0; b < blocks; b++) {
         int nodes = kind->get_block_nodes(at, b, node);
-        for (int i = 0; i < NODE_PAIRS; i++)
+        for (int i = 0; i < NODE_PAIR_COUNT; i++)
             if (part[i][1] < nodes)
                 add_block_triplets(at->system, node[part[i][0]],
                                    node[part[i][1]], triplets);
@@ -93,7 +93,7 @@ static inline void element_add_hessian(const Element *element, int vectors,
                                        double H[4][4], const int *slot,
                                        double *out)
 {
-    for (int i = 0; i < NODE_PAIRS; i++) {
+    for (int i = 0; i < NODE_PAIR_COUNT; i++) {
         int k = part[i][0], l = part[i][1];
         if (l >= element->node_count)
             continue;
@@ -113,23 +113,24 @@ static inline void element_add_hessian(const Element *element, int vectors,
 }
 
 /* Adds the product of an element's Hessian with q [2n] to out [2n]. */
-static bool add_hessian_q(const ElementIterator *walk, Projection projection,
-                          const double *q, double *out)
+static bool element_add_hessian_product(const ElementIterator *walk,
+                                        Projection projection, const double *q,
+                                        double *out)
 {
     const Element *element = &walk->element;
     double H[4][4], v[4], Hv[4] = {0};
     bool changed;
     element_compute_weighted_sums(element, q, v);
     if (walk->kind->apply_hessian) {
-        changed =
-            walk->kind->apply_hessian(walk->point, element, projection, v, Hv);
+        changed = walk->kind->apply_hessian(walk->eval_point, element,
+                                            projection, v, Hv);
     } else {
-        changed = walk->kind->hessian(walk->point, element, projection, H);
+        changed = walk->kind->hessian(walk->eval_point, element, projection, H);
         for (int r = 0; r < 2 * element->vector_count; r++)
             for (int c = 0; c < 2 * element->vector_count; c++)
                 Hv[r] += H[r][c] * v[c];
     }
-    element_add_vector(element, element->derivative_factor, Hv, out);
+    element_assemble_vector(element, element->derivative_factor, Hv, out);
     return changed;
 }
 
@@ -142,7 +143,7 @@ int elements_hessian(const EvalPoint *at, Projection projection,
          elements_next(&walk);) {
         const Element *element = &walk.element;
         if (q) {
-            projected += add_hessian_q(&walk, projection, q, out);
+            projected += element_add_hessian_product(&walk, projection, q, out);
             continue;
         }
         projected += walk.kind->hessian(at, element, projection, H);

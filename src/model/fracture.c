@@ -18,7 +18,7 @@ double fracture_strength(const Fracture *fracture, int s)
     z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
     z ^= z >> 31;
     double scatter = (double)(z >> 11) * 0x1p-52 - 1;
-    return fracture->strength * (1 + SCATTER * scatter);
+    return fracture->mean_strength * (1 + SCATTER * scatter);
 }
 
 /* Orders candidates for qsort: largest load first, equal loads by spring. */
@@ -41,9 +41,10 @@ static int find_overloaded_springs(Fracture *fracture, const System *system,
         double strain = spring_strain(d2, system->l2[s]);
         double load = strain / fracture_strength(fracture, s);
         if (load > 1 && !spring_is_broken(system, s))
-            fracture->overload[count++] = (SpringLoad){load, s};
+            fracture->candidate[count++] = (SpringLoad){load, s};
     }
-    qsort(fracture->overload, (size_t)count, sizeof(SpringLoad), compare_loads);
+    qsort(fracture->candidate, (size_t)count, sizeof(SpringLoad),
+          compare_loads);
     return count;
 }
 
@@ -59,7 +60,7 @@ static void fracture_end_step(const TermStep *step)
     double energy = system_potential(system, step->x);
     memset(fracture->has_new_break, 0, (size_t)system->nodes);
     for (int k = 0; k < count; k++) {
-        int s = fracture->overload[k].spring;
+        int s = fracture->candidate[k].spring;
         unsigned char *i = &fracture->has_new_break[system->e[2 * s]];
         unsigned char *j = &fracture->has_new_break[system->e[2 * s + 1]];
         if (*i || *j)
@@ -79,13 +80,13 @@ static Status fracture_configure(System *system, const struct SquareMesh *mesh,
     (void)mesh;
     Fracture *data =
         system_add_term(system, &fracture,
-                        sizeof *data + springs * sizeof *data->overload +
+                        sizeof *data + springs * sizeof *data->candidate +
                             (size_t)system->nodes);
     if (!data)
         return STATUS_OUT_OF_MEMORY;
-    data->strength = number[0];
-    data->overload = (SpringLoad *)(data + 1);
-    data->has_new_break = (unsigned char *)(data->overload + springs);
+    data->mean_strength = number[0];
+    data->candidate = (SpringLoad *)(data + 1);
+    data->has_new_break = (unsigned char *)(data->candidate + springs);
     return STATUS_OK;
 }
 

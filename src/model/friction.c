@@ -120,14 +120,14 @@ static void friction_end_step(const TermStep *step)
     }
 }
 
-static const Friction *friction_data(const EvalPoint *at)
+static const Friction *get_friction_data(const EvalPoint *at)
 {
     return at->term->data;
 }
 
-static int count_slips(const EvalPoint *at)
+static int count_sliding_contacts(const EvalPoint *at)
 {
-    return friction_data(at)->contact_count;
+    return get_friction_data(at)->contact_count;
 }
 
 /* Element i is contact i; Element.s is the slip y (m).  Returns false outside a
@@ -135,7 +135,7 @@ static int count_slips(const EvalPoint *at)
 static bool slip_get_element(const EvalPoint *at, int i, double way,
                              Element *element)
 {
-    const SlidingContact *contact = &friction_data(at)->contact[i];
+    const SlidingContact *contact = &get_friction_data(at)->contact[i];
     (void)way;
     if (!at->u)
         return false;
@@ -159,14 +159,14 @@ static int get_slip_block_nodes(const EvalPoint *at, int block, int node[3])
 
 static double slip_value(const EvalPoint *at, const Element *element)
 {
-    return element->r * friction_value(element->s, friction_data(at)->e);
+    return element->r * friction_value(element->s, get_friction_data(at)->e);
 }
 
 static void slip_gradient(const EvalPoint *at, const Element *element,
                           double g[4])
 {
     double force = at->weight * element->r *
-                   friction_slope(element->s, friction_data(at)->e);
+                   friction_slope(element->s, get_friction_data(at)->e);
     for (int i = 0; i < 4; i++)
         g[i] = force * element->v[i];
 }
@@ -176,7 +176,7 @@ static bool slip_hessian(const EvalPoint *at, const Element *element,
                          Projection projection, double H[4][4])
 {
     double bend = at->weight * element->r *
-                  friction_curvature(element->s, friction_data(at)->e);
+                  friction_curvature(element->s, get_friction_data(at)->e);
     (void)projection;
     for (int i = 0; i < 4; i++)
         for (int k = i; k < 4; k++)
@@ -190,11 +190,11 @@ static double slip_line_remainder(const EvalPoint *at, const Element *element,
     return element->r *
            friction_taylor_remainder(element->s,
                                      alpha * tangential_component(element, P),
-                                     friction_data(at)->e);
+                                     get_friction_data(at)->e);
 }
 
 static const ElementKind slips = {
-    .count_elements = count_slips,
+    .count_elements = count_sliding_contacts,
     .get_element = slip_get_element,
     .get_block_nodes = get_slip_block_nodes,
     .value = slip_value,
@@ -208,7 +208,7 @@ static const ElementKind slips = {
 #define FRICTION                                                               \
     ELEMENTS(slips), .loss_name = "friction", .rank = RANK_FRICTION,           \
                      .begin_step = friction_begin_step,                        \
-                     .end_step = friction_end_step, .depends_on_start = true
+                     .end_step = friction_end_step, .depends_on_x_n = true
 
 const TermKind friction_energy = {FRICTION, .name = "friction",
                                   .is_external = true};

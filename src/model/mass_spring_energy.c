@@ -19,8 +19,8 @@ static void mass_spring_gradient(const EvalPoint *at, double *g)
         const int *e = system->e + 2 * i;
         double d[2], d2 = spring_vector(e, at->x, d);
         double s = spring_strain(d2, at->l2[i]);
-        spring_add_force(e, spring_gradient_factor(at->weight * at->k[i], s), d,
-                         g);
+        spring_add_gradient(e, spring_gradient_factor(at->weight * at->k[i], s),
+                            d, g);
     }
 }
 
@@ -69,7 +69,7 @@ void mass_spring_add_triplets(const EvalPoint *at, Triplets *triplets)
     }
 }
 
-double mass_spring_curvature_bound(const EvalPoint *at)
+double mass_spring_curvature_estimate(const EvalPoint *at)
 {
     double most = 0;
     for (int s = 0; s < at->system->springs; s++)
@@ -84,6 +84,6 @@ const TermKind mass_spring_energy = {
     .add_triplets = mass_spring_add_triplets,
     .hessian = mass_spring_hessian,
     .line_polynomial = mass_spring_line_polynomial,
-    .curvature_bound = mass_spring_curvature_bound,
+    .curvature_estimate = mass_spring_curvature_estimate,
     .supports_all_integrators = true,
 };

@@ -44,21 +44,22 @@ static double neo_hookean_value(const EvalPoint *at, const Element *element)
 }
 
 /* Writes the factors of F+ and F- in the stress dW/dF/A0. */
-static void compute_stresses(const NeoHookean *data, double J, double *on_plus,
-                             double *on_minus)
+static void compute_stress_factors(const NeoHookean *data, double J,
+                                   double *on_plus, double *on_minus)
 {
     *on_plus = (data->mu * (J - 1) + data->lambda * math_log(J)) / J;
     *on_minus = 2 * data->mu - *on_plus;
 }
 
 /* Writes the gradient by dW/dF/A0 = on_plus F+ + on_minus F-
- * (compute_stresses), a form with small rounding errors (neo_hookean.h). */
+ * (compute_stress_factors), a form with small rounding errors (neo_hookean.h).
+ */
 static void neo_hookean_gradient(const EvalPoint *at, const Element *element,
                                  double g[4])
 {
     double plus[2], minus[2], p, q;
     area_split_edges(element->v, plus, minus);
-    compute_stresses(at->term->data, element->s, &p, &q);
+    compute_stress_factors(at->term->data, element->s, &p, &q);
     g[0] = 0.5 * (p * plus[0] + q * minus[0]);
     g[1] = 0.5 * (p * plus[1] + q * minus[1]);
     g[2] = 0.5 * (q * minus[1] - p * plus[1]);
@@ -72,7 +73,7 @@ static bool project_hessian(const EvalPoint *at, const Element *element,
     const NeoHookean *data = at->term->data;
     double J = element->s, p, q;
     double bend = (data->lambda * (1 - math_log(J)) + data->mu) / (J * J);
-    compute_stresses(data, J, &p, &q);
+    compute_stress_factors(data, J, &p, &q);
     return area_project_hessian(element->v, data->triangles.inverse_J0, 0.5 * p,
                                 0.5 * q, data->triangles.rest_area * bend,
                                 projection, area);
@@ -123,7 +124,7 @@ static double neo_hookean_line_remainder(const EvalPoint *at,
 
 /* Returns a bound of the curvature at rest, F = I, where W/A0 has the Hessian
  * mu (I - K) + (lambda + mu) f f^T in F; K and f are those of area.h. */
-static double neo_hookean_curvature_bound(const EvalPoint *at)
+static double neo_hookean_curvature_estimate(const EvalPoint *at)
 {
     const NeoHookean *data = at->term->data;
     return 8 * data->mu + 4 * data->lambda;
@@ -179,5 +180,5 @@ const TermKind neo_hookean_energy = {
     .name = "triangles",
     .configure = neo_hookean_configure,
     .energy_name = "elastic",
-    .curvature_bound = neo_hookean_curvature_bound,
+    .curvature_estimate = neo_hookean_curvature_estimate,
 };

@@ -54,8 +54,9 @@ double flow_law_eigenvalue_along(FlowLaw law, double e, double d2,
 static inline FlowLaw make_flow_law(const Plasticity *data, int s)
 {
     double H = data->hardening, flow = 1 / (1 + H);
-    return (FlowLaw){.ep = data->ep[s],
-                     .yield_strain = data->yield_strain + H * data->kappa[s],
+    return (FlowLaw){.ep_n = data->ep[s],
+                     .yield_strain =
+                         data->initial_yield_strain + H * data->kappa[s],
                      .flow_fraction = flow,
                      .plastic_slope = 1 - flow};
 }
@@ -72,7 +73,7 @@ typedef struct FlowSpring {
     const int *e;           /* nodes of the spring */
     double k, l2;           /* stiffness (J/m^2), squared rest length (m^2) */
     double d[2], d_squared; /* x_i - x_j (m), |d|^2 (m^2) */
-    double strain;          /* elastic strain, E - ep */
+    double elastic_strain;  /* elastic strain, E - ep */
     FlowLaw law;
 } FlowSpring;
 
@@ -84,9 +85,10 @@ static inline FlowSpring evaluate_flow_spring(const EvalPoint *at, int s)
                          .l2 = at->system->l2[s],
                          .law = make_flow_law(at->term->data, s)};
     spring.law.theta = damping ? damping->theta : 0;
-    spring.law.e_n = damping ? damping->E_n[s] - spring.law.ep : 0;
+    spring.law.e_n = damping ? damping->E_n[s] - spring.law.ep_n : 0;
     spring.d_squared = spring_vector(spring.e, at->x, spring.d);
-    spring.strain = spring_strain(spring.d_squared, spring.l2) - spring.law.ep;
+    spring.elastic_strain =
+        spring_strain(spring.d_squared, spring.l2) - spring.law.ep_n;
     return spring;
 }
 
@@ -98,7 +100,7 @@ static double plastic_value(const EvalPoint *at)
         FlowSpring spring = evaluate_flow_spring(at, s);
         double kappa = data->kappa[s];
         sum += spring.k * spring.l2 *
-               (flow_law_value(spring.law, spring.strain) +
+               (flow_law_value(spring.law, spring.elastic_strain) +
                 0.5 * data->hardening * kappa * kappa);
     }
     return sum;
@@ -110,10 +112,11 @@ static void plastic_gradient(const EvalPoint *at, double *g)
 {
     for (int s = 0; s < at->system->springs; s++) {
         FlowSpring spring = evaluate_flow_spring(at, s);
-        spring_add_force(
+        spring_add_gradient(
             spring.e,
-            spring_gradient_factor(at->weight * spring.k,
-                                   flow_law_slope(spring.law, spring.strain)),
+            spring_gradient_factor(
+                at->weight * spring.k,
+                flow_law_slope(spring.law, spring.elastic_strain)),
             spring.d, g);
     }
 }
@@ -127,9 +130,10 @@ static int plastic_hessian(const EvalPoint *at, Projection projection,
         const double *d = spring.d, d2 = spring.d_squared;
         double k = at->weight * spring.k,
                factor = spring_hessian_factor(spring.l2, k);
-        double across = spring.l2 * flow_law_slope(spring.law, spring.strain);
-        double along =
-            flow_law_eigenvalue_along(spring.law, spring.strain, d2, across);
+        double across =
+            spring.l2 * flow_law_slope(spring.law, spring.elastic_strain);
+        double along = flow_law_eigenvalue_along(
+            spring.law, spring.elastic_strain, d2, across);
         projected +=
             spring_project_eigenvalues(projection, &along, &across) && k > 0;
         double difference = d2 > 0 ? (along - across) / d2 : 0;
@@ -161,7 +165,7 @@ static void plastic_line_polynomial(const EvalPoint *at, const double *p,
         FlowSpring spring = evaluate_flow_spring(at, s);
         compute_strain_polynomial(&spring, p, &B, &C);
         q[0] += at->weight * spring.k * spring.l2 *
-                flow_law_slope(spring.law, spring.strain) * C;
+                flow_law_slope(spring.law, spring.elastic_strain) * C;
     }
 }
 
@@ -177,7 +181,7 @@ static double plastic_line_remainder(const EvalPoint *at, const double *p,
         FlowLaw law = spring.law;
         compute_strain_polynomial(&spring, p, &B, &C);
         double t = alpha * (B + alpha * C), way = fabs(t);
-        double start = copysign(1, t) * spring.strain;
+        double start = copysign(1, t) * spring.elastic_strain;
         double from = -law.yield_strain - start, to = law.yield_strain - start;
         from = from > 0 ? from : 0;
         to = to < way ? to : way;
@@ -201,13 +205,14 @@ static void plastic_end_step(const TermStep *step)
     for (int s = 0; s < system->springs; s++) {
         FlowSpring spring = evaluate_flow_spring(&at, s);
         double gamma = spring.law.flow_fraction *
-                       strain_beyond_yield(spring.law, spring.strain);
+                       strain_beyond_yield(spring.law, spring.elastic_strain);
         if (!(gamma > 0) || spring_is_broken(system, s))
             continue;
-        data->ep[s] += copysign(gamma, spring.strain);
+        data->ep[s] += copysign(gamma, spring.elastic_strain);
         data->kappa[s] += gamma;
         system_book_loss(system, &plastic_energy,
-                         spring.k * spring.l2 * data->yield_strain * gamma);
+                         spring.k * spring.l2 * data->initial_yield_strain *
+                             gamma);
         changed = true;
     }
     if (changed)
@@ -225,7 +230,7 @@ static Status plastic_configure(System *system, const struct SquareMesh *mesh,
         system, &plastic_energy, sizeof *data + 2 * springs * sizeof(double));
     if (!data)
         return STATUS_OUT_OF_MEMORY;
-    data->yield_strain = number[0];
+    data->initial_yield_strain = number[0];
     data->hardening = number[1];
     data->ep = (double *)(data + 1);
     data->kappa = data->ep + springs;
@@ -245,5 +250,5 @@ const TermKind plastic_energy = {
     .line_polynomial = plastic_line_polynomial,
     .line_remainder = plastic_line_remainder,
     .end_step = plastic_end_step,
-    .curvature_bound = mass_spring_curvature_bound,
+    .curvature_estimate = mass_spring_curvature_estimate,
 };

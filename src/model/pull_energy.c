@@ -53,7 +53,7 @@ static void pull_line_polynomial(const EvalPoint *at, const double *p,
         q[0] += 0.5 * at->weight * pull->k * p[i] * p[i];
 }
 
-static double pull_curvature_bound(const EvalPoint *at)
+static double pull_curvature_estimate(const EvalPoint *at)
 {
     const NodePull *pull = at->term->data;
     return fabs(pull->k);
@@ -64,7 +64,8 @@ static double pull_curvature_bound(const EvalPoint *at)
     .value = pull_value, .gradient = pull_gradient, .hessian = pull_hessian,   \
     .add_triplets = pull_add_triplets, .is_diagonal = true,                    \
     .line_polynomial = pull_line_polynomial, .is_external = true,              \
-    .curvature_bound = pull_curvature_bound, .supports_all_integrators = true
+    .curvature_estimate = pull_curvature_estimate,                             \
+    .supports_all_integrators = true
 
 const TermKind central_field = {PULL, .energy_name = "elastic"};
 const TermKind hand_energy = {PULL, .rank = RANK_HAND};

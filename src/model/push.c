@@ -23,8 +23,8 @@ static const double KEPT = 0.3;
 enum { MAX_HALVINGS = 8, MAX_PATH_PARTS = 16 };
 
 /* Writes the displacement in a step of h seconds if nothing is in the way. */
-static void plan_obstacle_path(const ObstaclePush *push, const double *o,
-                               double h, double way[2])
+static void compute_desired_motion(const ObstaclePush *push, const double *o,
+                                   double h, double way[2])
 {
     double side = push->mesh.side;
     double d[2] = {push->target[0] - o[0], push->target[1] - o[1]};
@@ -40,7 +40,7 @@ static void plan_obstacle_path(const ObstaclePush *push, const double *o,
 static bool obstacle_is_pressed(const Contact *contact, const System *system,
                                 const double *x, const double way[2])
 {
-    int k = contact->hand.obstacle;
+    int k = contact->hand.obstacle_index;
     const Obstacle *obstacle = &contact->obstacle[k];
     for (int i = 0; i < system->nodes; i++) {
         NodeGap gap = contact_measure_gap(obstacle, obstacle->o, x + 2 * i,
@@ -59,7 +59,7 @@ static bool obstacle_is_pressed(const Contact *contact, const System *system,
 static bool obstacle_has_room(const Contact *contact, const System *system,
                               const double *x, const double o[2])
 {
-    int k = contact->hand.obstacle;
+    int k = contact->hand.obstacle_index;
     const Obstacle *obstacle = &contact->obstacle[k];
     const double keep = KEPT * contact->barrier.d_hat;
     for (int i = 0; i < system->nodes; i++) {
@@ -82,7 +82,7 @@ static bool obstacle_has_room(const Contact *contact, const System *system,
 static double find_free_fraction(const Contact *contact, const System *system,
                                  const double *x, const double way[2])
 {
-    const Obstacle *obstacle = &contact->obstacle[contact->hand.obstacle];
+    const Obstacle *obstacle = &contact->obstacle[contact->hand.obstacle_index];
     double length = math_hypot(way[0], way[1]), free = 0, step = 1;
     if (obstacle->kind == OBSTACLE_BALL)
         step = fmin(fmax(0.5 * obstacle->radius / length, 1.0 / MAX_PATH_PARTS),
@@ -108,11 +108,12 @@ void push_begin_step(Contact *contact, const System *system, const double *x,
     double way[2];
     push->is_blocked = false;
     push->moving_fraction = 0;
-    push->is_held = push->is_held && push->obstacle < contact->obstacle_count;
+    push->is_held =
+        push->is_held && push->obstacle_index < contact->obstacle_count;
     if (!push->is_held)
         return;
-    Obstacle *obstacle = &contact->obstacle[push->obstacle];
-    plan_obstacle_path(push, obstacle->o, h, way);
+    Obstacle *obstacle = &contact->obstacle[push->obstacle_index];
+    compute_desired_motion(push, obstacle->o, h, way);
     double part = obstacle_is_pressed(contact, system, x, way)
                       ? 0
                       : find_free_fraction(contact, system, x, way);
@@ -120,9 +121,9 @@ void push_begin_step(Contact *contact, const System *system, const double *x,
         obstacle->v[c] = part * way[c] / h;
 }
 
-double push_max_fraction(const Contact *contact, double h)
+double push_max_step_fraction(const Contact *contact, double h)
 {
-    const Obstacle *obstacle = &contact->obstacle[contact->hand.obstacle];
+    const Obstacle *obstacle = &contact->obstacle[contact->hand.obstacle_index];
     double length = h * math_hypot(obstacle->v[0], obstacle->v[1]);
     return obstacle->kind == OBSTACLE_BALL && length > 0
                ? 0.5 * obstacle->radius / length

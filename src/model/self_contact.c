@@ -24,7 +24,8 @@ static double dot2(const double a[2], const double b[2])
 static int compare_pairs(const void *one, const void *other)
 {
     const PointEdgePair *a = one, *b = other;
-    return a->node != b->node ? a->node - b->node : a->edge - b->edge;
+    return a->node != b->node ? a->node - b->node
+                              : a->edge_spring - b->edge_spring;
 }
 
 /* Returns the index of the pair's block in the Hessian; -1: no block. */
@@ -95,8 +96,9 @@ static Status self_contact_extend_pattern(const EvalPoint *at, bool *grown)
          !status && elements_next(&walk);)
         if (walk.element.block_index < 0) {
             *grown = true;
-            status = add_pair(self, (PointEdgePair){walk.element.node[0],
-                                                    walk.element.partner});
+            status =
+                add_pair(self, (PointEdgePair){walk.element.node[0],
+                                               walk.element.partner_index});
         }
     return status;
 }
@@ -109,8 +111,8 @@ static int count_pair_blocks(const EvalPoint *at)
 static int get_pair_nodes(const System *system, PointEdgePair pair, int node[3])
 {
     node[0] = pair.node;
-    node[1] = system->e[2 * pair.edge];
-    node[2] = system->e[2 * pair.edge + 1];
+    node[1] = system->e[2 * pair.edge_spring];
+    node[2] = system->e[2 * pair.edge_spring + 1];
     return 3;
 }
 
@@ -188,9 +190,9 @@ static bool pair_get_element(const EvalPoint *at, int i, double way,
         element->node_count = get_pair_nodes(at->system, pair, element->node);
         element->node_weight = differences;
         element->derivative_factor = at->weight;
-        element->partner = edge;
-        subtract_node(at->x, element->node[0], element->node[2],
-                      element->node[1], element->v);
+        element->partner_index = edge;
+        compute_node_differences(at->x, element->node[0], element->node[2],
+                                 element->node[1], element->v);
         set_point_edge_distance(self, element);
         if (!boundary->is_swept && element->s >= 1)
             continue;
@@ -355,7 +357,7 @@ static const ElementKind near_pairs = {
     .hessian = pair_hessian,
     .line_remainder = pair_line_remainder,
     .count_blocks = count_pair_blocks,
-    .prepare = gather_near_edges,
+    .find_elements = gather_near_edges,
     .max_step = pair_max_step,
     .friction_limit = pair_friction_limit,
 };
@@ -363,7 +365,7 @@ static const ElementKind near_pairs = {
 /* ---- the term ----------------------------------------------------------- */
 
 /* Returns the largest eigenvalue of W's Hessian at d = d_hat, 16 c/d_hat^2. */
-static double pair_curvature_bound(const EvalPoint *at)
+static double pair_curvature_estimate(const EvalPoint *at)
 {
     const SelfContact *self = self_contact_data(at);
     return 16 * self->c / (self->d_hat * self->d_hat);
@@ -383,7 +385,7 @@ const TermKind self_contact_energy = {
     .rank = RANK_CONTACT,
     .begin_step = self_contact_begin_step,
     .extend_pattern = self_contact_extend_pattern,
-    .curvature_bound = pair_curvature_bound,
+    .curvature_estimate = pair_curvature_estimate,
     .free = self_contact_free,
 };
 

@@ -6,7 +6,7 @@
 SquareMesh square_mesh_create(int columns, int rows, double side, int bodies)
 {
     int springs = columns * (rows + 1) + rows * (columns + 1);
-    return (SquareMesh){.segments = columns,
+    return (SquareMesh){.columns = columns,
                         .rows = rows,
                         .bodies = bodies,
                         .side = side,
@@ -14,7 +14,7 @@ SquareMesh square_mesh_create(int columns, int rows, double side, int bodies)
                         .nodes = bodies * (columns + 1) * (rows + 1),
                         .springs = bodies * (springs + 2 * columns * rows),
                         .cells = bodies * columns * rows,
-                        .outline_edges = bodies * 2 * (columns + rows)};
+                        .outline_edge_count = bodies * 2 * (columns + rows)};
 }
 
 /* Returns the body of node, cell or edge i; i becomes its number in the body.
@@ -44,7 +44,7 @@ void square_mesh_rest_position(const SquareMesh *shape, int i, double x[2])
     split_body_and_index(shape, shape->nodes, &i);
     double step = shape->spacing;
     double high =
-        shape->rows == shape->segments ? shape->side : shape->rows * step;
+        shape->rows == shape->columns ? shape->side : shape->rows * step;
     x[0] = -shape->side / 2 + i / stride * step;
     x[1] = -high / 2 + i % stride * step;
 }
@@ -54,14 +54,14 @@ int square_mesh_get_node_sides(const SquareMesh *shape, int i)
     split_body_and_index(shape, shape->nodes, &i);
     int stride = find_node(shape, 1, 0), column = i / stride, row = i % stride;
     return (column == 0 ? MESH_LEFT : 0) |
-           (column == shape->segments ? MESH_RIGHT : 0) |
+           (column == shape->columns ? MESH_RIGHT : 0) |
            (row == 0 ? MESH_BOTTOM : 0) | (row == shape->rows ? MESH_TOP : 0);
 }
 
 void square_mesh_get_cell(const SquareMesh *shape, int c, int node[4],
                           int spring[6])
 {
-    int columns = shape->segments, rows = shape->rows;
+    int columns = shape->columns, rows = shape->rows;
     square_mesh_get_patch(shape, c, 1, node);
     int first = split_body_and_index(shape, shape->cells, &c);
     first *= shape->springs / shape->bodies;
@@ -106,7 +106,7 @@ int square_mesh_find_cell(const SquareMesh *shape, const double *x,
 bool square_mesh_get_patch(const SquareMesh *shape, int c, int cells,
                            int node[4])
 {
-    int columns = shape->segments, rows = shape->rows;
+    int columns = shape->columns, rows = shape->rows;
     int first = split_body_and_index(shape, shape->cells, &c);
     first *= shape->nodes / shape->bodies;
     int left = c / rows, low = c % rows;
@@ -122,7 +122,7 @@ bool square_mesh_get_patch(const SquareMesh *shape, int c, int cells,
 /* Returns node k of a body's outline, anticlockwise from the lower left. */
 static int get_outline_node(const SquareMesh *shape, int k)
 {
-    int columns = shape->segments, rows = shape->rows;
+    int columns = shape->columns, rows = shape->rows;
     if (k >= columns + rows) /* point reflection of the lower and right sides */
         return find_node(shape, columns, rows) -
                get_outline_node(shape, k - columns - rows);
@@ -132,9 +132,9 @@ static int get_outline_node(const SquareMesh *shape, int k)
 
 void square_mesh_get_outline_edge(const SquareMesh *shape, int k, int node[2])
 {
-    int first = split_body_and_index(shape, shape->outline_edges, &k);
+    int first = split_body_and_index(shape, shape->outline_edge_count, &k);
     first *= shape->nodes / shape->bodies;
-    int next = (k + 1) % (shape->outline_edges / shape->bodies);
+    int next = (k + 1) % (shape->outline_edge_count / shape->bodies);
     node[0] = first + get_outline_node(shape, k);
     node[1] = first + get_outline_node(shape, next);
 }
@@ -144,7 +144,7 @@ void square_mesh_get_outline_edge(const SquareMesh *shape, int k, int node[2])
 static int *list_springs_of_direction(const SquareMesh *shape, int first,
                                       int *e, int right, int up)
 {
-    for (int i = 0; i + right <= shape->segments; i++)
+    for (int i = 0; i + right <= shape->columns; i++)
         for (int j = 0; j + up <= shape->rows; j++) {
             *e++ = first + find_node(shape, i, j);
             *e++ = first + find_node(shape, i + right, j + up);
@@ -159,8 +159,7 @@ void square_mesh_list_springs(const SquareMesh *shape, int *e)
     for (int first = 0; first < shape->nodes; first += each) {
         e = list_springs_of_direction(shape, first, e, 1, 0);
         e = list_springs_of_direction(shape, first, e, 0, 1);
-        for (int end = c + shape->segments * shape->rows; c < end;
-             c++, e += 4) {
+        for (int end = c + shape->columns * shape->rows; c < end; c++, e += 4) {
             square_mesh_get_cell(shape, c, e, spring); /* a b c d */
             const int diagonals[4] = {e[0], e[2], e[1], e[3]};
             memcpy(e, diagonals, sizeof diagonals);
@@ -201,7 +200,7 @@ static int dissect_grid(const SquareMesh *shape, GridRegion part, int next,
 
 void square_mesh_order_nodes(const SquareMesh *shape, int *order)
 {
-    const GridRegion all = {{0, 0}, {shape->segments + 1, shape->rows + 1}};
+    const GridRegion all = {{0, 0}, {shape->columns + 1, shape->rows + 1}};
     for (int next = 0; next < shape->nodes;)
         next = dissect_grid(shape, all, next, order + next);
 }

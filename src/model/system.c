@@ -115,11 +115,11 @@ void system_zero_pinned_entries(const System *system, double *g)
 }
 
 /* Whether P stays the same if the body shifts or, with `turn`, turns. */
-static bool terms_are_internal(const System *system, bool turn)
+static bool terms_are_invariant(const System *system, bool turn)
 {
     for (int t = 0; t < system->term_count; t++) {
         const TermKind *kind = system->term[t].kind;
-        if (kind->is_external || (turn && kind->depends_on_start))
+        if (kind->is_external || (turn && kind->depends_on_x_n))
             return false;
     }
     return true;
@@ -127,7 +127,7 @@ static bool terms_are_internal(const System *system, bool turn)
 
 bool system_falls_freely(const System *system)
 {
-    return terms_are_internal(system, false) &&
+    return terms_are_invariant(system, false) &&
            !memchr(system->pinned, 1, (size_t)system->nodes);
 }
 
@@ -140,7 +140,7 @@ bool system_turns_freely(const System *system, int *pivot)
             pins++;
             *pivot = i;
         }
-    return pins <= 1 && terms_are_internal(system, true);
+    return pins <= 1 && terms_are_invariant(system, true);
 }
 
 void system_acceleration(const System *system, const double *x, double *a)
@@ -157,15 +157,15 @@ void system_acceleration(const System *system, const double *x, double *a)
     system_zero_pinned_entries(system, a);
 }
 
-double system_curvature_bound(const System *system)
+double system_curvature_estimate(const System *system)
 {
     /* An EvalPoint with u is inside a step, where damping stiffens springs. */
     const double u = 0;
     EvalPoint at = make_eval_point(system, NULL, &u, NULL);
     double most = 0;
     for (const TermKind *kind; (kind = eval_point_next_term(&at));)
-        if (kind->curvature_bound)
-            most = max_or_nan(most, kind->curvature_bound(&at));
+        if (kind->curvature_estimate)
+            most = max_or_nan(most, kind->curvature_estimate(&at));
     return most;
 }
 

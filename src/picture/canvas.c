@@ -17,7 +17,8 @@ enum { FIXED_BITS = 16, FIXED_ONE = 1 << FIXED_BITS };
 
 /* Blends two colours: below + (above - below) amount / 256.  Red and blue share
  * a multiplication; masks remove bits that one colour puts into the next. */
-static inline uint32_t blend(uint32_t below, uint32_t above, uint32_t amount)
+static inline uint32_t blend_pixel(uint32_t below, uint32_t above,
+                                   uint32_t amount)
 {
     uint32_t red_blue = below & 0xff00ff, green = below & 0x00ff00;
     red_blue += ((above & 0xff00ff) - red_blue) * amount >> 8;
@@ -34,7 +35,7 @@ static inline uint32_t find_opacity(Colour colour)
 
 Colour colour_mix(Colour one, Colour other, double part)
 {
-    return blend(one, other, (uint32_t)(256 * part));
+    return blend_pixel(one, other, (uint32_t)(256 * part));
 }
 
 Status canvas_create(int width, int height, Canvas *canvas)
@@ -152,7 +153,7 @@ static void blend_span(uint32_t *row, int left, int right, Colour colour,
         fill_pixels(row + left, (size_t)(right - left), 0xff000000u | colour);
     else
         for (int i = left; i < right; i++)
-            row[i] = blend(row[i], colour, amount);
+            row[i] = blend_pixel(row[i], colour, amount);
 }
 
 void canvas_fill(Canvas *canvas, Box box, Colour colour)
@@ -208,15 +209,16 @@ static inline void blend_column(uint32_t *column, ptrdiff_t across, int low,
     int row = low >> FIXED_BITS, last = (high - 1) >> FIXED_BITS;
     uint32_t *p = column + row * across;
     if (row == last) {
-        *p = blend(*p, colour, (uint32_t)(high - low) * amount >> FIXED_BITS);
+        *p = blend_pixel(*p, colour,
+                         (uint32_t)(high - low) * amount >> FIXED_BITS);
         return;
     }
     uint32_t part = (uint32_t)(FIXED_ONE - (low & (FIXED_ONE - 1)));
-    *p = blend(*p, colour, part * amount >> FIXED_BITS);
+    *p = blend_pixel(*p, colour, part * amount >> FIXED_BITS);
     for (p += across; ++row < last; p += across)
-        *p = blend(*p, colour, amount);
+        *p = blend_pixel(*p, colour, amount);
     part = (uint32_t)(high - last * FIXED_ONE);
-    *p = blend(*p, colour, part * amount >> FIXED_BITS);
+    *p = blend_pixel(*p, colour, part * amount >> FIXED_BITS);
 }
 
 /* Loops along axis k: columns, or rows of a steep line; j is the other axis. */
@@ -360,8 +362,8 @@ void canvas_triangle(Canvas *canvas, const double c[6], bool smooth,
             double inside = 0.5; /* distance from nearest edge, <= 1/2 */
             for (int k = 0; k < 3; k++)
                 inside = MIN(inside, edge[k][0] * i + first[k]);
-            row[i] = blend(row[i], colour,
-                           (uint32_t)(MAX(inside + 0.5, 0) * full + 0.5));
+            row[i] = blend_pixel(row[i], colour,
+                                 (uint32_t)(MAX(inside + 0.5, 0) * full + 0.5));
         }
     }
 }
@@ -389,7 +391,7 @@ void canvas_ring(Canvas *canvas, double x, double y, double radius,
                 continue;
             double d = sqrt(d2), part = MIN(far - d, 1);
             part = disc ? part : MIN(part, d - near);
-            row[i] = blend(row[i], colour, (uint32_t)(part * full + 0.5));
+            row[i] = blend_pixel(row[i], colour, (uint32_t)(part * full + 0.5));
         }
     }
 }
@@ -413,7 +415,7 @@ void canvas_fill_mask(Canvas *canvas, int x, int y, int width, int height,
             if (amount == 0)
                 continue;
             amount += amount >> 7;
-            row[i] = blend(row[i], colour, amount * full >> 8);
+            row[i] = blend_pixel(row[i], colour, amount * full >> 8);
         }
     }
 }

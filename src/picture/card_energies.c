@@ -34,9 +34,9 @@ typedef struct EnergyCurve {
 
 typedef struct EnergyCurves {
     int count; /* number of curves */
-    EnergyCurve curve[HISTORY_SERIES];
-    int omitted;  /* number of curves for which the card has no room */
-    double t_max; /* s, latest time of all panes */
+    EnergyCurve curve[MAX_HISTORY_SERIES];
+    int omitted_count;  /* number of curves for which the card has no room */
+    double latest_time; /* s, latest time of all panes */
 } EnergyCurves;
 
 /* Whether quantity s of the history is the energy of run s; otherwise the
@@ -52,13 +52,13 @@ static bool series_are_runs(const Simulation *simulation)
  * each energy that was ever visible beside the largest energy. */
 static EnergyCurves find_energy_curves(const FrameContent *content)
 {
-    EnergyCurves all = {.t_max =
-                            simulation_time(active_pane(content)->simulation)};
+    EnergyCurves all = {
+        .latest_time = simulation_get_time(active_pane(content)->simulation)};
     EnergyCurve *curve = all.curve;
     const Pane *active = active_pane(content);
     const History *history = active->history;
     bool runs = series_are_runs(active->simulation);
-    bool is_visible[HISTORY_SERIES] = {true, true, true};
+    bool is_visible[MAX_HISTORY_SERIES] = {true, true, true};
     double most = 0;
     for (int p = 0; content->panes > 1 && p < content->panes; p++)
         if (content->pane[p].history)
@@ -68,10 +68,10 @@ static EnergyCurves find_energy_curves(const FrameContent *content)
                                                true,
                                                colour_of_run(p),
                                                content->pane[p].label};
-    int series = !history || !history->series ? 0
-                 : runs                       ? active->simulation->runs
-                                              : history->series;
-    for (int i = 0; series > 3 && i < history->count; i++) {
+    int series = !history || !history->series_count ? 0
+                 : runs                             ? active->simulation->runs
+                                                    : history->series_count;
+    for (int i = 0; series > 3 && i < history->point_count; i++) {
         for (int s = 0; s < series; s++)
             most = fmax(most, fabs(history->value[s][i]));
         for (int s = 3; s < series; s++)
@@ -88,7 +88,8 @@ static EnergyCurves find_energy_curves(const FrameContent *content)
                      : colour_of_name(s == 0 ? "total" : history->name[s]),
                 history->name[s]};
     for (int c = 0; c < all.count; c++)
-        all.t_max = fmax(all.t_max, simulation_time(curve[c].simulation));
+        all.latest_time =
+            fmax(all.latest_time, simulation_get_time(curve[c].simulation));
     return all;
 }
 
@@ -96,7 +97,7 @@ static EnergyCurves find_energy_curves(const FrameContent *content)
 static int find_history_point(const History *history, double time)
 {
     int at = -1;
-    while (at + 1 < history->count &&
+    while (at + 1 < history->point_count &&
            history->time[at + 1] <= time * (1 + 1e-12))
         at++;
     return at;
@@ -107,8 +108,9 @@ static int find_history_point(const History *history, double time)
 static double find_present_energy(const EnergyCurve *curve)
 {
     const History *history = curve->history;
-    double now = simulation_time(curve->simulation), size = 0, first = 0;
-    int point = find_history_point(history, now), last = history->count - 1;
+    double now = simulation_get_time(curve->simulation), size = 0, first = 0;
+    int point = find_history_point(history, now),
+        last = history->point_count - 1;
     bool runs = series_are_runs(curve->simulation);
     if (point < 0)
         return NAN;
@@ -116,7 +118,7 @@ static double find_present_energy(const EnergyCurve *curve)
         !isfinite(simulation_get_energies(curve->simulation, 0).total))
         return INFINITY; /* infinite energies are not in the history */
     double value = history->value[curve->series][point];
-    for (int s = 0; s < history->series && !runs; s++) {
+    for (int s = 0; s < history->series_count && !runs; s++) {
         size = fmax(size, fabs(history->value[s][point]));
         first = fmax(first, fabs(history->value[s][0]));
     }
@@ -151,8 +153,8 @@ static Axis make_energies_axis(const Simulation *simulation,
     for (const EnergyCurve *curve = all->curve; curve < all->curve + all->count;
          curve++) {
         const History *history = curve->history;
-        int point = find_history_point(history, all->t_max);
-        for (int i = 0; i < history->count; i++) {
+        int point = find_history_point(history, all->latest_time);
+        for (int i = 0; i < history->point_count; i++) {
             double value = history->value[curve->series][i];
             lowest = fmin(lowest, value);
             highest = fmax(highest, value);
@@ -189,7 +191,7 @@ static void draw_energy_curves(const Plot *plot, const EnergyCurves *all)
 {
     for (int c = all->count - 1; c >= 0; c--) {
         const EnergyCurve *curve = &all->curve[c];
-        plot_curve(plot, curve->history->count, curve->history->time,
+        plot_curve(plot, curve->history->point_count, curve->history->time,
                    curve->history->value[curve->series],
                    curve->is_total ? 1.8 : 1.4, curve->colour);
     }
@@ -223,7 +225,7 @@ static int write_legend(const Plot *card, const EnergyCurves *all, bool named,
                         bool draw)
 {
     Paper *paper = card->paper;
-    const double size = fmax(LEGEND_SIZE, paper->min_letter);
+    const double size = fmax(LEGEND_SIZE, paper->min_letter_size);
     int at[2] = {0, 0}, used = 0;
     for (int c = 0; c < all->count; c++) {
         const EnergyCurve *one = &all->curve[c];
@@ -240,23 +242,24 @@ static int write_legend(const Plot *card, const EnergyCurves *all, bool named,
         snprintf(line.text, sizeof line.text, "%.150s%s", name, sum);
         used = card_write_lines(card, at, size, LEGEND_GAP * size, &line, draw);
     }
-    if (all->omitted > 0) {
+    if (all->omitted_count > 0) {
         TextLine line = {.colour = COLOUR_GREY};
-        snprintf(line.text, sizeof line.text, "+ %d smaller", all->omitted);
+        snprintf(line.text, sizeof line.text, "+ %d smaller",
+                 all->omitted_count);
         used = card_write_lines(card, at, size, LEGEND_GAP * size, &line, draw);
     }
     return used;
 }
 
 /* Removes the curve with the smallest maximum; the first curve always stays. */
-static void omit_smallest_curves(EnergyCurves *all)
+static void omit_smallest_curve(EnergyCurves *all)
 {
     double least = INFINITY;
     int smallest = all->count - 1;
     for (int c = 1; c < all->count; c++) {
         const History *history = all->curve[c].history;
         double most = 0;
-        for (int i = 0; i < history->count; i++)
+        for (int i = 0; i < history->point_count; i++)
             most = fmax(most, fabs(history->value[all->curve[c].series][i]));
         if (most < least) {
             least = most;
@@ -264,7 +267,7 @@ static void omit_smallest_curves(EnergyCurves *all)
         }
     }
     all->count--;
-    all->omitted++;
+    all->omitted_count++;
     memmove(all->curve + smallest, all->curve + smallest + 1,
             (size_t)(all->count - smallest) * sizeof *all->curve);
 }
@@ -282,15 +285,15 @@ void draw_energies_card(const Plot *card)
                  write_legend(card, &all, true, false) <= room;
     while (has_legend && all.count > 1 &&
            write_legend(card, &all, named, false) > room)
-        omit_smallest_curves(&all);
+        omit_smallest_curve(&all);
     if (has_legend)
         box_cut_off(&rest.box, EDGE_TOP, write_legend(card, &all, named, true));
     Axis energy = make_energies_axis(card->simulation, &all, &last);
     Axis time = {0, plot_round_up(last), .label = "t in s"};
     Plot plot = plot_create(&rest, time, energy);
-    if (all.t_max < plot.x.high)
-        plot_line(&plot, (double[2]){all.t_max, plot.y.low},
-                  (double[2]){all.t_max, plot.y.high}, 1, COLOUR_BORDER);
+    if (all.latest_time < plot.x.high)
+        plot_line(&plot, (double[2]){all.latest_time, plot.y.low},
+                  (double[2]){all.latest_time, plot.y.high}, 1, COLOUR_BORDER);
     draw_energy_curves(&plot, &all);
 }
 
@@ -303,7 +306,7 @@ void draw_energy_budget_card(const Plot *card)
     const Box *box = &card->box;
     Energies energies = simulation_get_energies(card->simulation, 0);
     Energy all = {"start + work", 0};
-    const Energy *shown[HISTORY_SERIES + 1] = {&all};
+    const Energy *shown[MAX_HISTORY_SERIES + 1] = {&all};
     int rows = 1, air = paper_pixels(paper, 0.1);
     for (int i = 1; i < energies.count; i++) {
         const Energy *row = &energies.energy[i];
@@ -341,8 +344,8 @@ void draw_radius_card(const Plot *card)
     const Simulation *simulation = card->simulation;
     const FrameContent *content = card->content;
     const EnergyCurves all = find_energy_curves(content);
-    double last =
-        fmax(simulation_time(simulation), 100 * simulation->options.timestep);
+    double last = fmax(simulation_get_time(simulation),
+                       100 * simulation->options.timestep);
     double most = 0.4; /* decades, half the axis; the middle is 1 m */
     for (int r = 0; r < simulation->runs; r++)
         most =
@@ -356,7 +359,7 @@ void draw_radius_card(const Plot *card)
                 COLOUR_GREY);
     draw_energy_curves(&plot, &all);
     const History *history = card->pane->history;
-    double end = history ? history->time[history->count - 1] : 0;
+    double end = history ? history->time[history->point_count - 1] : 0;
     double even = content->time_line.steps * simulation->options.timestep;
     bool changed = fabs(end - even) > 1e-9 * even;
     if (!content->lecture.hides_answer && !changed &&

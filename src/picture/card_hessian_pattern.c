@@ -4,11 +4,11 @@
 #include "picture/cards.h"
 
 /* Blocks: zero; non-zero only in the factor; non-zero also in the Hessian. */
-enum { NO_ENTRY, FILL_IN, OWN_ENTRY };
+enum { NO_ENTRY, FILL_IN, HESSIAN_ENTRY };
 
 /* Returns the row of a node: the node's number in natural order, else the
  * node's place in the elimination order. */
-static int matrix_row(const System *system, int node, bool natural)
+static int find_matrix_row(const System *system, int node, bool natural)
 {
     return natural ? node : system->elimination_order[node];
 }
@@ -24,9 +24,10 @@ static unsigned char *compute_matrix_pattern(const System *system, bool natural,
     size_t n = (size_t)system->nodes;
     unsigned char *block = calloc(n, n);
     for (int s = 0; block && s < springs; s++) {
-        size_t i = (size_t)matrix_row(system, system->e[2 * s], natural);
-        size_t j = (size_t)matrix_row(system, system->e[2 * s + 1], natural);
-        block[i < j ? i * n + j : j * n + i] = OWN_ENTRY;
+        size_t i = (size_t)find_matrix_row(system, system->e[2 * s], natural);
+        size_t j =
+            (size_t)find_matrix_row(system, system->e[2 * s + 1], natural);
+        block[i < j ? i * n + j : j * n + i] = HESSIAN_ENTRY;
         block[i * n + i]++;
         block[j * n + j]++;
     }
@@ -55,11 +56,11 @@ static Box find_block_box(Box square, int n, int i, int j, int least)
 
 /* Draws the Hessian's blocks; unless natural, also the factor's fill-in below
  * the diagonal.  Marks the spring under the mouse, or a page's last spring. */
-static void draw_pattern(const Plot *card, Box square, bool natural,
-                         int springs)
+static void draw_matrix_pattern(const Plot *card, Box square, bool natural,
+                                int springs)
 {
     const System *system = &card->simulation->system;
-    const Pick *hover = &card->content->view->hovered;
+    const Pick *hover = &card->content->view->hovered_part;
     unsigned char *block = compute_matrix_pattern(system, natural, springs);
     Canvas *canvas = &card->paper->canvas;
     bool writes = card->simulation->options.next_action == NEXT_ADDS_SPRING;
@@ -71,19 +72,19 @@ static void draw_pattern(const Plot *card, Box square, bool natural,
     for (int j = 0; block && j < n; j++)
         for (int i = j; i < n; i++) {
             int at = block[(size_t)j * (size_t)n + i];
-            int what = i == j ? OWN_ENTRY : at;
+            int what = i == j ? HESSIAN_ENTRY : at;
             Colour blue = colour_mix(0xffc0c8ffu, COLOUR_X,
                                      writes ? (i == j ? at : 1) / 8.0 : 1);
-            if (what == OWN_ENTRY)
+            if (what == HESSIAN_ENTRY)
                 canvas_fill(canvas, find_block_box(square, n, j, i, 1), blue);
             if (what != NO_ENTRY)
                 canvas_fill(canvas, find_block_box(square, n, i, j, 1),
-                            what == OWN_ENTRY ? blue : 0xffe0a060u);
+                            what == HESSIAN_ENTRY ? blue : 0xffe0a060u);
         }
     for (int k = 0; block && k < 4 && lit >= 0 && lit < system->springs; k++) {
         const int *e = system->e + 2 * lit;
-        int i = matrix_row(system, e[k / 2], natural);
-        int j = matrix_row(system, e[k % 2], natural);
+        int i = find_matrix_row(system, e[k / 2], natural);
+        int j = find_matrix_row(system, e[k % 2], natural);
         Box box = find_block_box(square, n, i, j, least);
         canvas_framed_box(canvas, box_inset(box, -1), COLOUR_PROJECT,
                           COLOUR_WHITE);
@@ -122,7 +123,8 @@ void draw_hessian_pattern_card(const Plot *card)
         paper_write(paper, FACE_REGULAR, 0.9, COLOUR_FAINT, x, inside.y,
                     ALIGN_LEFT,
                     k ? "order of elimination" : "node i: rows 2i, 2i + 1");
-        draw_pattern(card, (Box){x, inside.y + line, side, side}, !k, springs);
+        draw_matrix_pattern(card, (Box){x, inside.y + line, side, side}, !k,
+                            springs);
     }
     if (has_list)
         card_write_text(&triplets, &card->pane->values, text_triplets);

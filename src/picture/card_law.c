@@ -18,7 +18,7 @@
 typedef struct LawPoint {
     EvalPoint eval;
     Element element;  /* contact or triangle */
-    FlowLaw spring;   /* law of the spring */
+    FlowLaw flow_law; /* law of the spring */
     double axis_unit; /* factor of axis_low and axis_high, such as d_hat */
     double x;         /* value on the axis; NaN: there is no element */
     double load;      /* measure of load; the largest is drawn */
@@ -68,7 +68,7 @@ static double friction_force_ratio(const void *now, double v)
 static double flow_force_at(const void *data, double s)
 {
     const LawPoint *now = data;
-    return flow_law_slope(now->spring, s - now->spring.ep);
+    return flow_law_slope(now->flow_law, s - now->flow_law.ep_n);
 }
 
 /* Returns force / breaking force for part = strain / strength; 0: broken. */
@@ -98,15 +98,16 @@ static void set_spring_law(LawPoint *now, int s)
     const Plasticity *flow = system_term_data(system, &plastic_energy);
     const Fracture *tear = system_term_data(system, &fracture);
     double d[2];
-    now->spring = plasticity_get_flow_law(system, s);
+    now->flow_law = plasticity_get_flow_law(system, s);
     double d2 = spring_vector(system->e + 2 * s, now->eval.x, d);
     now->x = spring_strain(d2, system->l2[s]);
     now->x /= tear ? fracture_strength(tear, s) : 1;
     now->load = spring_is_broken(system, s) ? -INFINITY
                 : tear                      ? now->x
-                       : fabs(now->spring.ep) + 1e-3 * fabs(now->x);
+                       : fabs(now->flow_law.ep_n) + 1e-3 * fabs(now->x);
     if (flow)
-        now->axis_unit = fmax(4 * now->spring.yield_strain, 1.2 * fabs(now->x));
+        now->axis_unit =
+            fmax(4 * now->flow_law.yield_strain, 1.2 * fabs(now->x));
 }
 
 /* Returns the law's value at the dot.  A spring beyond its strength keeps its
@@ -185,8 +186,9 @@ bool law_find_contact(const Simulation *simulation, NodeContact *gap)
     gap->d_hat = now.axis_unit;
     gap->d = self ? sqrt(now.element.s) * gap->d_hat : now.element.s;
     for (int c = 0; c < 2; c++) {
-        gap->node[c] = now.eval.x[2 * now.element.node[0] + c];
-        gap->nearest_point[c] = gap->node[c] - gap->d * now.element.n[c];
+        gap->node_position[c] = now.eval.x[2 * now.element.node[0] + c];
+        gap->nearest_point[c] =
+            gap->node_position[c] - gap->d * now.element.n[c];
     }
     return true;
 }
@@ -206,10 +208,12 @@ static bool find_flow_path(const LawPoint *now, double from[2], double to[2])
 {
     const Plasticity *flow =
         system_term_data(now->eval.system, &plastic_energy);
-    double ep = now->spring.ep, most = flow ? now->spring.yield_strain : 0;
+    double ep = now->flow_law.ep_n,
+           most = flow ? now->flow_law.yield_strain : 0;
     double away =
-        flow ? most - flow->yield_strain - flow->hardening * fabs(ep) : 0;
-    from[0] = from[1] = flow ? copysign(flow->yield_strain, ep) : 0;
+        flow ? most - flow->initial_yield_strain - flow->hardening * fabs(ep)
+             : 0;
+    from[0] = from[1] = flow ? copysign(flow->initial_yield_strain, ep) : 0;
     to[1] = copysign(most, ep);
     to[0] = ep + to[1];
     return ep != 0 && fabs(away) <= 1e-9 * most;
@@ -239,7 +243,7 @@ void list_law_values(const Simulation *simulation, LiveValues *values)
         return;
     bool self = law->element_term == &self_contact_energy;
     bool flows = law->evaluate == flow_force_at;
-    bool still = flows && now.spring.ep == 0;
+    bool still = flows && now.flow_law.ep_n == 0;
     double way[2];
     values_add_flag(values, "law", true);
     values_add_flag(values, "unflowed", still);
@@ -258,7 +262,7 @@ void list_law_values(const Simulation *simulation, LiveValues *values)
     if (!isnan(now.x))
         values_add(values, "law y", evaluate_law(law, &now));
     if (flows)
-        values_add(values, "s_p", now.spring.ep);
+        values_add(values, "s_p", now.flow_law.ep_n);
     Energies energies = simulation_get_energies(simulation, 0);
     for (int i = 0; i < energies.count; i++)
         values_add(values, energies.energy[i].name, energies.energy[i].value);
@@ -278,16 +282,16 @@ void draw_law_card(const Plot *card)
     bool both = law->axis_low < 0;
     double low = law->axis_low * now->axis_unit,
            high = law->axis_high * now->axis_unit;
-    double most = both ? 1.4 * now->spring.yield_strain
+    double most = both ? 1.4 * now->flow_law.yield_strain
                        : fmax(law->evaluate(now, 0.9 * low + 0.1 * high),
                               law->evaluate(now, 0.25 * low + 0.75 * high));
     double x = now->x, y = evaluate_law(law, now);
-    const double rest[2] = {now->spring.ep, 0};
+    const double rest[2] = {now->flow_law.ep_n, 0};
     const double dot[2] = {fmin(fmax(x, low), high), y};
     most = plot_round_axis_end(1.1 * fmax(most, fabs(y)));
     Plot plot = plot_create(
         card,
-        (Axis){low, high, .is_milli = law->is_milli, .label = law->x_label},
+        (Axis){low, high, .shows_milli = law->is_milli, .label = law->x_label},
         (Axis){both ? -most : -0.02 * most, most, .label = law->y_label});
     plot_graph(&plot, law->evaluate, now, 2.4, COLOUR_X);
     if (law->evaluate == element_energy_at && !isnan(x))

@@ -16,9 +16,9 @@ static const double WORDS_WIDTH = 28;  /* ems, a narrower legend has two rows */
 
 /* Changes of E along p as functions of alpha. */
 typedef struct LineCurves {
-    double alpha[LINE_POINTS], exact[LINE_POINTS], model[LINE_POINTS];
-    double projected[LINE_POINTS]; /* E along the projected p; NaN: none */
-    double low, high;              /* ends of the axis of E */
+    double alpha[LINE_POINTS], exact_E[LINE_POINTS], model_E[LINE_POINTS];
+    double projected_E[LINE_POINTS]; /* E along the projected p; NaN: none */
+    double low, high;                /* ends of the axis of E */
 } LineCurves;
 
 static double line_energy_at(const NewtonTrace *trace, double alpha)
@@ -33,18 +33,19 @@ static double line_energy_at(const NewtonTrace *trace, double alpha)
 static void compute_line_curves(const NewtonTrace *trace,
                                 const NewtonTrace *other, LineCurves *curves)
 {
-    double end = (other ? PAGE_END : AXIS_END) * trace_step_length(trace, 1);
+    double end =
+        (other ? PAGE_END : AXIS_END) * find_trial_step_length(trace, 1);
     double low = 0, high = 0;
     for (int i = 0; i < LINE_POINTS; i++) {
         double alpha = end * i / (LINE_POINTS - 1);
         curves->alpha[i] = alpha;
-        curves->exact[i] = line_energy_at(trace, alpha);
-        curves->model[i] = trace->slope * (alpha - 0.5 * alpha * alpha);
-        curves->projected[i] = other ? line_energy_at(other, alpha) : NAN;
-        low = fmin(low, fmin(curves->exact[i], curves->model[i]));
-        low = fmin(low, curves->projected[i]);
-        if (!isnan(curves->exact[i]))
-            high = fmax(high, curves->exact[i]);
+        curves->exact_E[i] = line_energy_at(trace, alpha);
+        curves->model_E[i] = trace->slope * (alpha - 0.5 * alpha * alpha);
+        curves->projected_E[i] = other ? line_energy_at(other, alpha) : NAN;
+        low = fmin(low, fmin(curves->exact_E[i], curves->model_E[i]));
+        low = fmin(low, curves->projected_E[i]);
+        if (!isnan(curves->exact_E[i]))
+            high = fmax(high, curves->exact_E[i]);
     }
     /* If no curve falls, depth is the model's rise to alpha = 1, slope/2. */
     double depth = fmax(low < 0 ? -low : 0.5 * trace->slope, 1e-300);
@@ -123,18 +124,18 @@ void draw_line_energy_card(const Plot *card)
     if (!card->content->has_document)
         draw_line_legend(card, &rest.box);
     Plot plot = plot_create(&rest, x, y);
-    plot_curve(&plot, LINE_POINTS, curves.alpha, curves.model, 1.3, COLOUR_P);
-    plot_curve(&plot, LINE_POINTS, curves.alpha, curves.projected, 2,
+    plot_curve(&plot, LINE_POINTS, curves.alpha, curves.model_E, 1.3, COLOUR_P);
+    plot_curve(&plot, LINE_POINTS, curves.alpha, curves.projected_E, 2,
                COLOUR_PROJECT);
-    plot_curve(&plot, LINE_POINTS, curves.alpha, curves.exact, 2, COLOUR_X);
+    plot_curve(&plot, LINE_POINTS, curves.alpha, curves.exact_E, 2, COLOUR_X);
     plot_disc(&plot, (double[2]){0, 0}, 3.5, COLOUR_TEXT);
-    double first = trace_step_length(trace, 1);
+    double first = find_trial_step_length(trace, 1);
     double full = line_energy_at(trace, first);
     bool is_main = card->simulation->options.main_card;
     if (trace->trials == 0 && is_main && full > plot.y.high)
         draw_trial_step(&plot, first, full, false);
     for (int t = 0; t < trace->trials; t++) {
-        double at = trace_step_length(trace, t + 1);
+        double at = find_trial_step_length(trace, t + 1);
         bool last = t == trace->trials - 1;
         draw_trial_step(&plot, at, line_energy_at(trace, at),
                         last && trace->is_accepted);

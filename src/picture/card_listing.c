@@ -17,7 +17,7 @@ ShownRow listing_make_row(const Pane *pane, const ListingRow *row)
                              trace->at_line >= row->at_line);
     bool struck = text_has_known_line(values, row->crossed_out_if);
     return (ShownRow){.is_highlighted = trace && trace->at_line == row->at_line,
-                      .is_struck = struck,
+                      .is_crossed_out = struck,
                       .text = text_first_line(values, row->text),
                       .value = text_first_line(
                           values, reached || struck ? row->value : NULL)};
@@ -37,7 +37,7 @@ static void draw_listing_row(const Plot *card, Box box, const ListingRow *row,
     Box room = {box.x + indent, box.y,
                 box.width - indent - wide - paper_pixels(paper, 1.4),
                 box.height};
-    bool both = paper_measure(paper, FACE_REGULAR, paper->min_letter,
+    bool both = paper_measure(paper, FACE_REGULAR, paper->min_letter_size,
                               now.text.text) <= room.width;
     room.width += both ? 0 : wide;
     if (now.is_highlighted)
@@ -45,10 +45,11 @@ static void draw_listing_row(const Plot *card, Box box, const ListingRow *row,
     snprintf(digits, sizeof digits, "%d", number);
     paper_write_in_box(paper, FACE_REGULAR, 0.82, COLOUR_GREY, count,
                        ALIGN_RIGHT, digits);
-    int text = paper_write_in_box(paper, FACE_REGULAR, size,
-                                  now.is_struck ? COLOUR_GREY : COLOUR_TEXT,
-                                  room, ALIGN_LEFT, now.text.text);
-    if (now.is_struck)
+    int text =
+        paper_write_in_box(paper, FACE_REGULAR, size,
+                           now.is_crossed_out ? COLOUR_GREY : COLOUR_TEXT, room,
+                           ALIGN_LEFT, now.text.text);
+    if (now.is_crossed_out)
         canvas_fill(&paper->canvas,
                     (Box){room.x, box.y + box.height / 2, text,
                           (int)fmax(1, 1.3 * paper->unit)},

@@ -6,15 +6,16 @@
 
 /* A text of the card, with a heading on its left side. */
 typedef struct PageText {
-    const char *heading; /* word in bold letters at the left, or NULL */
-    const char *text;    /* markup with live values, or NULL */
-    Colour colour;       /* colour of the heading */
-    double letter_size;  /* letters' size / size of the page's letters */
+    const char *heading;  /* word in bold letters at the left, or NULL */
+    const char *text;     /* markup with live values, or NULL */
+    Colour colour;        /* colour of the heading */
+    double letter_factor; /* letters' size / size of the page's letters */
 } PageText;
 
 /* Sizes of a page's letters (ems): usual, largest on a wide card, smallest, and
  * smallest with the introduction beside the answer. */
-static const double LETTERS = 1.2, LARGEST = 1.45, SMALLEST = 0.8, ALL = 1.1;
+static const double LETTERS = 1.2, LARGEST = 1.45, SMALLEST = 0.8,
+                    SMALLEST_WITH_INTRO = 1.1;
 static const double LINE_WIDTH = 24; /* card width / size of large letters */
 /* Lengths in multiples of the size of the page's letters: letters of a formula,
  * width of a text's heading, width of the heading "Tested". */
@@ -31,12 +32,13 @@ static int lay_out_text(Paper *paper, Box inside, int y, double size,
                         double room, const PageText *words,
                         const FrameContent *content, bool draw)
 {
-    double letters = size * words->letter_size, em = letters * paper->em;
+    double letters = size * words->letter_factor, em = letters * paper->em;
     Box box = {inside.x, y, inside.width, 0};
     TextLine line = text_begin(&active_pane(content)->values, words->text);
     if (words->heading)
-        box_cut_off(&box, EDGE_LEFT,
-                    paper_pixels(paper, room * fmax(size, paper->min_letter)));
+        box_cut_off(
+            &box, EDGE_LEFT,
+            paper_pixels(paper, room * fmax(size, paper->min_letter_size)));
     while (text_next_line(&line)) {
         int lines =
             (int)((inside.y + inside.height - box.y) / text_line_height(em));
@@ -89,7 +91,7 @@ static int measure_page(Paper *paper, Box inside, double size,
 {
     FrameContent other = *content;
     LectureContent *lecture = &other.lecture;
-    LiveValues *values = &other.pane[other.active_pane].values;
+    LiveValues *values = &other.pane[other.active_pane_index].values;
     if (!lecture->question)
         return lay_out_page(paper, inside, size, content, keeps_text, false);
     lecture->hides_answer = false;
@@ -108,7 +110,7 @@ static int measure_page(Paper *paper, Box inside, double size,
 
 /* Draws the texts of a page in the largest letters with which all texts fit.
  * The question stays beside the answer; the introduction does not if it would
- * make the letters smaller than ALL. */
+ * make the letters smaller than SMALLEST_WITH_INTRO. */
 void draw_page_card(const Plot *card)
 {
     const double most =
@@ -119,7 +121,7 @@ void draw_page_card(const Plot *card)
            measure_page(card->paper, card->box, size, card->content,
                         keeps_text) > card->box.height) {
         size -= 0.05;
-        if (keeps_text && size < ALL) {
+        if (keeps_text && size < SMALLEST_WITH_INTRO) {
             size = most;
             keeps_text = false;
         }
@@ -143,7 +145,7 @@ Box page_draw_claim(Paper *paper, Box inside, const FrameContent *content)
 static double find_card_height(const FrameContent *content, double wide,
                                double em, double size, bool keeps_text)
 {
-    Paper paper = {.text = content->fonts, .em = em, .min_letter = 1};
+    Paper paper = {.text = content->fonts, .em = em, .min_letter_size = 1};
     Box box = {0, 0, (int)(wide * em + 0.5), 0};
     const double around = 2.6; /* ems, height of title and margins */
     return measure_page(&paper, box, size, content, keeps_text) / em + around;
@@ -154,7 +156,8 @@ double page_find_height(const FrameContent *content, double wide, double em)
     return find_card_height(content, wide, em, LETTERS, true);
 }
 
-double page_least_height(const FrameContent *content, double wide, double em)
+double page_find_least_height(const FrameContent *content, double wide,
+                              double em)
 {
     return find_card_height(content, wide, em, SMALLEST, false);
 }

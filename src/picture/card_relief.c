@@ -35,7 +35,7 @@ typedef struct Corner {
     bool is_convex; /* the Hessian is positive definite */
 } Corner;
 
-static double rim_height(const Simulation *simulation)
+static double compute_rim_energy(const Simulation *simulation)
 {
     const double *target = simulation->exhibit.x_tilde;
     unsigned parts = simulation->exhibit.switches;
@@ -49,7 +49,7 @@ static double rim_height(const Simulation *simulation)
     return rim;
 }
 
-static Corner corner_at(const Relief *relief, double x, double y)
+static Corner evaluate_corner(const Relief *relief, double x, double y)
 {
     LocalModel E = descent_evaluate(relief->simulation, PROJECTION_NONE, x, y);
     return (Corner){x, y, E.energy, landscape_is_convex(&E)};
@@ -144,7 +144,8 @@ static void draw_surface(const Relief *relief)
     for (int i = 0; i <= SURFACE_CELLS; i++) {
         Corner *left = column[(i + 1) % 2], *right = column[i % 2];
         for (int j = 0; j <= SURFACE_CELLS; j++)
-            right[j] = corner_at(relief, -REACH + i * side, -REACH + j * side);
+            right[j] =
+                evaluate_corner(relief, -REACH + i * side, -REACH + j * side);
         for (int j = SURFACE_CELLS - 1; j >= 0 && i > 0; j--) {
             const Corner far[3] = {left[j], right[j + 1], left[j + 1]};
             const Corner near[3] = {left[j], right[j], right[j + 1]};
@@ -162,7 +163,7 @@ static void draw_surface_line(const Relief *relief, const double *a,
     for (int i = 0; i <= LINE_PIECES; i++) {
         const Point x =
             point_along(a, (double)i / LINE_PIECES, vector_between(a, b).xy);
-        Corner now = corner_at(relief, x.xy[0], x.xy[1]);
+        Corner now = evaluate_corner(relief, x.xy[0], x.xy[1]);
         if (before.E <= relief->rim_E && now.E <= relief->rim_E)
             plot_line(&relief->plot, project_corner(relief, &before).xy,
                       project_corner(relief, &now).xy, width, colour);
@@ -173,7 +174,7 @@ static void draw_surface_line(const Relief *relief, const double *a,
 static void draw_surface_point(const Relief *relief, const double *x,
                                double radius, Colour colour, const char *word)
 {
-    Corner corner = corner_at(relief, x[0], x[1]);
+    Corner corner = evaluate_corner(relief, x[0], x[1]);
     const Point at = project_corner(relief, &corner);
     if (!(corner.E <= relief->rim_E))
         return;
@@ -187,7 +188,7 @@ static void draw_newton_path(const Relief *relief)
 {
     const Descent *descent = &relief->simulation->descent;
     const double *x = descent->iterate;
-    for (int i = 0; i < descent->count; i++) {
+    for (int i = 0; i < descent->record_count; i++) {
         const NewtonRecord *record = &descent->record[i];
         Colour colour = record->slope > 0 ? COLOUR_WARNING : COLOUR_P;
         draw_surface_line(relief, record->x_before, record->x_after, 3, colour);
@@ -205,7 +206,7 @@ static void draw_dial_curve(const Relief *relief)
     const DialCurve *dial = &relief->simulation->exhibit.dial;
     int points = relief->plot.content->lecture.hides_answer ? 0 : DIAL_POINTS;
     for (int i = 1; i < points; i++)
-        draw_surface_line(relief, dial->point[i - 1], dial->point[i], 3,
+        draw_surface_line(relief, dial->minimiser[i - 1], dial->minimiser[i], 3,
                           COLOUR_X);
     draw_surface_point(relief, relief->simulation->run[0].x, 7, COLOUR_TEXT,
                        NULL);
@@ -239,7 +240,8 @@ static void draw_relief_axes(const Relief *relief)
 void draw_relief_card(const Plot *card)
 {
     static const double bounds[4] = {-1.62, -0.75, 1.88, 2.2}; /* m */
-    Relief relief = {card->simulation, *card, rim_height(card->simulation), 0};
+    Relief relief = {card->simulation, *card,
+                     compute_rim_energy(card->simulation), 0};
     relief.contour_step = plot_round_up(relief.rim_E / MAX_CONTOURS);
     relief.plot.camera = camera_create(card->box, bounds, false, &LENS_FITS);
     draw_surface(&relief);

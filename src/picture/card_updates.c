@@ -10,7 +10,11 @@
  * E at x as a dot at the t of the line's nearest point. */
 void draw_step_energy_card(const Plot *card)
 {
-    enum { POINTS = 31, START = 5, END = 25 }; /* indices of x^n and x_tilde */
+    enum {
+        POINT_COUNT = 31,
+        INDEX_X_N = 5,
+        INDEX_X_TILDE = 25
+    }; /* indices of x^n and x_tilde */
     static const struct {
         const char *name; /* name of the curve */
         Colour colour;
@@ -19,7 +23,7 @@ void draw_step_energy_card(const Plot *card)
     } parts[] = {{"inertia", COLOUR_X_TILDE, 10, 1},
                  {"h\u00b2 P", COLOUR_SHADED, 20, 0.72},
                  {"E", COLOUR_X, 3, 1}};
-    double t[POINTS + 1], part[3][POINTS + 1], along = 0, square = 0;
+    double t[POINT_COUNT + 1], part[3][POINT_COUNT + 1], along = 0, square = 0;
     const NewtonTrace *trace = card->pane->trace;
     if (!trace || !trace->x_tilde || !trace->x_n) {
         card_write_hint(card, text_undrawn);
@@ -27,7 +31,7 @@ void draw_step_energy_card(const Plot *card)
     }
     const System *system = &card->simulation->system;
     const double *aim = trace->x_tilde, *from = trace->x_n;
-    const double *x = pane_positions(card->pane);
+    const double *x = pane_get_positions(card->pane);
     size_t count = 2 * (size_t)system->nodes;
     double *at = malloc(count * sizeof *at);
     if (!at)
@@ -36,25 +40,28 @@ void draw_step_energy_card(const Plot *card)
         along += (x[c] - from[c]) * (aim[c] - from[c]);
         square += (aim[c] - from[c]) * (aim[c] - from[c]);
     }
-    for (int i = 0; i <= POINTS; i++) { /* i = POINTS: x */
-        t[i] = i < POINTS ? 0.05 * (i - START) : along / fmax(square, 1e-300);
+    for (int i = 0; i <= POINT_COUNT; i++) { /* i = POINTS: x */
+        t[i] = i < POINT_COUNT ? 0.05 * (i - INDEX_X_N)
+                               : along / fmax(square, 1e-300);
         for (size_t c = 0; c < count; c++)
-            at[c] = i < POINTS ? from[c] + t[i] * (aim[c] - from[c]) : x[c];
+            at[c] =
+                i < POINT_COUNT ? from[c] + t[i] * (aim[c] - from[c]) : x[c];
         part[0][i] = inertia_energy_value(system->nodes, at, aim, system->m);
         part[1][i] = trace->h * trace->h * system_potential(system, at);
         part[2][i] = part[0][i] + part[1][i];
     }
     free(at);
     const double *E = part[2];
-    Plot plot = plot_create(
-        card, (Axis){t[0], t[POINTS - 1]},
-        (Axis){0, 1.4 * fmax(E[START], E[END]), .label = "J s\u00b2"});
+    Plot plot =
+        plot_create(card, (Axis){t[0], t[POINT_COUNT - 1]},
+                    (Axis){0, 1.4 * fmax(E[INDEX_X_N], E[INDEX_X_TILDE]),
+                           .label = "J s\u00b2"});
     for (int k = 0; k < 3; k++)
-        plot_curve(&plot, POINTS, t, part[k], k < 2 ? 1.6 : 2.4,
+        plot_curve(&plot, POINT_COUNT, t, part[k], k < 2 ? 1.6 : 2.4,
                    parts[k].colour);
     for (int k = 0; k < 3; k++) {
         static const char *const names[] = {"{x}^{n}", "{xt}^{n}", "{x}"};
-        static const int index[] = {START, END, POINTS};
+        static const int index[] = {INDEX_X_N, INDEX_X_TILDE, POINT_COUNT};
         const double mark[2] = {t[index[k]], E[index[k]]};
         Colour colour = k == 1 ? COLOUR_X_TILDE : COLOUR_X;
         plot_disc(&plot, mark, 5, colour);
@@ -124,15 +131,15 @@ bool updates_make_row(const FrameContent *content, int row, CardTableRow *cells)
     bool before = trace->at_line != LINE_NONE && trace->at_line < LINE_UPDATE;
     /* Number of updates that are already added to the shown positions. */
     int made = before ? trace->iteration : trace->record_count;
-    bool now =
-        before && trace->at_line >= LINE_PROJECT && trace->projected >= 0;
+    bool now = before && trace->at_line >= LINE_PROJECT &&
+               trace->projected_blocks >= 0;
     const NewtonRecord *update = &trace->record[row - 1];
     StepLine line = row <= made ? LINE_END_STEP : trace->at_line;
     if (row > made + now)
         return false;
     snprintf(cells->cell[0], CARD_CELL, "%d", row);
     snprintf(cells->cell[1], CARD_CELL, "%d",
-             raw ? update->negative_pivots : update->projected);
+             raw ? update->negative_pivots : update->projected_blocks);
     if (line >= LINE_SOLVE) {
         snprintf(cells->cell[2], CARD_CELL, "%s %s \u03b5",
                  format_number(update->residual).text,
@@ -145,7 +152,7 @@ bool updates_make_row(const FrameContent *content, int row, CardTableRow *cells)
                  format_number(update->alpha).text);
     if (line >= LINE_UPDATE)
         snprintf(cells->cell[4], CARD_CELL, "%s",
-                 format_number(update->change).text);
+                 format_number(update->energy_change).text);
     return true;
 }
 

@@ -59,7 +59,7 @@ function end_row()
     if (kind == "picture") {
         lists = lists "static const Card *const " name "_cards[] = {" list "};\n"
         rows = rows "[PICTURE_" toupper(name) "] = {" row ".cards = " name \
-               "_cards, .count = sizeof " name "_cards / sizeof *" name "_cards},\n"
+               "_cards, .card_count = sizeof " name "_cards / sizeof *" name "_cards},\n"
     }
     row = list = ""
 }
@@ -67,10 +67,10 @@ function end_row()
 BEGIN {
     texts["title"] texts["legend"] texts["words"] texts["column_heads"]
     texts["text"] texts["value"] texts["crossed_out_if"]
-    values["min_height"] values["find_height"] values["height_weight"] values["main_place"] values["default_bounds"]
+    values["min_height"] values["find_least_height"] values["height_weight"] values["main_place"] values["default_bounds"]
     values["draw"] values["make_row"] values["find_bounds"] values["add_values"] values["pick"]
-    values["draw_hover"] values["get_energies"] values["make_legend_row"]
-    switches["has_no_curves"] switches["fits_half_width"] switches["fits_half_page"]
+    values["draw_hover_note"] values["get_energies"] values["make_legend_row"]
+    switches["is_text_only"] switches["fits_half_width"] switches["fits_half_page"]
     switches["starts_closed"] switches["needs_line_energy"] switches["is_only_in_lecture"]
     switches["is_stretched"] switches["draws_handles"] switches["takes_clicks"]
     switches["shows_scale_bar"] switches["is_indented"]

@@ -7,7 +7,7 @@
 
 static const double CODE_LETTER = 0.7; /* ems, width of a letter of code */
 
-Box card_inner_box(Box card, double em)
+Box card_find_inner_box(Box card, double em)
 {
     int margin = (int)lround(0.8 * em), bar = (int)lround(TITLE_BAR * em);
     return (Box){card.x + margin, card.y + bar, card.width - 2 * margin,
@@ -28,7 +28,7 @@ static Box draw_card_frame(Paper *paper, Box box, const char *words,
                        words);
     paper_write_in_box(paper, FACE_REGULAR, 1.2, COLOUR_GREY, cross,
                        ALIGN_CENTRE, closed ? "+" : "\u00d7");
-    return card_inner_box(box, paper->em);
+    return card_find_inner_box(box, paper->em);
 }
 
 /* ---- lists -------------------------------------------------------------- */
@@ -39,7 +39,8 @@ typedef struct ListGrid {
     double row_height; /* pixels, height of a row */
 } ListGrid;
 
-static ListGrid arrange_list_grid(const RowList *list, Box inside, double em)
+static ListGrid arrange_list_grid(const ListContent *list, Box inside,
+                                  double em)
 {
     const double line = 1.5, least = 1.3, wide = 24; /* ems */
     ListGrid grid = {list->row_count > 0 ? list->row_count : 1, 1, line * em};
@@ -52,11 +53,12 @@ static ListGrid arrange_list_grid(const RowList *list, Box inside, double em)
     return grid;
 }
 
-int frame_find_row(const FrameContent *content, const Layout *layout, double x,
-                   double y)
+int frame_find_list_row(const FrameContent *content, const Layout *layout,
+                        double x, double y)
 {
     int margin = (int)lround(0.9 * layout->em);
-    Box inside = card_inner_box(box_inset(layout->column, margin), layout->em);
+    Box inside =
+        card_find_inner_box(box_inset(layout->column, margin), layout->em);
     ListGrid grid = arrange_list_grid(&content->list, inside, layout->em);
     if (content->column < COLUMN_PAGES || !box_contains(inside, x, y))
         return -1;
@@ -68,7 +70,7 @@ int frame_find_row(const FrameContent *content, const Layout *layout, double x,
 
 /* Draws the key and the text of each row, all in letters of one size.  A text
  * that is too wide even in the smallest letters loses its last words. */
-static void draw_list(Paper *paper, Box inside, const RowList *list)
+static void draw_list(Paper *paper, Box inside, const ListContent *list)
 {
     const double smallest = 0.85; /* smallest factor of the letters' size */
     const ListGrid grid = arrange_list_grid(list, inside, paper->em);
@@ -124,7 +126,7 @@ double code_find_width(const LecturePage *page)
 static void draw_code(Paper *paper, Box inside, const FrameContent *content)
 {
     const char *const *code = content->lecture.page->code;
-    const char *mark = lecture_find_highlight(content);
+    const char *mark = lecture_find_lit_code(content);
     const double letter = 0.603, high = 1.3, low = 1.17, most = 1.9; /* ems */
     int lines;
     double letters = measure_code_width(content->lecture.page, &lines);
@@ -133,7 +135,7 @@ static void draw_code(Paper *paper, Box inside, const FrameContent *content)
     double cell = floor((inside.width - 2 * air) / letters);
     double wide = floor((cell + 0.49) / letter);
     double size = fmin(wide, inside.height / (low * lines)) / paper->em;
-    size = fmax(fmin(size, most), paper->min_letter);
+    size = fmax(fmin(size, most), paper->min_letter_size);
     int line =
         (int)fmax(fmin(paper_pixels(paper, high * size), inside.height / lines),
                   low * size * paper->em);
@@ -164,7 +166,8 @@ void card_draw(Paper *paper, Box inside, const FrameContent *content, int card)
 {
     const Pane *pane = active_pane(content);
     const Card *row = active_picture(content)->cards[card];
-    const Plot plot = plot_of_box(paper, content, pane, inside, paper->em);
+    const Plot plot =
+        plot_create_in_box(paper, content, pane, inside, paper->em);
     if (content->cards.covered_cards >> card & 1)
         card_write_hint(&plot, "after your guess");
     else if (row->draw)
@@ -201,7 +204,7 @@ void cards_draw(Paper *paper, const Layout *layout, const FrameContent *content)
     const Picture *picture = active_picture(content);
     if (layout->has_list)
         draw_code_or_list(paper, layout, content);
-    for (int i = 0; i < layout->cards; i++) {
+    for (int i = 0; i < layout->card_count; i++) {
         Box box = layout->card[i];
         if (box.width < 1)
             continue; /* hidden cards have no width */

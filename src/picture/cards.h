@@ -22,7 +22,7 @@ typedef struct ListingRow {
 
 /* A row of a listing as the present frame shows it. */
 typedef struct ShownRow {
-    bool is_highlighted, is_struck;
+    bool is_highlighted, is_crossed_out;
     TextLine text;
     TextLine value; /* empty until the step has reached the line */
 } ShownRow;
@@ -35,7 +35,7 @@ extern const ListingRow rows_listing[];
 extern const char text_sentences[], text_methods[], text_states[],
     text_triplets[], text_undrawn[], text_node[], text_spring[];
 
-/* All functions of a type have the same parameters, which some do not use. */
+/* Functions of a type have the same parameters, even unused ones. */
 #pragma GCC diagnostic ignored "-Wunused-parameter"
 
 /* Functions that cards.txt names; picture.h describes each kind. */
@@ -72,7 +72,7 @@ extern CardHeight page_find_height, listing_find_height, energies_find_height,
     updates_find_height;
 
 /* Returns the height of the page's card in the smallest letters, ems. */
-CardHeight page_least_height;
+CardHeight page_find_least_height;
 
 /* Writes the page's claim, which a test checks, at the bottom of the box.
  * Returns the box above the claim. */
@@ -87,7 +87,7 @@ void list_law_values(const Simulation *simulation, LiveValues *values);
 /* A contact between a node and a wall or an edge. */
 typedef struct NodeContact {
     double nearest_point[2]; /* m, nearest point of the wall or edge */
-    double node[2];          /* m */
+    double node_position[2]; /* m */
     double d;                /* m, the gap */
     double d_hat;            /* m, distance at which the force begins */
 } NodeContact;
@@ -105,13 +105,13 @@ bool frame_has_card(const FrameContent *content, const char *name);
 
 /* Returns a text: lines of the page's code that contain the text are lit.
  * During Algorithm 3 the text depends on the present line of the algorithm. */
-const char *lecture_find_highlight(const FrameContent *content);
+const char *lecture_find_lit_code(const FrameContent *content);
 
 /* Returns the newest spring: each step adds a spring to the Hessian. */
 int find_newest_spring(const Simulation *simulation);
 
 /* Returns the box inside a card, below the title; em in pixels. */
-Box card_inner_box(Box card, double em);
+Box card_find_inner_box(Box card, double em);
 
 /* Writes all lines with known values into a card, in letters as large as fit:
  * up to 1 em; on pages up to 1.2 ems, in main cards of pages up to 1.6 ems. */
@@ -164,4 +164,4 @@ void window_rows_draw(Paper *paper, const Layout *layout,
                       const FrameContent *content);
 
 /* Returns the step length alpha of trial 1, 2, ... of the line search. */
-double trace_step_length(const NewtonTrace *trace, int trial);
+double find_trial_step_length(const NewtonTrace *trace, int trial);

@@ -16,9 +16,9 @@ Colour colour_of_spring_kind(int kind)
     return colour_of_run(kind < 2 ? kind : 3);
 }
 
-/* The first TERM_COLOURS rows are terms (letters and energies); words and
- * methods follow.  With a row for a new energy TERM_COLOURS grows by 1. */
-enum { TERM_COLOURS = 21 };
+/* The first TERM_COLOUR_COUNT rows are terms (letters and energies); words and
+ * methods follow.  With a row for a new energy TERM_COLOUR_COUNT grows by 1. */
+enum { TERM_COLOUR_COUNT = 21 };
 static const struct {
     const char *name;
     Colour colour;
@@ -58,7 +58,7 @@ static const struct {
              {"bdf2", 0xff8a7a00u},
              {"sdirk2", 0xff5a4fa2u}};
 
-Colour colour_find_name(const char *name, size_t length)
+Colour colour_find_by_name(const char *name, size_t length)
 {
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (strlen(names[i].name) == length &&
@@ -69,10 +69,10 @@ Colour colour_find_name(const char *name, size_t length)
 
 Colour colour_of_name(const char *name)
 {
-    return colour_find_name(name, strlen(name));
+    return colour_find_by_name(name, strlen(name));
 }
 
 Colour colour_of_term(int term)
 {
-    return term < TERM_COLOURS ? names[term].colour : 0;
+    return term < TERM_COLOUR_COUNT ? names[term].colour : 0;
 }

@@ -4,12 +4,12 @@
 #include "picture/cards.h"
 
 /* Shade 0: up to 4 updates; each next, darker shade: up to twice as many. */
-enum { ENVELOPE_SHADES = 4 };
+enum { ENVELOPE_DARKEST_SHADE = 4 };
 
 static Colour colour_of_shade(int shade)
 {
     return colour_mix(0xffe3f2e8u, 0xff064a38u,
-                      (double)shade / ENVELOPE_SHADES);
+                      (double)shade / ENVELOPE_DARKEST_SHADE);
 }
 
 #define COLOUR_REFUSED 0xffe08a1eu
@@ -21,7 +21,7 @@ static Colour colour_of_cell(const EnvelopeCell *cell)
         return COLOUR_CHIP;
     if (cell->bad_status)
         return COLOUR_REFUSED;
-    while (shade < ENVELOPE_SHADES && cell->updates > 4 << shade)
+    while (shade < ENVELOPE_DARKEST_SHADE && cell->updates > 4 << shade)
         shade++;
     return colour_of_shade(shade);
 }
@@ -69,8 +69,9 @@ void draw_envelope_picture(Plot *stage)
                         colour_of_cell(&map->cell[row][column]));
     canvas_framed_box(
         &stage->paper->canvas,
-        box_inset(find_cell_box(stage, map->column, map->row), -1),
-        colour_of_cell(&map->cell[map->row][map->column]), COLOUR_TEXT);
+        box_inset(find_cell_box(stage, map->shown_column, map->shown_row), -1),
+        colour_of_cell(&map->cell[map->shown_row][map->shown_column]),
+        COLOUR_TEXT);
     for (int power = -8; power <= 16; power += 8)
         draw_ratio_line(&plot, pow(10, power));
 }
@@ -91,7 +92,7 @@ void envelope_pick(const Plot *stage, double x, double y, Pick *pick)
 void list_envelope_values(const Simulation *simulation, LiveValues *values)
 {
     const EnvelopeMap *map = &simulation->exhibit.envelope;
-    const EnvelopeCell *cell = &map->cell[map->row][map->column];
+    const EnvelopeCell *cell = &map->cell[map->shown_row][map->shown_column];
     int known = 0, converged = 0;
     for (int i = 0; i < ENVELOPE_ROWS * ENVELOPE_COLUMNS; i++) {
         const EnvelopeCell *one =
@@ -99,16 +100,16 @@ void list_envelope_values(const Simulation *simulation, LiveValues *values)
         known += one->is_known;
         converged += one->is_known && !one->bad_status;
     }
-    values->colour[0] = colour_of_shade(3);
-    values->colour[1] = colour_of_shade(2);
-    values->colour[2] = COLOUR_REFUSED;
+    values->line_colour[0] = colour_of_shade(3);
+    values->line_colour[1] = colour_of_shade(2);
+    values->line_colour[2] = COLOUR_REFUSED;
     bool all = known == ENVELOPE_ROWS * ENVELOPE_COLUMNS;
     values_add_flag(values, "all converged", all && converged == known);
     values_add_flag(values, "refused", all && converged < known);
     values_add(values, "known", known > 1 ? known : NAN);
     values_add(values, "converged", converged);
-    values_add(values, "h", envelope_timestep(map->column));
-    values_add(values, "k", envelope_stiffness(map->row));
+    values_add(values, "h", envelope_timestep(map->shown_column));
+    values_add(values, "k", envelope_stiffness(map->shown_row));
     values_add(values, "steps", ENVELOPE_STEPS);
     values_add(values, "updates", cell->updates);
     values_add_flag(values, "refused cell", cell->bad_status);

@@ -11,7 +11,7 @@ const Picture *picture_of_scene(const struct Scene *scene)
 
 int picture_find_card(const Picture *picture, const char *name)
 {
-    for (int c = 0; c < picture->count; c++)
+    for (int c = 0; c < picture->card_count; c++)
         if (strcmp(picture->cards[c]->name, name) == 0)
             return c;
     return -1;
@@ -28,8 +28,8 @@ static CardSets find_start_card_sets(const Simulation *simulation)
 {
     const Picture *picture = picture_of_scene(simulation->scene);
     const char *open = simulation->options.open_cards; /* NULL: not on a page */
-    CardSets sets = {.enlarged = -1};
-    for (int c = 0; c < picture->count; c++) {
+    CardSets sets = {.enlarged_card = -1};
+    for (int c = 0; c < picture->card_count; c++) {
         /* strstr suffices: no card's name is part of another one. */
         const Card *card = picture->cards[c];
         bool has =
@@ -53,18 +53,18 @@ bool cards_need_line_energy(const Simulation *simulation, unsigned toggled)
     const Picture *picture = picture_of_scene(simulation->scene);
     const CardSets sets = find_start_card_sets(simulation);
     unsigned shut = sets.hidden_cards | (sets.closed_cards ^ toggled);
-    for (int c = 0; c < picture->count; c++)
+    for (int c = 0; c < picture->card_count; c++)
         if (picture->cards[c]->needs_line_energy && !(shut >> c & 1))
             return true;
     return false;
 }
 
-const double *pane_positions(const Pane *pane)
+const double *pane_get_positions(const Pane *pane)
 {
     return pane->x ? pane->x : pane->simulation->run[0].x;
 }
 
-double trace_step_length(const NewtonTrace *trace, int trial)
+double find_trial_step_length(const NewtonTrace *trace, int trial)
 {
     return ldexp(trace->first_alpha > 0 ? trace->first_alpha : 1, 1 - trial);
 }
@@ -75,21 +75,21 @@ void history_add_point(History *history, double time, int rows,
     double sum = time;
     for (int i = 0; i < rows; i++)
         sum += 0 * row[i].value; /* NaN if the value is not finite */
-    if (!isfinite(sum) || history->count == HISTORY_POINTS)
+    if (!isfinite(sum) || history->point_count == HISTORY_MAX_POINTS)
         return;
-    int last = history->count++;
+    int last = history->point_count++;
     history->time[last] = time;
-    for (int s = 0; s < history->series; s++)
+    for (int s = 0; s < history->series_count; s++)
         history->value[s][last] = 0;
     for (int i = 0; i < rows; i++) {
         int s = 0;
-        while (s < history->series &&
+        while (s < history->series_count &&
                strcmp(history->name[s], row[i].name) != 0)
             s++;
-        if (s == HISTORY_SERIES)
+        if (s == MAX_HISTORY_SERIES)
             continue; /* the history has no room for more quantities */
-        if (s == history->series) {
-            history->name[history->series++] = row[i].name;
+        if (s == history->series_count) {
+            history->name[history->series_count++] = row[i].name;
             memset(history->value[s], 0, sizeof history->value[s]);
         }
         history->value[s][last] = row[i].value;

@@ -100,16 +100,16 @@ void draw_highlight(Paper *paper, const FrameContent *content)
     const WindowHit *mouse = &content->view->mouse_hit;
     unsigned layers = active_pane(content)->simulation->options.layers;
     bool stage = mouse->zone == ZONE_STAGE, idle = content->title_bar.state[0];
-    PickKind over = content->view->hovered.kind;
+    PickKind over = content->view->hovered_part.kind;
     Colour colour = 0;
     if (!content->lecture.page)
         return;
     if (idle && (mouse->zone == ZONE_CARD || stage))
         colour = find_term_colour(&paper->canvas, mouse->pixel,
                                   (int)(MOUSE_REACH * paper->em));
-    bool plain =
-        over == PICK_NODE || (over == PICK_SWITCH && !(layers & LAYER_KINDS));
-    if (plain || (colour == COLOUR_X && stage) || layers & LAYER_CURVES)
+    bool plain = over == PICK_NODE ||
+                 (over == PICK_SWITCH && !(layers & LAYER_SPRING_KINDS));
+    if (plain || (colour == COLOUR_X && stage) || layers & LAYER_ZERO_CURVES)
         colour = 0; /* the mouse highlights no node, switch, spring or curve */
     if (!colour && trace && frame_has_card(content, "listing"))
         colour = of_line[trace->at_line];

@@ -8,7 +8,7 @@
 /* Levels of the contours for h up to 0.2 s, J s^2; dense where E is small. */
 static const double map_levels[] = {0.1, 0.2, 0.4, 0.6, 1,  1.5, 2,
                                     3,   5,   7,   10,  15, 30,  50};
-enum { MAP_LEVELS = sizeof map_levels / sizeof *map_levels };
+enum { MAP_LEVEL_COUNT = sizeof map_levels / sizeof *map_levels };
 
 /* Colours "green" and "blue" for the zeros of components 1 and 2 of grad E. */
 static const Colour curve_colour[2] = {0xff009e73u, 0xff0072b2u};
@@ -16,10 +16,10 @@ static const Colour curve_colour[2] = {0xff009e73u, 0xff0072b2u};
 /* ---- the map ------------------------------------------------------------ */
 
 /* Returns the difference between a value and the nearest contour's level. */
-static double difference_to_contour(double value)
+static double find_contour_difference(double value)
 {
     double nearest = INFINITY;
-    for (int k = 0; k < MAP_LEVELS; k++)
+    for (int k = 0; k < MAP_LEVEL_COUNT; k++)
         nearest = fmin(nearest, fabs(value - map_levels[k]));
     return nearest;
 }
@@ -54,12 +54,12 @@ static void draw_contours(const Plot *plot, int i, int j, double value,
     double width = fmax(1, (zero ? 1.8 : 0.6) * plot->paper->unit);
     double reach = 0.5 + 0.5 * width;
     double slope = sqrt(right * right + up * up);
-    double away = zero ? fabs(value) : difference_to_contour(value);
+    double away = zero ? fabs(value) : find_contour_difference(value);
     if (away > (reach + 1) * slope)
         return;
     for (int k = 0; k < 4; k++) {
         double at = value + (k % 2 - 0.5) * right - (k / 2 - 0.5) * up;
-        away = zero ? fabs(at) : difference_to_contour(at);
+        away = zero ? fabs(at) : find_contour_difference(at);
         double part = fmin(fmax(reach - away / slope, 0), 1);
         canvas_fill(&plot->paper->canvas, (Box){i + k % 2, j + k / 2, 1, 1},
                     (Colour)(255 * part) << 24 | (colour & 0xffffff));
@@ -74,7 +74,7 @@ static void draw_contour_map(const Plot *plot)
     double metre = 1 / plot->camera.scale[0],
            e = find_contour_scale(simulation);
     const Box *box = &plot->box;
-    bool curves = simulation->options.layers & LAYER_CURVES;
+    bool curves = simulation->options.layers & LAYER_ZERO_CURVES;
     Colour contour = curves ? COLOUR_REST : COLOUR_GREY;
     Box before = canvas_set_clip(canvas, *box);
     canvas_fill(canvas, *box, COLOUR_WHITE);
@@ -107,7 +107,7 @@ static void write_contour_levels(const Plot *plot)
         const Point x = point_along(simulation->exhibit.x_tilde, gone, ray);
         double value = evaluate_energy(simulation, x.xy).energy / e;
         plot_to_pixel(plot, x.xy, place);
-        for (int k = 0; k < MAP_LEVELS; k++)
+        for (int k = 0; k < MAP_LEVEL_COUNT; k++)
             if (before < map_levels[k] && value >= map_levels[k] &&
                 gone > last + space &&
                 box_contains(inside, place[0], place[1])) {
@@ -129,7 +129,7 @@ static Plot draw_landscape_map(const Plot *stage)
     const double *x = simulation->run[0].x;
     Plot plot =
         plot_create_on_stage(stage, (Axis){.label = "x in m"}, (Axis){0});
-    bool curves = simulation->options.layers & LAYER_CURVES;
+    bool curves = simulation->options.layers & LAYER_ZERO_CURVES;
     draw_contour_map(&plot);
     if (plot.has_text && stage->content->lecture.page)
         write_contour_levels(&plot);
@@ -189,7 +189,7 @@ static void draw_newton_directions(const Plot *plot, bool both)
         plot_arrow(plot, from, p, 1, 2.2, colour);
     if (both || !alone)
         plot_arrow(plot, from, own, 1, 2.2, own_colour);
-    if (other && plot->is_revealed)
+    if (other && plot->is_answer_shown)
         plot_label(plot, 1, point_along(from, 1, own).xy, own_colour,
                    "g \u00b7 p = %s J s\u00b2",
                    format_digits(descent->slope, 2).text);
@@ -227,8 +227,8 @@ static void draw_force_arrows(const Plot *plot, const LocalModel *E)
 }
 
 /* Returns the sum of the given parts of E at x; values below 1e-30 become 0. */
-static double energy_of_parts(const Simulation *simulation, unsigned parts,
-                              const double *x)
+static double evaluate_energy_parts(const Simulation *simulation,
+                                    unsigned parts, const double *x)
 {
     double value = landscape_evaluate_parts(simulation, parts, x[0], x[1]);
     return value < 1e-30 ? 0 : value;
@@ -248,8 +248,9 @@ static void add_newton_values(const Simulation *simulation, LiveValues *values)
 {
     const Descent *descent = &simulation->descent;
     double h = simulation->options.timestep, x[2], p[2], v[2];
-    const double *start =
-        descent->count > 0 ? descent->record[0].x_before : descent->iterate;
+    const double *start = descent->record_count > 0
+                              ? descent->record[0].x_before
+                              : descent->iterate;
     int updates = 0;
     memcpy(x, start, sizeof x);
     while (updates < DESCENT_MAX_RECORDS &&
@@ -281,7 +282,7 @@ void list_landscape_values(const Simulation *simulation, LiveValues *values)
     values_add(values, "slope", descent->slope != 0 ? descent->slope : NAN);
     unsigned layers = simulation->options.layers;
     bool raw_start = simulation->options.projection == PROJECTION_NONE &&
-                     descent->count == 0;
+                     descent->record_count == 0;
     if (parts == PART_BOTH) {
         LocalModel P =
             descent_evaluate(simulation, PROJECTION_CLAMP, x[0], x[1]);
@@ -289,10 +290,11 @@ void list_landscape_values(const Simulation *simulation, LiveValues *values)
         values_add_flag(values, "directions",
                         raw_start && layers & LAYER_DOWNHILL);
     }
-    values_add(values, "E", energy_of_parts(simulation, parts, x));
-    values_add(values, "bowl", energy_of_parts(simulation, PART_INERTIA, x));
+    values_add(values, "E", evaluate_energy_parts(simulation, parts, x));
+    values_add(values, "bowl",
+               evaluate_energy_parts(simulation, PART_INERTIA, x));
     values_add(values, "elastic part",
-               energy_of_parts(simulation, PART_ELASTICITY, x));
+               evaluate_energy_parts(simulation, PART_ELASTICITY, x));
     values_add_matrix(values, raw, E.H, 0);
     append_energy_part_name(parts, values);
     values_add(values, "h", parts == PART_INERTIA ? NAN : h);
@@ -301,14 +303,14 @@ void list_landscape_values(const Simulation *simulation, LiveValues *values)
     values_add_flag(values, "inertial", parts != PART_ELASTICITY);
     bool pulls = layers & LAYER_FORCES, up = descent->slope > 0;
     bool down = descent->slope < 0 && parts == PART_BOTH && !pulls;
-    for (int i = 0; i < descent->count; i++) {
+    for (int i = 0; i < descent->record_count; i++) {
         down = down || descent->record[i].slope < 0;
         up = up || descent->record[i].slope > 0;
     }
     values_add_flag(values, "pulls", pulls);
     add_newton_values(simulation, values);
     values_add_flag(values, "halves", layers & LAYER_DOWNHILL);
-    values_add_flag(values, "curves", layers & LAYER_CURVES);
+    values_add_flag(values, "curves", layers & LAYER_ZERO_CURVES);
     values_add_flag(values, "directed", down);
     values_add_flag(values, "went uphill", up);
 }
@@ -347,7 +349,7 @@ static void draw_linearised_zeros(const Plot *plot, const LocalModel *E)
                     point_along(foot.xy, far, across).xy, 2.4, NULL,
                     curve_colour[k]);
     }
-    if (plot->is_revealed)
+    if (plot->is_answer_shown)
         plot_ring(plot,
                   point_along(x, 1, plot->simulation->descent.direction).xy, 8,
                   2.4, COLOUR_P);
@@ -381,10 +383,10 @@ void draw_landscape_picture(Plot *stage)
     Plot plot = draw_landscape_map(stage);
     unsigned layers = simulation->options.layers;
     bool halves = layers & LAYER_DOWNHILL && !simulation->is_over;
-    bool curves = layers & LAYER_CURVES;
+    bool curves = layers & LAYER_ZERO_CURVES;
     if (halves)
         draw_downhill_side(&plot, &E);
-    for (int i = 0; i < descent->count; i++) {
+    for (int i = 0; i < descent->record_count; i++) {
         const NewtonRecord *record = &descent->record[i];
         const double *from = record->x_before, *to = record->x_after;
         Colour colour = record->slope > 0 ? COLOUR_WARNING : COLOUR_P;
@@ -396,11 +398,11 @@ void draw_landscape_picture(Plot *stage)
     }
     bool raw = simulation->options.projection == PROJECTION_NONE;
     bool both = !lecture->page || (raw && halves);
-    if (stage->is_revealed && raw && !curves && !simulation->is_over)
+    if (stage->is_answer_shown && raw && !curves && !simulation->is_over)
         draw_model_ellipses(&plot, &E);
     if (curves && !simulation->is_over)
         draw_linearised_zeros(&plot, &E);
-    if (stage->is_revealed && layers & LAYER_FORCES)
+    if (stage->is_answer_shown && layers & LAYER_FORCES)
         draw_force_arrows(&plot, &E);
     else if (!lecture->hides_answer)
         draw_newton_directions(&plot, plot.has_text && both);
@@ -410,7 +412,7 @@ void draw_landscape_picture(Plot *stage)
         plot_label(&plot, 1, point_along(descent->iterate, -far, E.g).xy,
                    COLOUR_TEXT, "\u2212\u2207E");
     }
-    if (stage->is_revealed && plot.has_text && !curves &&
+    if (stage->is_answer_shown && plot.has_text && !curves &&
         simulation->exhibit.switches != PART_INERTIA)
         mark_stationary_points(&plot);
     plot_disc(&plot, descent->iterate, 7, COLOUR_TEXT);
@@ -427,15 +429,16 @@ void draw_dial_picture(Plot *stage)
     Plot plot = draw_landscape_map(stage);
     int points = stage->content->lecture.hides_answer ? 0 : DIAL_POINTS;
     for (int i = 1; i < points; i++)
-        plot_line(&plot, dial->point[i - 1], dial->point[i], 3, COLOUR_X);
+        plot_line(&plot, dial->minimiser[i - 1], dial->minimiser[i], 3,
+                  COLOUR_X);
     for (int i = 10; i < points; i += 10)
-        plot_disc(&plot, dial->point[i], 4.5, COLOUR_X);
+        plot_disc(&plot, dial->minimiser[i], 4.5, COLOUR_X);
     plot_disc(&plot, simulation->run[0].x, 9, COLOUR_TEXT);
     plot_label(&plot, 1, simulation->exhibit.x_tilde, COLOUR_X_TILDE, "{xt}");
     for (int i = points - 11; i > 10 && plot.has_text; i -= 10) {
         bool last = i == points - 11; /* the label of h[i] and all larger h */
         double at[2];
-        plot_to_pixel(&plot, dial->point[i], at);
+        plot_to_pixel(&plot, dial->minimiser[i], at);
         paper_write_on_panel(
             plot.paper, FACE_BOLD, 1, COLOUR_X, at[0] + (last ? 0 : plot.em),
             at[1] - (last ? 2 : 0.6) * plot.em,
@@ -447,13 +450,14 @@ void draw_dial_picture(Plot *stage)
 void list_dial_values(const Simulation *simulation, LiveValues *values)
 {
     const double *x = simulation->run[0].x, h = simulation->run[0].h;
-    double elastic = energy_of_parts(simulation, PART_ELASTICITY, x);
+    double elastic = evaluate_energy_parts(simulation, PART_ELASTICITY, x);
     append_energy_part_name(simulation->exhibit.switches, values);
     values_add(values, "h", h);
     values_add_point(values, "minimiser", x);
     values_add(values, "distance",
                point_distance(simulation->exhibit.x_tilde, x));
-    values_add(values, "inertia", energy_of_parts(simulation, PART_INERTIA, x));
+    values_add(values, "inertia",
+               evaluate_energy_parts(simulation, PART_INERTIA, x));
     values_add(values, "elasticity", elastic);
     values_add(values, "P", elastic / (h * h));
 }

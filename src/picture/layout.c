@@ -22,14 +22,14 @@ static const double MIN_COLUMN = 27;    /* least width of the column */
 static const double MIN_PAIR = 28;      /* least width for two cards in a row */
 
 static const double BOLD = 1.12; /* factor by which bold letters are wider */
-/* The picture's fraction of the stage: of the width beside the main card, or of
- * the height below the main card if the column has no room for the picture. */
+/* Fraction of the stage's width that the picture takes beside the main card, or
+ * of the height below the main card if the column has no room for it. */
 static const double PICTURE_PART = 0.45;
 /* A picture that would be narrower than MIN_BESIDE ems beside the main card is
  * placed below, in the fraction PICTURE_BELOW of the stage's height. */
 static const double MIN_BESIDE = 17, PICTURE_BELOW = 0.53;
-/* Largest height of a card below the picture, as a fraction of the stage's; and
- * least height of a main card below the picture, in multiples of min_height. */
+/* Limits for a card below the picture: largest height, as a fraction of the
+ * stage's; least height of a main card, in multiples of min_height. */
 static const double CARD_BELOW = 0.65, MAIN_CARD_GROWTH = 1.3;
 static const double MIN_SHRINK = 0.7; /* least fraction of the needed heights */
 /* Fraction of a low window's width that the settings have. */
@@ -37,10 +37,10 @@ static const double SETTINGS_PART = 0.75;
 
 /* The column's fraction of the window's width is COLUMN_PART.  The fraction
  * grows up to PAGE_PART (BIG_PART in large type) until a page's texts fit.
- * Code and lists of more than MAX_LIST_ROWS rows have up to WIDE_PART. */
+ * Code and lists of more than SHORT_LIST_ROWS rows have up to WIDE_PART. */
 static const double COLUMN_PART = 0.38, PAGE_PART = 0.50, BIG_PART = 0.57,
                     WIDE_PART = 0.75, COLUMN_GROWTH = 0.01;
-enum { MAX_LIST_ROWS = 30 };
+enum { SHORT_LIST_ROWS = 30 };
 
 /* An em has 14 pixels in a window of 1000 x 800, is proportional to the smaller
  * one of width/1000 and height/800, and has at least 9 pixels. */
@@ -131,15 +131,15 @@ static void place_settings(const SettingsRow *row, Layout *layout, bool low,
         room.x += left;
         room.width -= 2 * left;
         place_first_and_last(room, gap, row->count, width, box);
-        layout->settings = row->count;
+        layout->setting_count = row->count;
         return;
     }
-    layout->settings = place_boxes(room, 3, gap, row->count, width, box);
-    int more = (box[layout->settings - 1].y - room.y) / room.height;
+    layout->setting_count = place_boxes(room, 3, gap, row->count, width, box);
+    int more = (box[layout->setting_count - 1].y - room.y) / room.height;
     layout->settings_row =
         box_cut_off(rest, EDGE_BOTTOM,
                     ems_to_pixels(layout, SETTINGS + more * (SETTINGS - 0.4)));
-    for (int i = 0; i < layout->settings; i++)
+    for (int i = 0; i < layout->setting_count; i++)
         box[i].y += layout->settings_row.y;
 }
 
@@ -160,14 +160,15 @@ static void place_chips(const ChipRow *chips, bool lecture, Layout *layout)
     room.width = layout->width - 2 * room.x;
     int fit =
         place_first_and_last(room, gap, chips->count, width, layout->chip);
-    layout->chips = chips->count;
+    layout->chip_count = chips->count;
     layout->chips_left_out = last - fit;
 }
 
 /* Cuts title bar, settings, time line, chips off.  Returns the rest. */
 static Box place_zones(const FrameContent *content, Layout *layout)
 {
-    Box rest = {0, 0, layout->width, layout->height}, *bars = &layout->bars;
+    Box rest = {0, 0, layout->width, layout->height},
+        *bars = &layout->step_bars;
     double high = layout->height / layout->em;
     bool roomy = high >= 40, lecture = content->lecture.page;
     bool big = active_pane(content)->simulation->options.big;
@@ -204,9 +205,10 @@ static double find_min_height(const FrameContent *content, const Layout *layout,
 {
     const Card *row = active_picture(content)->cards[card];
     double em = layout->em;
-    double least = row->find_height ? row->find_height(content, wide, em)
-                                    : row->min_height;
-    bool graph = card > 0 && row->draw && !row->has_no_curves;
+    double least = row->find_least_height
+                       ? row->find_least_height(content, wide, em)
+                       : row->min_height;
+    bool graph = card > 0 && row->draw && !row->is_text_only;
     double high = GRAPH_PART * layout->height / em + GRAPH_AXES +
                   (row->make_legend_row ? GRAPH_LEGEND : 0);
     return graph && content->lecture.page ? fmax(least, high) : least;
@@ -237,12 +239,12 @@ static int find_card_rows(const FrameContent *content, const Layout *layout,
     const Picture *picture = active_picture(content);
     const CardSets *sets = &content->cards;
     int main_card = find_main_card(content);
-    int count = 0, cards = picture->count, before = -2;
-    bool large = sets->enlarged >= 0 && sets->enlarged < cards;
+    int count = 0, cards = picture->card_count, before = -2;
+    bool large = sets->enlarged_card >= 0 && sets->enlarged_card < cards;
     for (int i = 0; i < cards; i++) {
         const Card *card = picture->cards[i];
         bool bar =
-            sets->closed_cards >> i & 1 || (large && i != sets->enlarged);
+            sets->closed_cards >> i & 1 || (large && i != sets->enlarged_card);
         bool half = card->fits_half_width ||
                     (card->fits_half_page && content->lecture.page);
         bool on_stage =
@@ -279,7 +281,7 @@ static bool place_cards(const FrameContent *content, Layout *layout)
     Box rest = box_inset(layout->column, /* narrow margins in large type */
                          ems_to_pixels(layout, big ? 0.4 : GAP));
     bool pairs = !big && layout->column.width >= MIN_PAIR * layout->em;
-    double wide = card_inner_box(rest, layout->em).width / layout->em;
+    double wide = card_find_inner_box(rest, layout->em).width / layout->em;
     int count = find_card_rows(content, layout, wide, pairs, rows), open = 0;
     double room = (rest.height + gap) / layout->em; /* ems, for open rows */
     double least = 0, texts = 0, lacking = 0, weights = 1e-9;
@@ -290,7 +292,7 @@ static bool place_cards(const FrameContent *content, Layout *layout)
     }
     if (content->lecture.page && least > room && rows->min_height > 0 &&
         rows->first_card == 0) { /* card 0, the page, may shrink */
-        texts = page_least_height(content, wide, layout->em);
+        texts = page_find_least_height(content, wide, layout->em);
         lacking = rows->min_height - texts;
         least -= lacking;
     }
@@ -347,7 +349,7 @@ static void place_panes(int count, Layout *layout)
         column.height = bottom - top - (count > 1 ? gap : 0);
         layout->pane[i] = column;
     }
-    layout->panes = count;
+    layout->pane_count = count;
 }
 
 /* Places the cells of the overview in rows of `columns` squares.  Returns the
@@ -388,7 +390,7 @@ static void place_overview(const FrameContent *content, Layout *layout)
         }
     }
     place_overview_cells(content, layout, wide, best);
-    layout->cells = content->sheet.cells;
+    layout->cell_count = content->sheet.cells;
 }
 
 /* Places a card below the panes, at least `least` pixels high, but not higher
@@ -404,7 +406,7 @@ static void place_card_below(const FrameContent *content, Layout *layout,
         &layout->stage, EDGE_BOTTOM,
         (int)fmin(fmax(needs * em, least), CARD_BELOW * stage->height));
     layout->card[card] = box_inset(box, ems_to_pixels(layout, GAP));
-    place_panes(layout->panes, layout);
+    place_panes(layout->pane_count, layout);
 }
 
 /* Places the main card of a page on the stage, and the picture in the card's
@@ -415,9 +417,10 @@ static void place_main_card(const FrameContent *content, Layout *layout)
 {
     const int main_card = find_main_card(content);
     double bar = 3 * layout->em; /* a lower card is closed */
-    if (main_card < 0 || layout->cards == 0 || layout->panes != 1 ||
+    if (main_card < 0 || layout->card_count == 0 || layout->pane_count != 1 ||
         layout->stage.height < 2 * bar ||
-        (content->cards.enlarged >= 0 && content->cards.enlarged != main_card))
+        (content->cards.enlarged_card >= 0 &&
+         content->cards.enlarged_card != main_card))
         return;
     const Card *card = active_picture(content)->cards[main_card];
     Box *stage = &layout->pane[0], place = layout->card[main_card];
@@ -451,14 +454,14 @@ static void place_card_without_room(const FrameContent *content, Layout *layout)
     const Options *options = &simulation->options;
     int bar = ems_to_pixels(layout, TITLE_BAR), folded = 1;
     unsigned shut = content->cards.closed_cards | content->cards.hidden_cards;
-    while (folded < layout->cards &&
+    while (folded < layout->card_count &&
            (shut >> folded & 1 ||
             (layout->card[folded].height != bar && !layout->has_list)))
         folded++;
     if (!content->lecture.page || options->main_card ||
-        content->cards.enlarged >= 0 || folded >= layout->cards ||
+        content->cards.enlarged_card >= 0 || folded >= layout->card_count ||
         (!options->big && layout->has_list &&
-         (layout->panes != 1 || simulation->scene->switch_labels[1])))
+         (layout->pane_count != 1 || simulation->scene->switch_labels[1])))
         return;
     const Box stage = layout->stage, title = layout->card[folded];
     place_card_below(content, layout, folded,
@@ -491,7 +494,8 @@ Layout layout_create(const FrameContent *content, int width, int height)
     bool low = page && high < 50; /* low: lists and code cover the stage */
     bool bare = content->is_bare || content->is_stage_only;
     if (!bare && wide >= 53 && high >= 34 && !low &&
-        (page || content->cards.hidden_cards != (1u << picture->count) - 1)) {
+        (page ||
+         content->cards.hidden_cards != (1u << picture->card_count) - 1)) {
         double most = WIDE_PART * wide, end = big ? BIG_PART : PAGE_PART;
         const Box whole = layout.stage;
         for (double part = COLUMN_PART;; part += COLUMN_GROWTH) {
@@ -499,7 +503,7 @@ Layout layout_create(const FrameContent *content, int width, int height)
             if (content->column == COLUMN_CODE)
                 ems = fmin(fmax(code_find_width(content->lecture.page), ems),
                            most);
-            else if (page && content->list.row_count > MAX_LIST_ROWS)
+            else if (page && content->list.row_count > SHORT_LIST_ROWS)
                 ems = most;
             layout.stage = whole;
             layout.column = box_cut_off(&layout.stage, EDGE_RIGHT,
@@ -509,7 +513,7 @@ Layout layout_create(const FrameContent *content, int width, int height)
                 break;
         }
         if (!page || content->column == COLUMN_CODE)
-            layout.cards = picture->count;
+            layout.card_count = picture->card_count;
     } else if (!bare && page) { /* code or a list covers the stage */
         layout.column = layout.stage;
     }
@@ -535,11 +539,14 @@ WindowHit layout_find_hit(const Layout *l, double x, double y)
         WindowZone zone;
         const Box *box;
         int count; /* number of boxes */
-    } lists[] = {
-        {ZONE_TITLE, &l->title_bar, 1}, {ZONE_STAGE, l->pane, l->panes},
-        {ZONE_TIME, &l->time_line, 1},  {ZONE_LIST, &l->column, l->has_list},
-        {ZONE_CARD, l->card, l->cards}, {ZONE_SETTING, l->setting, l->settings},
-        {ZONE_CHIP, l->chip, l->chips}, {ZONE_CELL, l->cell, l->cells}};
+    } lists[] = {{ZONE_TITLE_BAR, &l->title_bar, 1},
+                 {ZONE_STAGE, l->pane, l->pane_count},
+                 {ZONE_TIME_LINE, &l->time_line, 1},
+                 {ZONE_LIST, &l->column, l->has_list},
+                 {ZONE_CARD, l->card, l->card_count},
+                 {ZONE_SETTING, l->setting, l->setting_count},
+                 {ZONE_CHIP, l->chip, l->chip_count},
+                 {ZONE_CELL, l->cell, l->cell_count}};
     WindowHit hit = {ZONE_NONE, 0, {x, y}};
     for (size_t k = 0; k < sizeof lists / sizeof *lists; k++)
         for (int i = 0; i < lists[k].count; i++)

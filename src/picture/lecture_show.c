@@ -7,12 +7,12 @@
 _Static_assert((int)LINE_COUNT == PAGE_HIGHLIGHT_LENGTH,
                "walk has a text for each line");
 
-const char *lecture_find_highlight(const FrameContent *content)
+const char *lecture_find_lit_code(const FrameContent *content)
 {
     const LecturePage *page = content->lecture.page;
     const NewtonTrace *trace = active_pane(content)->trace;
     bool walks = page->line_highlight && trace && trace->at_line != LINE_NONE;
-    return walks ? page->line_highlight[trace->at_line] : page->lit_code;
+    return walks ? page->line_highlight[trace->at_line] : page->highlight_text;
 }
 
 /* Lists all pages of the lecture, with a heading before each section.
@@ -22,13 +22,13 @@ static void list_pages(const LecturePage *marked, FrameContent *content)
     ListRow *row = content->list.row;
     for (const LecturePage *page = lecture_pages; page->name; page++) {
         if (page->section) {
-            *row = (ListRow){.style = ROW_HEADING, .target = -1};
+            *row = (ListRow){.style = ROW_HEADING, .target_index = -1};
             snprintf((row++)->text, SENTENCE_SIZE, "%s", page->section);
         }
-        *row = (ListRow){.target = (int)(page - lecture_pages),
+        *row = (ListRow){.target_index = (int)(page - lecture_pages),
                          .style = page->is_extra ? ROW_GREY : ROW_PLAIN};
         snprintf(row->key, VALUE_SIZE, "%s%d", page == marked ? ">" : "",
-                 row->target + 1);
+                 row->target_index + 1);
         snprintf((row++)->text, SENTENCE_SIZE, "%s%s", page->topic,
                  page->is_extra ? " (extra)" : "");
     }
@@ -96,7 +96,7 @@ void frame_add_lecture(ColumnContent column, const LecturePage *left,
         content->lecture.question = page->question;
     content->title_bar.topic = page->topic;
     content->cards.covered_cards = 0;
-    for (int c = 0; c < picture->count; c++)
+    for (int c = 0; c < picture->card_count; c++)
         if (content->lecture.hides_answer && page->covered_cards &&
             strstr(page->covered_cards, picture->cards[c]->name))
             content->cards.covered_cards |= 1u << c;

@@ -76,7 +76,8 @@ static void add_setting_values(const Simulation *simulation, LiveValues *values)
     bool explicit = time && method && method->stages == 0;
     bool backward = method && strcmp(method->name, "backward-euler") == 0;
     bool forward = method && strcmp(method->name, "forward-euler") == 0;
-    values_add_words(values, "scene", options->page ? NULL : scene->sentence);
+    values_add_words(values, "scene",
+                     options->page ? NULL : scene->description);
     bool settles = scene->needs_dissipation && !options->page;
     values_add_flag(values, "grows", settles && forward);
     values_add_flag(values, "keeps", settles && method && !method->dissipates);
@@ -121,10 +122,10 @@ static void add_trace_values(const Simulation *simulation,
     bool made = trace->at_line == LINE_NONE || trace->at_line >= LINE_SOLVE;
     bool known = made && isfinite(trace->residual);
     bool above = trace->residual > trace->tolerance;
-    if (trace->projected >= 0) {
-        values_add(values, "projected", trace->projected);
+    if (trace->projected_blocks >= 0) {
+        values_add(values, "projected", trace->projected_blocks);
         values_add_flag(values, "of springs",
-                        simulation_projects_springs(simulation));
+                        simulation_projects_only_springs(simulation));
     }
     values_add(values, "h then", trace->h);
     values_add(values, "tolerance", trace->tolerance);
@@ -134,7 +135,7 @@ static void add_trace_values(const Simulation *simulation,
     values_add_words(values, "way", trace->slope > 0 ? "uphill" : "downhill");
     values_add_flag(values, "uphill", trace->slope > 0);
     int trial = trace->trials > 1 ? trace->trials : 1;
-    double alpha = trace_step_length(trace, trial);
+    double alpha = find_trial_step_length(trace, trial);
     if (trace->trials > 0 || trace->at_line)
         values_add(values, "length", alpha);
     if (trace->trials > 0)
@@ -185,7 +186,7 @@ static const NewtonTrace *make_descent_trace(const Simulation *simulation,
                                              DescentTrace *space)
 {
     const Descent *descent = &simulation->descent;
-    int last = descent->count - 1;
+    int last = descent->record_count - 1;
     const NewtonRecord *record = &descent->record[last < 0 ? 0 : last];
     bool made = last >= 0 && record->alpha > 0;
     bool given_up = last >= 0 && !made; /* the line search refused all trials */
@@ -204,15 +205,15 @@ static const NewtonTrace *make_descent_trace(const Simulation *simulation,
         .at_line = aims && !made ? LINE_SOLVE : LINE_NONE,
         .h = simulation->options.timestep,
         .tolerance = simulation->options.tolerance,
-        .record_count = descent->count,
+        .record_count = descent->record_count,
         .record = descent->record,
-        .iteration = descent->count,
+        .iteration = descent->record_count,
         .residual = given_up ? record->residual : descent->residual,
         .has_failed = given_up,
         .slope = taken  ? record->slope
                  : aims ? descent->slope
                         : 0,
-        .projected = taken ? record->projected : -1,
+        .projected_blocks = taken ? record->projected_blocks : -1,
         .energy_difference = aims ? compute_energy_change : NULL,
         .difference_data = space,
         .trials = taken ? record->trials : 0,
@@ -238,21 +239,21 @@ void frame_compute_values(FrameContent *content)
         if (!now->trace && simulation->scene->step == step_descent)
             now->shown_trace = make_descent_trace(simulation, &now->descent);
         values->count = values->next_run = 0;
-        for (int run = 0; run <= VALUES_RUNS; run++)
-            values->colour[run] = COLOUR_TEXT;
+        for (int run = 0; run <= VALUES_MAX_RUNS; run++)
+            values->line_colour[run] = COLOUR_TEXT;
         add_window_values(content, values);
         add_setting_values(simulation, values);
-        if ((!line || now->trace->has_failed) && now->failure &&
-            now->failure != STATUS_INTERRUPTED) {
-            values_add_words(values, status_name(now->failure), "");
-            values_add_words(values, "trouble", status_text(now->failure));
+        if ((!line || now->trace->has_failed) && now->step_status &&
+            now->step_status != STATUS_INTERRUPTED) {
+            values_add_words(values, status_name(now->step_status), "");
+            values_add_words(values, "trouble", status_text(now->step_status));
         }
         values_add_flag(values, lines[line], walks && line);
         values_add_flag(values, "no step", !now->shown_trace);
         if (now->shown_trace)
             add_trace_values(simulation, now->shown_trace, values);
         if (picture->add_values &&
-            (i == content->active_pane || picture->legend))
+            (i == content->active_pane_index || picture->legend))
             picture->add_values(simulation, values);
     }
 }
@@ -320,9 +321,9 @@ static bool fill_in_values(TextLine *line, const char *text, size_t length)
     line->face = FACE_REGULAR;
     if (*from == '#' && from[name] != '{') { /* the line has a colour */
         int run = strncmp(from, "#run ", 5) == 0 ? line->run : from[1] - '0';
-        line->colour = run >= 0 && run <= VALUES_RUNS
-                           ? values->colour[run]
-                           : colour_find_name(from + 1, name - 1);
+        line->colour = run >= 0 && run <= VALUES_MAX_RUNS
+                           ? values->line_colour[run]
+                           : colour_find_by_name(from + 1, name - 1);
         line->face = from[name] == '*' ? FACE_BOLD : FACE_REGULAR;
         from += name + 1 + (from[name] == '*');
     }
@@ -357,11 +358,12 @@ bool text_next_line(TextLine *line)
 {
     for (;;) {
         if (*line->next_text == '@') {
-            line->next_text = line->repeated = line->next_text + 2;
+            line->next_text = line->repeated_lines = line->next_text + 2;
             line->run = 1;
         }
-        if (!*line->next_text && line->repeated && line->run < VALUES_RUNS) {
-            line->next_text = line->repeated;
+        if (!*line->next_text && line->repeated_lines &&
+            line->run < VALUES_MAX_RUNS) {
+            line->next_text = line->repeated_lines;
             line->run++;
         }
         const char *text = line->next_text;

@@ -38,9 +38,9 @@ typedef struct TextLine {
     Face face;
     char text[LINE_TEXT_SIZE];
     const LiveValues *values;
-    const char *next_text; /* the text after this line */
-    const char *repeated;  /* lines to repeat for each run, or NULL */
-    int run;               /* run whose values fill the line */
+    const char *next_text;      /* the text after this line */
+    const char *repeated_lines; /* lines to repeat for each run, or NULL */
+    int run;                    /* run whose values fill the line */
 } TextLine;
 
 /* Walks over the lines of a text that have known values (NULL: no lines):

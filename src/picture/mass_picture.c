@@ -5,7 +5,7 @@
 #include "picture/cards.h"
 
 enum {
-    TRAIL = 256,            /* most steps of a drawn path */
+    MAX_TRAIL_STEPS = 256,  /* most steps of a drawn path */
     EIGENVALUE_PIECES = 200 /* pieces of the eigenvalues' path over h */
 };
 
@@ -19,7 +19,7 @@ static const double EIGEN_MAX = 5;      /* largest |eigenvalue| that is shown */
 static const double NUMBERS_WIDE = 16.4, NUMBERS_HIGH = 9;
 static const double origin[2] = {0, 0};
 
-/* Returns the colour of a run's method; one mass with arrows has COLOUR_X. */
+/* Returns the colour of a run's method, or COLOUR_X for a mass with arrows. */
 static Colour colour_of_mass(const Simulation *simulation, int run)
 {
     return simulation->runs == 1 && simulation->scene->picture == PICTURE_MASS
@@ -33,12 +33,14 @@ static void draw_trails(const Plot *stage, bool steps)
 {
     const History *history = stage->pane->history;
     int runs = stage->simulation->runs;
-    for (int r = 0; history && history->series && r < runs; r++) {
+    for (int r = 0; history && history->series_count && r < runs; r++) {
         const double *x = history->value[runs + 2 * r];
         const double *y = history->value[runs + 2 * r + 1];
         Colour colour = colour_of_mass(stage->simulation, r);
-        int first = history->count > TRAIL ? history->count - TRAIL : 0;
-        for (int i = first; i < history->count; i++) {
+        int first = history->point_count > MAX_TRAIL_STEPS
+                        ? history->point_count - MAX_TRAIL_STEPS
+                        : 0;
+        for (int i = first; i < history->point_count; i++) {
             const double at[2] = {x[i], y[i]};
             if (steps)
                 plot_disc(stage, at, 3.5, colour);
@@ -80,7 +82,7 @@ void draw_circle_picture(Plot *stage)
     plot_ring(stage, origin, stage->camera.scale[0] / stage->paper->unit, 5,
               COLOUR_GRID);
     plot_line(stage, origin, (double[2]){1, 0}, 1.2, COLOUR_GREY);
-    if (stage->is_revealed)
+    if (stage->is_answer_shown)
         plot_ellipse(stage, origin, (double[2]){2, 0}, (double[2]){0, 2}, 1.4,
                      true, COLOUR_GREY);
     plot_disc(stage, origin, 3.5, COLOUR_GREY);
@@ -225,7 +227,7 @@ void list_circle_values(const Simulation *simulation, LiveValues *values)
     for (int r = 0; r < simulation->runs; r++) {
         const TimeIntegrator *run = &simulation->run[r];
         values->next_run = r + 1;
-        values->colour[r + 1] = colour_of_name(run->method->name);
+        values->line_colour[r + 1] = colour_of_name(run->method->name);
         values_add_flag(values, "many", simulation->runs > 1);
         values_add_words(values, "name", run->method->label);
         values_add(values, "radius", vector_length(run->x));

@@ -34,14 +34,14 @@ int paper_pixels(const Paper *paper, double ems)
 
 void paper_keep_word_box(Paper *paper, Box box)
 {
-    paper->word_boxes[paper->word_count++ % MAX_WORD_BOXES] = box;
+    paper->word_boxes[paper->word_box_count++ % MAX_WORD_BOXES] = box;
 }
 
 static TextStyle paper_make_style(const Paper *paper, Face face, double size,
                                   Colour colour)
 {
-    return (TextStyle){face, fmax(size, paper->min_letter) * paper->em, colour,
-                       false, paper->min_letter * paper->em};
+    return (TextStyle){face, fmax(size, paper->min_letter_size) * paper->em,
+                       colour, false, paper->min_letter_size * paper->em};
 }
 
 int paper_write(Paper *paper, Face face, double size, Colour colour, double x,

@@ -35,9 +35,9 @@ static void find_lone_pane_bounds(const FrameContent *content,
                                   const Layout *layout, int pane,
                                   double bounds[4])
 {
-    const Plot stage =
-        plot_of_box(NULL, content, &content->pane[pane],
-                    find_picture_room(content, layout, pane), layout->em);
+    const Plot stage = plot_create_in_box(
+        NULL, content, &content->pane[pane],
+        find_picture_room(content, layout, pane), layout->em);
     const Picture *picture = picture_of_scene(stage.simulation->scene);
     if (picture->find_bounds)
         picture->find_bounds(&stage, bounds);
@@ -53,7 +53,7 @@ static void find_pane_bounds(const FrameContent *content, const Layout *layout,
     const DragBounds *held = &content->view->drag_bounds;
     int last = content->lecture.page ? content->panes - 1 : pane;
     double own[4];
-    if (held->is_dragging && !held->mouse_has_left &&
+    if (held->is_dragging && !held->is_mouse_off_stage &&
         (held->pane_index == pane || held->pane_index == last)) {
         memcpy(bounds, held->bounds, sizeof held->bounds);
         return;
@@ -79,8 +79,8 @@ Plot stage_create(Paper *paper, const FrameContent *content,
                   const Layout *layout, int pane)
 {
     const Lens *lens = &content->view->lens;
-    Plot stage = plot_of_box(paper, content, &content->pane[pane],
-                             layout->pane[pane], layout->em);
+    Plot stage = plot_create_in_box(paper, content, &content->pane[pane],
+                                    layout->pane[pane], layout->em);
     double bounds[4];
     stage.has_text = !content->is_bare;
     bool stretched = picture_of_scene(stage.simulation->scene)->is_stretched;
@@ -118,15 +118,15 @@ void stage_draw_handles(const Plot *stage)
 {
     double at[SCENE_MAX_HANDLES][2];
     int count = exhibit_list_handles(stage->simulation, at);
-    const Pick *hover = &stage->content->view->hovered;
+    const Pick *hover = &stage->content->view->hovered_part;
     for (int i = 0; i < count && !stage->content->is_bare; i++) {
         bool over = hover->kind == PICK_HANDLE && hover->index == i &&
-                    hover->pane == plot_pane_index(stage);
+                    hover->pane_index == plot_pane_index(stage);
         plot_ring(stage, at[i], over ? 13 : 10, over ? 3 : 1.8, COLOUR_HAND);
     }
 }
 
-static Box box_of_switch(const Plot *stage, int i, int count)
+static Box find_switch_box(const Plot *stage, int i, int count)
 {
     const Box *box = &stage->box;
     int wide = (int)(SWITCH_WIDTH * stage->em);
@@ -145,10 +145,10 @@ static void draw_switches(const Plot *stage)
     SceneSwitch switches[SCENE_MAX_SWITCHES];
     int count = list_switches(stage, switches);
     for (int i = 0; i < count; i++) {
-        Box box = box_of_switch(stage, i, count),
+        Box box = find_switch_box(stage, i, count),
             mark = box_inset(box, box.height / 4);
         bool on = switches[i].is_on;
-        Colour colour = stage->simulation->options.layers & LAYER_KINDS
+        Colour colour = stage->simulation->options.layers & LAYER_SPRING_KINDS
                             ? colour_of_spring_kind(i)
                             : COLOUR_VALUE;
         canvas_framed_box(&paper->canvas, box, on ? COLOUR_LIT : COLOUR_CHIP,
@@ -175,7 +175,7 @@ static void draw_guess(const Plot *stage)
         return;
     plot_to_pixel(stage, guess->guess, at);
     plot_to_pixel(stage, guess->outcome, came);
-    if (simulation_find_point(stage->simulation, point) == 1) {
+    if (simulation_find_shown_point(stage->simulation, point) == 1) {
         canvas_line(canvas, at[0], box->y + box->height, at[0], box->y,
                     1.5 * unit, COLOUR_HAND);
         came[1] = at[1];
@@ -195,7 +195,7 @@ Pick frame_find_pick(const FrameContent *content, const Layout *layout,
     Pick pick = {.kind = PICK_NONE, .nearest_node = -1};
     if (hit.zone != ZONE_STAGE || hit.index >= content->panes)
         return pick;
-    pick.pane = hit.index;
+    pick.pane_index = hit.index;
     Plot stage = stage_create(NULL, content, layout, hit.index);
     const Picture *picture = picture_of_scene(stage.simulation->scene);
     double at[SCENE_MAX_HANDLES][2];
@@ -205,7 +205,8 @@ Pick frame_find_pick(const FrameContent *content, const Layout *layout,
     if (!picture->draws_handles) {
         int count = list_switches(&stage, switches);
         for (pick.index = 0; pick.index < count; pick.index++)
-            if (box_contains(box_of_switch(&stage, pick.index, count), x, y)) {
+            if (box_contains(find_switch_box(&stage, pick.index, count), x,
+                             y)) {
                 pick.kind = PICK_SWITCH;
                 return pick;
             }
@@ -277,7 +278,7 @@ static void draw_pane(Paper *paper, const Layout *layout,
 {
     Plot stage = stage_create(paper, content, layout, pane);
     const Picture *picture = picture_of_scene(stage.simulation->scene);
-    const Pick *hover = &content->view->hovered;
+    const Pick *hover = &content->view->hovered_part;
     Box before = canvas_set_clip(&paper->canvas, stage.box);
     if (content->lecture.page && stage.box.height < MIN_TEXT * paper->em)
         stage.has_text = false;
@@ -286,16 +287,17 @@ static void draw_pane(Paper *paper, const Layout *layout,
     while (stage.has_text && text_next_line(&line))
         plot_legend(&stage, line.colour, "%s", line.text);
     if (stage_shows_scale_bar(&stage))
-        plot_scale_bar(&stage);
+        plot_draw_scale_bar(&stage);
     if (!picture->draws_handles)
         stage_draw_handles(&stage);
     draw_switches(&stage);
     draw_guess(&stage);
-    if (layout->panes > 1 && stage.pane->label)
+    if (layout->pane_count > 1 && stage.pane->label)
         draw_pane_label(&stage, stage.pane->label);
-    if (picture->draw_hover && stage.has_text && hover->pane == pane &&
-        hover->kind != PICK_NONE && !content->hand.is_held)
-        picture->draw_hover(&stage);
+    if (picture->draw_hover_note && stage.has_text &&
+        hover->pane_index == pane && hover->kind != PICK_NONE &&
+        !content->hand.is_held)
+        picture->draw_hover_note(&stage);
     canvas_set_clip(&paper->canvas, before);
 }
 
@@ -304,7 +306,7 @@ static void draw_pane(Paper *paper, const Layout *layout,
 static void draw_sheet_cell(Paper *paper, Box box, const SheetCell *cell,
                             bool chosen)
 {
-    Layout layout = {.em = paper->em, .panes = 1};
+    Layout layout = {.em = paper->em, .pane_count = 1};
     Box name = box;
     Box inside = box_cut_off(&name, EDGE_TOP, box.width);
     if (cell->heading)
@@ -330,8 +332,8 @@ static void prepare_paper(Paper *paper, double em, const FrameContent *content)
 {
     paper->em = em;
     paper->unit = em / 14;
-    paper->word_count = 0;
-    paper->min_letter = content->lecture.page ? 1 : 0;
+    paper->word_box_count = 0;
+    paper->min_letter_size = content->lecture.page ? 1 : 0;
     canvas_clear(&paper->canvas, COLOUR_WHITE);
 }
 
@@ -347,14 +349,14 @@ void frame_draw(Paper *paper, const FrameContent *content)
 {
     Layout layout =
         layout_create(content, paper->canvas.width, paper->canvas.height);
-    bool sheet = layout.cells > 0, several = layout.panes > 1;
+    bool sheet = layout.cell_count > 0, several = layout.pane_count > 1;
     prepare_paper(paper, layout.em, content);
-    for (int i = 0; i < layout.cells; i++)
+    for (int i = 0; i < layout.cell_count; i++)
         draw_sheet_cell(paper, layout.cell[i], &content->sheet.cell[i],
                         i == content->view->selected_cell);
     if (several) /* lines between the panes */
         canvas_fill(&paper->canvas, layout.stage, COLOUR_RULE);
-    for (int pane = 0; pane < layout.panes; pane++) {
+    for (int pane = 0; pane < layout.pane_count; pane++) {
         if (several)
             canvas_fill(&paper->canvas, layout.pane[pane], COLOUR_WHITE);
         draw_pane(paper, &layout, content, pane);

@@ -65,7 +65,9 @@ static NumberText format_tick(const Axis *axis, double value)
 {
     double span = axis->high - axis->low;
     bool is_zero = axis->scale != SCALE_LOG && fabs(value) < 1e-9 * span;
-    return format_number(is_zero ? 0 : axis->is_milli ? 1000 * value : value);
+    return format_number(is_zero             ? 0
+                         : axis->shows_milli ? 1000 * value
+                                             : value);
 }
 
 /* Lists the multiples of a step on the axis, or the powers of ten whose

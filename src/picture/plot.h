@@ -18,7 +18,7 @@ typedef struct Axis {
     double low, high; /* high > low; both > 0 on a logarithmic axis */
     /* places of the ticks: any, whole numbers, powers of ten */
     enum { SCALE_LINEAR, SCALE_WHOLE, SCALE_LOG } scale;
-    bool is_milli; /* numbers at the ticks are 1000 times the values */
+    bool shows_milli; /* numbers at the ticks are 1000 times the values */
     /* Markup; x: below the axis at the right end, y: above the upper end. */
     const char *label;
 } Axis;
@@ -28,7 +28,7 @@ typedef struct Plot {
     const FrameContent *content;
     const Pane *pane; /* pane of the stage; in cards the active pane */
     const Simulation *simulation; /* simulation of the pane */
-    bool is_revealed;             /* a page shows its answer */
+    bool is_answer_shown;         /* a page shows its answer */
     Box box;                      /* pixels, without the numbers of the axes */
     Camera camera;                /* maps logarithms on a logarithmic axis */
     Axis x, y;           /* low = high = 0: no axes, and the unit is metres */
@@ -39,14 +39,14 @@ typedef struct Plot {
 
 /* Makes the plot of a box, with coordinates in metres.  A plot without paper
  * can convert positions, not draw. */
-static inline Plot plot_of_box(Paper *paper, const FrameContent *content,
-                               const Pane *pane, Box box, double em)
+static inline Plot plot_create_in_box(Paper *paper, const FrameContent *content,
+                                      const Pane *pane, Box box, double em)
 {
     return (Plot){.paper = paper,
                   .content = content,
                   .pane = pane,
                   .simulation = pane->simulation,
-                  .is_revealed =
+                  .is_answer_shown =
                       content->lecture.page && !content->lecture.hides_answer,
                   .box = box,
                   .has_text = true,
@@ -165,11 +165,11 @@ void plot_arrow(const Plot *plot, const double *a, const double *d,
 void plot_legend(Plot *plot, Colour colour, const char *format, ...);
 
 /* Draws a scale bar in the lower left corner: 1, 2 or 5 times 10^n metres. */
-void plot_scale_bar(const Plot *plot);
+void plot_draw_scale_bar(const Plot *plot);
 
 /* Returns the cost of a place for a label, which is high if the box covers
  * drawn pixels or reaches out of the plot. */
-double plot_label_cost(const Plot *plot, Box place);
+double plot_find_label_cost(const Plot *plot, Box place);
 
 /* Writes a label, formatted as by printf, in bold beside one of the points,
  * where the label covers the fewest drawn pixels.

@@ -19,9 +19,9 @@ void find_race_bounds(const Plot *stage, double bounds[4])
     bounds[1] = -7.4;
     bounds[2] = over_h ? 1.1 : 2.1; /* names */
     bounds[3] = 1.2;                /* room for the scene's switch */
-    for (int i = 0; i < race->count; i++) {
-        const RacePoint *point = &race->point[i];
-        double x = log10(1e3 * (over_h ? point->h : point->seconds));
+    for (int i = 0; i < race->run_count; i++) {
+        const RaceResult *point = &race->result[i];
+        double x = log10(1e3 * (over_h ? point->h : point->processor_time));
         double y = fmin(fmax(log10(point->error), -8), 1);
         if (!(point->error > 0))
             continue;
@@ -54,9 +54,9 @@ void draw_race_picture(Plot *stage)
         Colour colour = colour_of_name(race_get_method(method)->name);
         double last[2] = {NAN, NAN};
         named[method][0] = named[method][1] = NAN;
-        for (int i = method; i < race->count; i += RACE_METHODS) {
-            const RacePoint *point = &race->point[i];
-            double seconds = over_h ? point->h : point->seconds;
+        for (int i = method; i < race->run_count; i += RACE_METHODS) {
+            const RaceResult *point = &race->result[i];
+            double seconds = over_h ? point->h : point->processor_time;
             const double now[2] = {1e3 * seconds, point->error};
             if (!(point->error > 0))
                 continue;
@@ -84,24 +84,25 @@ void list_race_values(const Simulation *simulation, LiveValues *values)
     static const char *const names[2][2] = {{"explicit", "explicit ms"},
                                             {"implicit", "implicit ms"}};
     const Race *race = &simulation->exhibit.race;
-    bool all = race->count == RACE_METHODS * RACE_STEP_SIZES;
+    bool all = race->run_count == RACE_METHODS * RACE_STEP_SIZES;
     for (int i = 0; i < 2; i++) {
-        const RacePoint *best = NULL, *at = race->point;
-        for (; at < race->point + race->count; at++)
+        const RaceResult *best = NULL, *at = race->result;
+        for (; at < race->result + race->run_count; at++)
             if ((at->method->stages > 0) == (i == 1) && at->is_stable &&
                 at->error <= TARGET_ERROR &&
-                (!best || at->seconds < best->seconds))
+                (!best || at->processor_time < best->processor_time))
                 best = at;
         values_add_words(values, names[i][0],
                          best ? best->method->label : NULL);
-        values_add(values, names[i][1], best ? 1e3 * best->seconds : NAN);
+        values_add(values, names[i][1],
+                   best ? 1e3 * best->processor_time : NAN);
         values_add_flag(values, i ? "" : "no explicit", !best && all);
     }
     values_add_flag(
         values, simulation->exhibit.switches ? "over h" : "over time", true);
     values_add(values, "methods", RACE_METHODS);
-    if (race->count > 0)
-        values_add(values, "longest h", 1e3 * race->point[0].h);
+    if (race->run_count > 0)
+        values_add(values, "longest h", 1e3 * race->result[0].h);
     values_add_flag(values, "failed", simulation->status);
 }
 
@@ -122,18 +123,18 @@ bool race_make_row(const FrameContent *content, int row, CardTableRow *cells)
     if (row == 0 || row > RACE_METHODS)
         return row == 0;
     const IntegratorMethod *shown = race_get_method(method);
-    const RacePoint *point =
-        &race->point[RACE_SHOWN_ROW * RACE_METHODS + method];
+    const RaceResult *point =
+        &race->result[RACE_SHOWN_STEP_SIZE * RACE_METHODS + method];
     char(*cell)[CARD_CELL] = cells->cell;
     cells->colour = colour_of_name(shown->name);
     snprintf(cell[0], CARD_CELL, "%s", shown->label);
-    if (race->count > point - race->point) {
+    if (race->run_count > point - race->result) {
         snprintf(cell[1], CARD_CELL, "explodes");
         format_cell(cell[1], "", point->error);
     }
     for (int k = 1; k <= HALVED_STEP_COLUMNS; k++) {
-        const RacePoint *half = point + RACE_METHODS;
-        if (race->count <= half - race->point)
+        const RaceResult *half = point + RACE_METHODS;
+        if (race->run_count <= half - race->result)
             break;
         snprintf(cell[1 + k], CARD_CELL, "\u2013");
         format_cell(cell[1 + k], "\u00f7 ", point->error / half->error);

@@ -18,7 +18,7 @@ typedef struct ScalarUpdate {
     const Simulation *simulation;
     double x0, x1, f, slope, curvature;
     double alpha; /* step length; 0: unknown, or all lengths were refused */
-    int refused_lengths;   /* number of refused trials alpha = 1, 1/2, ... */
+    int refused_count;     /* number of refused trials alpha = 1, 1/2, ... */
     int iterate;           /* index of the iterate x0 */
     bool is_made;          /* false: the update is only predicted */
     bool shows_derivative; /* draws f' and tangent, not f and model */
@@ -40,7 +40,7 @@ static ScalarUpdate find_scalar_update(const Simulation *simulation, int i)
         const NewtonRecord *record = &descent->record[i];
         update.x0 = record->x_before[0];
         update.alpha = record->alpha;
-        update.refused_lengths = record->trials - (record->alpha > 0);
+        update.refused_count = record->trials - (record->alpha > 0);
         update.iterate = i;
         update.is_made = true;
     }
@@ -73,8 +73,8 @@ static double evaluate_model_at(const void *data, double x)
 /* Returns iterate i of 0 ... count; the last one is the present point. */
 static double get_iterate(const Descent *descent, int i)
 {
-    return i == descent->count ? descent->iterate[0]
-                               : descent->record[i].x_before[0];
+    return i == descent->record_count ? descent->iterate[0]
+                                      : descent->record[i].x_before[0];
 }
 
 /* ---- function, model and iterates ---------------------------------------- */
@@ -107,13 +107,13 @@ static void draw_iteration(const Plot *plot, const ScalarUpdate *update,
         plot_label(plot, 1, edge, COLOUR_P, "%sto x = %s%s",
                    right ? "" : "\u2190 ", format_number(x1).text,
                    right ? " \u2192" : "");
-    for (int i = 0; i < update->refused_lengths; i++, alpha *= 0.5) {
+    for (int i = 0; i < update->refused_count; i++, alpha *= 0.5) {
         double x = update->x0 + alpha * (x1 - update->x0);
         plot_hollow_disc(plot, (double[2]){x, evaluate_f(update, x)}, 5, 3.2,
                          COLOUR_WARNING);
     }
-    for (int i = 0; i <= descent->count; i++) {
-        bool last = i == descent->count;
+    for (int i = 0; i <= descent->record_count; i++) {
+        bool last = i == descent->record_count;
         double x = get_iterate(descent, i);
         const double at[2] = {x, evaluate_f(update, x)};
         Colour colour = last ? COLOUR_TEXT : COLOUR_X;
@@ -134,9 +134,9 @@ void draw_scalar_picture(Plot *stage)
     bool whole = simulation->options.line_search == LINE_SEARCH_NONE;
     const Colour pale = (COLOUR_P & 0xffffff) | 0x70000000u;
     ScalarUpdate update =
-        find_scalar_update(simulation, simulation->descent.count - 1);
+        find_scalar_update(simulation, simulation->descent.record_count - 1);
     Plot plot = plot_create_on_stage(stage, (Axis){.label = "x"}, (Axis){0});
-    for (int i = 0; whole && i + 1 < simulation->descent.count; i++) {
+    for (int i = 0; whole && i + 1 < simulation->descent.record_count; i++) {
         ScalarUpdate earlier = find_scalar_update(simulation, i);
         draw_scalar_model(&plot, &earlier, 1.4, 4, pale);
     }
@@ -144,7 +144,7 @@ void draw_scalar_picture(Plot *stage)
 }
 
 /* Returns the step length that backtracking finds from the present iterate. */
-static double find_first_alpha(const Simulation *simulation)
+static double find_accepted_alpha(const Simulation *simulation)
 {
     ScalarUpdate from = find_scalar_update(simulation, -1);
     double alpha = 1, p = from.x1 - from.x0;
@@ -158,21 +158,21 @@ static double find_first_alpha(const Simulation *simulation)
 void list_scalar_values(const Simulation *simulation, LiveValues *values)
 {
     ScalarUpdate update =
-        find_scalar_update(simulation, simulation->descent.count - 1);
+        find_scalar_update(simulation, simulation->descent.record_count - 1);
     double x = update.x0, p = update.x1 - update.x0;
     double next = x + (update.alpha > 0 ? update.alpha : 1) * p;
     bool tangent = simulation->scene->picture == PICTURE_TANGENT;
     values_add_flag(values, "tangent", tangent);
     values_add(values, "number", update.iterate);
     values_add(values, "next number", update.iterate + 1);
-    values_add_flag(values, "refused lengths", update.refused_lengths > 0);
+    values_add_flag(values, "refused lengths", update.refused_count > 0);
     values_add(values, "iterate", x);
     values_add(values, "next", next);
     values_add_flag(values, "no length", !(update.alpha > 0));
     values_add_flag(values, "full length", update.alpha >= 1);
     if (update.alpha > 0 && update.alpha < 1)
         values_add(values, "shorter", update.alpha);
-    values_add(values, "first length", find_first_alpha(simulation));
+    values_add(values, "first length", find_accepted_alpha(simulation));
     values_add(values, "slope", update.slope);
     values_add(values, "curvature", update.curvature);
     values_add(values, "direction", p);
@@ -194,7 +194,7 @@ static Plot create_tangent_plot(const Plot *stage, int half)
 {
     const Descent *descent = &stage->simulation->descent;
     double high = half ? 2 : 4;
-    for (int i = 0; i <= descent->count; i++) {
+    for (int i = 0; i <= descent->record_count; i++) {
         LocalModel at =
             evaluate_scalar_model(stage->simulation, get_iterate(descent, i));
         high = fmax(high, half ? at.energy : fabs(at.g[0]));
@@ -218,7 +218,7 @@ void draw_tangent_picture(Plot *stage)
     const Simulation *simulation = stage->simulation;
     const double target[2] = {simulation->exhibit.x_tilde[0], 0};
     ScalarUpdate update =
-        find_scalar_update(simulation, simulation->descent.count - 1);
+        find_scalar_update(simulation, simulation->descent.record_count - 1);
     const Plot plot[2] = {create_tangent_plot(stage, 0),
                           create_tangent_plot(stage, 1)};
     bool asked = stage->content->lecture.hides_answer;
@@ -268,7 +268,7 @@ bool iterates_make_row(const FrameContent *content, int row,
     const Simulation *simulation = active_pane(content)->simulation;
     char root[DIGITS_TEXT_SIZE], x[DIGITS_TEXT_SIZE];
     int right = 0;
-    if (row == 0 || row > simulation->descent.count + 1)
+    if (row == 0 || row > simulation->descent.record_count + 1)
         return row == 0;
     write_digits(find_scalar_root(simulation), root);
     write_digits(get_iterate(&simulation->descent, row - 1), x);
@@ -283,7 +283,7 @@ bool iterates_make_row(const FrameContent *content, int row,
 static void draw_iterates(const Plot *card)
 {
     const double size = 1.1, pitch = 1.6; /* ems */
-    int count = card->simulation->descent.count + 1;
+    int count = card->simulation->descent.record_count + 1;
     Paper *paper = card->paper;
     int rows = (int)(card->box.height / (pitch * paper->em));
     int first = count > rows ? count - rows : 0;

@@ -21,7 +21,7 @@ void square_pick(const Plot *stage, double x, double y, Pick *pick)
     const SquareMesh *mesh = &simulation->mesh;
     const Options *options = &simulation->options;
     const Contact *contact = get_contact(system);
-    const double *at = pane_positions(stage->pane);
+    const double *at = pane_get_positions(stage->pane);
     double spacing = stage->camera.scale[0] * mesh->spacing;
     double reach = fmin(fmax(0.3 * spacing, 7), 16), best = reach * reach / 4;
     int springs = get_neo_hookean(system) ? 0 : system->springs;
@@ -77,7 +77,7 @@ static void draw_mouse_note(const Plot *stage, const LiveValues *values,
     Plot note = *stage;
     Box *box = &note.box;
     double middle = stage->box.x + 0.5 * stage->box.width, mouse[2];
-    double size = fmax(NOTE_SIZE, paper->min_letter);
+    double size = fmax(NOTE_SIZE, paper->min_letter_size);
     double wide = NOTE_WIDTH * paper->em;
     int margin = paper_pixels(paper, 0.7), high = 2 * margin;
     for (TextLine line = text_begin(values, text); text_next_line(&line);) {
@@ -86,7 +86,7 @@ static void draw_mouse_note(const Plot *stage, const LiveValues *values,
                                       0, line.text);
         high += paper_pixels(paper, 0.2 * size);
     }
-    plot_to_pixel(stage, stage->content->view->hovered.point, mouse);
+    plot_to_pixel(stage, stage->content->view->hovered_part.point, mouse);
     box->width = (int)wide + 2 * margin;
     box->height = high;
     box->x += mouse[0] > middle ? 0 : stage->box.width - box->width;
@@ -96,12 +96,12 @@ static void draw_mouse_note(const Plot *stage, const LiveValues *values,
     card_write_text(&note, values, text);
 }
 
-/* Writes the note about a node; its force m g - grad P is without friction. */
+/* Writes the note about a node, with the force m g - grad P (no friction). */
 static void describe_node(Plot *stage, const Pane *pane, int node)
 {
     const Simulation *simulation = pane->simulation;
     const System *system = &simulation->system;
-    const double *all = pane_positions(pane), *x = all + 2 * (size_t)node;
+    const double *all = pane_get_positions(pane), *x = all + 2 * (size_t)node;
     const double *v = simulation->run[0].v + 2 * (size_t)node;
     const double *ghost = pane->trace ? pane->trace->x_tilde : NULL;
     double h = simulation->options.timestep, force[2], tilde[2];
@@ -141,9 +141,9 @@ static void describe_spring(Plot *stage, const Pane *pane, int s)
     Projection projection = pane->simulation->options.projection;
     double k = get_neo_hookean(system) ? NAN : system->k[s];
     double l2 = system->l2[s], d[2];
-    double d2 = spring_vector(e, pane_positions(pane), d);
+    double d2 = spring_vector(e, pane_get_positions(pane), d);
     const FlowLaw law = plasticity_get_flow_law(system, s);
-    double s_e = spring_eigenvalue_across(d2, l2) / l2 - law.ep;
+    double s_e = spring_eigenvalue_across(d2, l2) / l2 - law.ep_n;
     double across = l2 * flow_law_slope(law, s_e);
     double along = flow_law_eigenvalue_along(law, s_e, d2, across);
     across *= 2 * spring_hessian_factor(l2, k);
@@ -167,7 +167,7 @@ static void describe_spring(Plot *stage, const Pane *pane, int s)
 void draw_square_hover(Plot *stage)
 {
     const Pane *pane = stage->pane;
-    const Pick *hover = &stage->content->view->hovered;
+    const Pick *hover = &stage->content->view->hovered_part;
     const System *system = &pane->simulation->system;
     if (hover->kind == PICK_NODE && hover->index < system->nodes)
         describe_node(stage, pane, hover->index);

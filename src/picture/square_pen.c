@@ -50,7 +50,7 @@ SquarePen square_pen_create(Plot *stage, int run)
         .stage = stage,
         .simulation = simulation,
         .system = system,
-        .x = run ? simulation->run[run].x : pane_positions(stage->pane),
+        .x = run ? simulation->run[run].x : pane_get_positions(stage->pane),
         .v = simulation->run[run].v,
         .spacing = stage->camera.scale[0] * mesh->spacing,
         .shade_strain = find_strain_range(simulation, NULL),
@@ -76,14 +76,15 @@ SquarePen square_pen_create(Plot *stage, int run)
                                : pen.shade_strain;
     if (pen.colour_range > 0)
         pen.width *= 1.4;
-    bool ended = trace && trace->at_line == LINE_NONE && stage->is_revealed &&
-                 frame_has_card(content, "prints");
-    pen.shows_projected = trace &&
-                          (ended || (trace->at_line >= LINE_PROJECT &&
-                                     trace->at_line <= LINE_SEARCH)) &&
-                          !content->shows_strain &&
-                          simulation->options.projection != PROJECTION_NONE &&
-                          trace->projected != 0 && !get_neo_hookean(system);
+    bool ended = trace && trace->at_line == LINE_NONE &&
+                 stage->is_answer_shown && frame_has_card(content, "prints");
+    pen.shows_projected =
+        trace &&
+        (ended ||
+         (trace->at_line >= LINE_PROJECT && trace->at_line <= LINE_SEARCH)) &&
+        !content->shows_strain &&
+        simulation->options.projection != PROJECTION_NONE &&
+        trace->projected_blocks != 0 && !get_neo_hookean(system);
     return pen;
 }
 
@@ -158,7 +159,7 @@ int pane_count_folded_cells(const Pane *pane)
     int folded = 0, node[4];
     for (int c = 0; c < pane->simulation->mesh.cells; c++)
         folded += cell_is_whole(pane->simulation, c, node) &&
-                  face_is_folded(pane_positions(pane), node);
+                  face_is_folded(pane_get_positions(pane), node);
     return folded;
 }
 
@@ -261,7 +262,8 @@ void square_draw_nodes(const SquarePen *pen)
             plot_draw_pin(pen->stage, pen->x + 2 * i, radius);
     }
     for (int k = 0;
-         pen->fixed_bodies && k < pen->simulation->mesh.outline_edges; k++) {
+         pen->fixed_bodies && k < pen->simulation->mesh.outline_edge_count;
+         k++) {
         int node[2];
         square_mesh_get_outline_edge(&pen->simulation->mesh, k, node);
         if (node_is_fixed(pen, node[0]))
@@ -275,7 +277,7 @@ void square_draw_outline(const SquarePen *pen, const double *x, bool dashed,
 {
     const SquareMesh *mesh = &pen->simulation->mesh;
     double phase = 0, end[2][2];
-    for (int k = 0; k < mesh->outline_edges; k++) {
+    for (int k = 0; k < mesh->outline_edge_count; k++) {
         int node[2];
         square_mesh_get_outline_edge(mesh, k, node);
         for (int i = 0; i < 2; i++)

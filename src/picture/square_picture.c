@@ -8,9 +8,9 @@
 #include "picture/square_pen.h"
 
 enum {
-    ARROW_SPACING = 16, /* pixels, least distance between two arrows */
-    MIN_CELL = 5,       /* pixels; smaller cells are drawn as faces */
-    MAX_NUMBERED = 121  /* largest mesh with node numbers or forces */
+    ARROW_SPACING = 16,      /* pixels, least distance between two arrows */
+    MIN_CELL = 5,            /* pixels; smaller cells are drawn as faces */
+    MAX_NUMBERED_NODES = 121 /* largest mesh with node numbers or forces */
 };
 
 static const double MIN_ARROW = 1.5; /* ems; shorter directions are enlarged */
@@ -100,7 +100,8 @@ static void widen_to_circle(const Extent *seen, const double at[2],
 
 /* Widens the view to show each ball in reach, a strip of each ground in reach
  * (wide enough for the mouse), and the place to which a script pulls.  The
- * pushed obstacle is always in reach, and with shows_all every obstacle. */
+ * pushed obstacle is always in reach, and with shows_all_obstacles every
+ * obstacle. */
 static void widen_to_obstacles(const Plot *stage, Extent *view)
 {
     const Simulation *simulation = stage->simulation;
@@ -113,8 +114,8 @@ static void widen_to_obstacles(const Plot *stage, Extent *view)
         widen_to_circle(&seen, hand->target, air, PULL_REACH, view);
     for (int k = 0; contact && k < options->grounds + options->balls; k++) {
         const Obstacle *obstacle = &contact->obstacle[k];
-        bool held = contact->hand.is_held && contact->hand.obstacle == k;
-        bool seeks_all = held || stage->content->view->lens.shows_all;
+        bool held = contact->hand.is_held && contact->hand.obstacle_index == k;
+        bool seeks_all = held || stage->content->view->lens.shows_all_obstacles;
         NodeGap gap =
             contact_measure_gap(obstacle, obstacle->o, seen.middle, 0);
         const Point foot = point_along(seen.middle, -gap.d, gap.n);
@@ -133,7 +134,8 @@ void find_node_bounds(const Pane *pane, int runs, double bounds[4])
     bounds[0] = bounds[1] = INFINITY;
     bounds[2] = bounds[3] = -INFINITY;
     for (int r = 0; r < runs; r++) {
-        const double *x = r > 0 ? simulation->run[r].x : pane_positions(pane);
+        const double *x =
+            r > 0 ? simulation->run[r].x : pane_get_positions(pane);
         for (int i = 0; i < simulation->run[r].system->nodes; i++, x += 2)
             for (int k = 0; k < 2 && isfinite(x[0] + x[1]); k++) {
                 bounds[k] = fmin(bounds[k], x[k]);
@@ -198,7 +200,7 @@ void find_square_bounds(const Plot *stage, double bounds[4])
     double box[4], tall, grown = 1;
     find_node_bounds(stage->pane, simulation->runs, box);
     if (is_free)
-        move_view_to_body(simulation, pane_positions(stage->pane), &view);
+        move_view_to_body(simulation, pane_get_positions(stage->pane), &view);
     while (grown < find_view_growth(box, &view, &tall) * (1 - 1e-12) &&
            grown < MAX_GROWTH) {
         Extent larger = view;
@@ -266,8 +268,8 @@ static void mark_part_under_mouse(const SquarePen *pen)
     const System *system = pen->system;
     const HandGrip *hand = &content->hand;
     bool holds = hand->is_held && stage->pane == active_pane(content);
-    const Pick *hover = &content->view->hovered;
-    bool over = hover->pane == plot_pane_index(stage);
+    const Pick *hover = &content->view->hovered_part;
+    bool over = hover->pane_index == plot_pane_index(stage);
     bool writes = pen->simulation->options.next_action == NEXT_ADDS_SPRING;
     int lit = hover->kind == PICK_SPRING ? hover->index
               : writes                   ? find_newest_spring(pen->simulation)
@@ -424,8 +426,8 @@ static void draw_page_arrows(const SquarePen *pen)
 {
     unsigned layers = pen->simulation->options.layers;
     const System *system = pen->system;
-    double arrow[2 * MAX_NUMBERED] = {0};
-    if (system->nodes > MAX_NUMBERED)
+    double arrow[2 * MAX_NUMBERED_NODES] = {0};
+    if (system->nodes > MAX_NUMBERED_NODES)
         return;
     if (layers & LAYER_MODES) {
         compute_rest_positions(pen->simulation, arrow);
@@ -434,13 +436,14 @@ static void draw_page_arrows(const SquarePen *pen)
         draw_node_arrows(pen, arrow, 30, COLOUR_VELOCITY,
                          "displacement \u00d7 30");
     }
-    if (!(layers & LAYER_FORCES) || !pen->stage->is_revealed)
+    if (!(layers & LAYER_FORCES) || !pen->stage->is_answer_shown)
         return;
     system_acceleration(system, pen->x, arrow);
     for (int i = 0; i < 2 * system->nodes; i++)
         arrow[i] *= system->m[i / 2];
     draw_node_arrows(pen, arrow, 0, COLOUR_FORCE, "force on each node");
-    if (!(layers & LAYER_KINDS)) /* pages without kinds mention the node */
+    if (!(layers &
+          LAYER_SPRING_KINDS)) /* pages without kinds mention the node */
         plot_label(pen->stage, 1, pen->x + 2 * system->nodes - 2, COLOUR_TEXT,
                    "node %d", system->nodes - 1);
 }
@@ -452,7 +455,7 @@ static void draw_springs_by_kind(const SquarePen *pen)
     const System *system = pen->system;
     int newest = exhibit_find_spring_kind(pen->simulation,
                                           find_newest_spring(pen->simulation));
-    bool wide = pen->simulation->options.layers & LAYER_KINDS;
+    bool wide = pen->simulation->options.layers & LAYER_SPRING_KINDS;
     for (int s = 0; s < system->springs; s++) {
         int kind = exhibit_find_spring_kind(pen->simulation, s);
         if (system->k[s] > 0)
@@ -471,23 +474,24 @@ static void draw_magnifier(const SquarePen *pen)
     double bounds[4], least = INFINITY;
     const Box stage = lens.box;
     int air = (int)lens.em, side = (int)(MAGNIFIER_SIDE * lens.em);
-    if (!lens.is_revealed || lens.box.width < 2 * side ||
+    if (!lens.is_answer_shown || lens.box.width < 2 * side ||
         !law_find_contact(pen->simulation, &gap))
         return;
     for (int i = 0; i < 4; i++) {
         int left = i & 2 ? air : stage.width - side - air;
         int top = i & 1 ? stage.height - side - 2 * air : 2 * air;
         Box box = {stage.x + left, stage.y + top, side, side};
-        double cost = plot_label_cost(pen->stage, box) + 0.1 * i;
+        double cost = plot_find_label_cost(pen->stage, box) + 0.1 * i;
         if (cost < least)
             lens.box = box;
         least = fmin(least, cost);
     }
     double reach = 1.2 * gap.d_hat;
     for (int c = 0; c < 4; c++)
-        bounds[c] = 0.5 * (gap.nearest_point[c % 2] + gap.node[c % 2]) +
-                    (c < 2 ? -reach : reach);
-    plot_ring(pen->stage, gap.node, 7, 1.5, COLOUR_P);
+        bounds[c] =
+            0.5 * (gap.nearest_point[c % 2] + gap.node_position[c % 2]) +
+            (c < 2 ? -reach : reach);
+    plot_ring(pen->stage, gap.node_position, 7, 1.5, COLOUR_P);
     canvas_framed_box(canvas, lens.box, COLOUR_WHITE, COLOUR_P);
     Box before = canvas_set_clip(canvas, box_inset(lens.box, 1));
     lens.camera = camera_create(lens.box, bounds, false, &LENS_FITS);
@@ -497,7 +501,7 @@ static void draw_magnifier(const SquarePen *pen)
     near.node_radius = 4;
     square_draw_springs(&near);
     square_draw_nodes(&near);
-    plot_line(&lens, gap.nearest_point, gap.node, 3, COLOUR_P);
+    plot_line(&lens, gap.nearest_point, gap.node_position, 3, COLOUR_P);
     paper_write_on_panel(lens.paper, FACE_BOLD, 1, COLOUR_P,
                          lens.box.x + 0.6 * lens.em, lens.box.y + 0.4 * lens.em,
                          ALIGN_LEFT, "\u03b4 = %s mm",
@@ -513,7 +517,8 @@ static void draw_slid_distance(const Plot *stage, int body)
     const double *x = stage->simulation->run[0].x;
     double gone[2], from[2] = {INFINITY, -INFINITY};
     int nodes = mesh->nodes / mesh->bodies;
-    if (!stage->is_revealed || !law_find_slip(stage->simulation, body, gone))
+    if (!stage->is_answer_shown ||
+        !law_find_slip(stage->simulation, body, gone))
         return;
     for (int i = body * nodes; i < (body + 1) * nodes; i++) {
         from[0] = fmin(from[0], x[2 * i] - gone[0]);
@@ -551,13 +556,14 @@ void draw_square_picture(Plot *stage)
     }
     if (!content->is_bare)
         folded = draw_below_springs(pen);
-    bool cuts = layers & LAYER_CUTS,
+    bool cuts = layers & LAYER_FILLED_CELLS,
          solid = cuts && content->lecture.hides_answer;
     if (cuts)
         square_fill_cells(pen, true);
     if (solid)
         square_draw_outline(pen, pen->x, false, COLOUR_X);
-    else if (stage->is_revealed && layers & (LAYER_CUTS | LAYER_KINDS))
+    else if (stage->is_answer_shown &&
+             layers & (LAYER_FILLED_CELLS | LAYER_SPRING_KINDS))
         draw_springs_by_kind(pen);
     else if (pen->spacing >= MIN_CELL || system_term_data(system, &fracture))
         square_draw_springs(pen);
@@ -581,10 +587,10 @@ void draw_square_picture(Plot *stage)
     draw_direction_arrows(pen);
     mark_part_under_mouse(pen);
     add_legend_warnings(pen, folded);
-    if (stage->is_revealed && layers & LAYER_NUMBERS &&
+    if (stage->is_answer_shown && layers & LAYER_NODE_NUMBERS &&
         (simulation->steps == 0 ||
          simulation->options.next_action == NEXT_ADDS_SPRING) &&
-        system->nodes <= MAX_NUMBERED)
+        system->nodes <= MAX_NUMBERED_NODES)
         draw_node_numbers(pen);
     if (pen->colour_range > 0)
         add_colour_legend(pen);
@@ -629,7 +635,7 @@ static void add_force_values(const Simulation *simulation, const double *x,
                              LiveValues *values)
 {
     int last = simulation->system.nodes - 1, balanced = 0;
-    double a[2 * MAX_NUMBERED] = {0}, *at = a + 2 * last;
+    double a[2 * MAX_NUMBERED_NODES] = {0}, *at = a + 2 * last;
     system_acceleration(&simulation->system, x, a);
     for (int i = 0; i <= last; i++)
         balanced += vector_length(a + 2 * i) <= 1e-9 * vector_length(at);
@@ -644,7 +650,7 @@ void list_square_values(const Simulation *simulation, LiveValues *values)
 {
     const System *system = &simulation->system;
     const Options *options = &simulation->options;
-    double start[2 * MAX_NUMBERED], mode[2 * SIMULATION_MODE_NODES];
+    double start[2 * MAX_NUMBERED_NODES], mode[2 * SIMULATION_MAX_MODE_NODES];
     int nodes = system->nodes, shorter = 0;
     const double *x = simulation->run[0].x;
     if (!options->page)
@@ -665,12 +671,12 @@ void list_square_values(const Simulation *simulation, LiveValues *values)
     if (options->next_action == NEXT_ADDS_SPRING)
         add_block_values(simulation, values);
     list_law_values(simulation, values);
-    if (options->layers & LAYER_MODES && nodes <= SIMULATION_MODE_NODES) {
+    if (options->layers & LAYER_MODES && nodes <= SIMULATION_MAX_MODE_NODES) {
         compute_rest_positions(simulation, start);
         double omega = simulation_find_fastest_mode(simulation, start, mode);
         values_add(values, "h limit", 2 / omega);
     }
-    if (options->layers & LAYER_FORCES && nodes <= MAX_NUMBERED)
+    if (options->layers & LAYER_FORCES && nodes <= MAX_NUMBERED_NODES)
         add_force_values(simulation, x, values);
 }
 
@@ -678,7 +684,8 @@ void list_square_values(const Simulation *simulation, LiveValues *values)
 int square_sample_energies(const Simulation *simulation, Energy *row)
 {
     Energies energies = simulation_get_energies(simulation, 0);
-    int n = energies.count < HISTORY_SERIES ? energies.count : HISTORY_SERIES;
+    int n = energies.count < MAX_HISTORY_SERIES ? energies.count
+                                                : MAX_HISTORY_SERIES;
     memcpy(row, energies.energy, (size_t)n * sizeof *row);
     return n;
 }

@@ -14,10 +14,11 @@ enum {
 };
 
 struct Text {
-    FT_Library library;
+    FT_Library freetype;
     FT_Face font[FACE_COUNT];
     int glyph_count;
-    Glyph glyph[TEXT_MAX_GLYPHS]; /* hash table of the letters in the cache */
+    Glyph glyph_table[TEXT_MAX_GLYPHS]; /* hash table of the letters in the
+                                           cache */
 };
 
 /* ---- fonts -------------------------------------------------------------- */
@@ -71,7 +72,7 @@ Status text_create(Text **text)
         return STATUS_OK;
     Text *made = calloc(1, sizeof *made);
     errno = 0;
-    if (!made || FT_Init_FreeType(&made->library)) {
+    if (!made || FT_Init_FreeType(&made->freetype)) {
         free(made);
         return STATUS_OUT_OF_MEMORY;
     }
@@ -79,7 +80,7 @@ Status text_create(Text **text)
     FT_Error error = errno == ENOMEM ? FT_Err_Out_Of_Memory : 0;
     for (int face = 0; face < FACE_COUNT && error != FT_Err_Out_Of_Memory;
          face++) {
-        error = open_font(made->library, (Face)face, given, &made->font[face]);
+        error = open_font(made->freetype, (Face)face, given, &made->font[face]);
         if (error)
             made->font[face] = made->font[FACE_REGULAR];
     }
@@ -94,8 +95,8 @@ Status text_create(Text **text)
 static void forget_glyphs(Text *text)
 {
     for (int i = 0; i < TEXT_MAX_GLYPHS; i++)
-        free(text->glyph[i].mask);
-    memset(text->glyph, 0, sizeof text->glyph);
+        free(text->glyph_table[i].mask);
+    memset(text->glyph_table, 0, sizeof text->glyph_table);
     text->glyph_count = 0;
 }
 
@@ -104,7 +105,7 @@ void text_free(Text *text)
     if (!text)
         return;
     forget_glyphs(text);
-    FT_Done_FreeType(text->library); /* also frees the fonts */
+    FT_Done_FreeType(text->freetype); /* also frees the fonts */
     free(text);
 }
 
@@ -144,9 +145,9 @@ const Glyph *font_get_glyph(Text *text, Face face, int size, uint32_t letter)
     if (text->glyph_count > TEXT_MAX_GLYPHS / 2)
         forget_glyphs(text);
     size_t place = (size_t)(key * 0x9e3779b97f4a7c15u >> 40) % TEXT_MAX_GLYPHS;
-    while (text->glyph[place].key && text->glyph[place].key != key)
+    while (text->glyph_table[place].key && text->glyph_table[place].key != key)
         place = (place + 1) % TEXT_MAX_GLYPHS;
-    Glyph *glyph = &text->glyph[place];
+    Glyph *glyph = &text->glyph_table[place];
     if (!glyph->key) {
         *glyph = render_glyph(text, face, size, letter);
         glyph->key = key;

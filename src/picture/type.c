@@ -259,18 +259,19 @@ static void typeset_coloured(Pen *pen, MarkupPart part, int depth)
     while (part.start[-2 - (ptrdiff_t)length] != '#')
         length++;
     if (before != COLOUR_GREY)
-        pen->style.colour = colour_find_name(part.start - 1 - length, length);
+        pen->style.colour =
+            colour_find_by_name(part.start - 1 - length, length);
     typeset_markup(pen, part, depth);
     pen->style.colour = before;
 }
 
 /* ---- markup ------------------------------------------------------------- */
 
-/* Words that start markup.  Either `set_in_braces` sets the part in braces that
+/* Words that start markup.  Either `typeset_part` sets the part in braces that
  * follows, or the word is an abbreviation of the markup `expansion`. */
 static const struct {
     const char *name;
-    void (*set_in_braces)(Pen *pen, MarkupPart part, int depth);
+    void (*typeset_part)(Pen *pen, MarkupPart part, int depth);
     const char *expansion;
 } commands[] = {
     {"^", typeset_script, NULL},        {"_", typeset_script, NULL},
@@ -278,30 +279,30 @@ static const struct {
     {"#", typeset_coloured, NULL},      {"{x}", NULL, "#x{x}"},
     {"{xt}", NULL, "#xt{x\u0303}"},     {"{p}", NULL, "#p{p}"},
     {"{alpha}", NULL, "#alpha{\u03b1}"}};
-enum { MARKUP_COMMANDS = sizeof commands / sizeof *commands };
+enum { COMMAND_COUNT = sizeof commands / sizeof *commands };
 
 /* Finds the command that begins at `string`, and its brace.  Returns
- * MARKUP_COMMANDS if no command begins there. */
+ * COMMAND_COUNT if no command begins there. */
 static int find_command(const char *string, const char **brace)
 {
-    for (int i = 0; i < MARKUP_COMMANDS; i++) {
+    for (int i = 0; i < COMMAND_COUNT; i++) {
         const char *name = commands[i].name;
         if (*string != *name || strncmp(string, name, strlen(name)) != 0)
             continue;
         *brace = string + (commands[i].expansion ? 0 : strlen(name));
-        if (commands[i].set_in_braces == typeset_coloured)
+        if (commands[i].typeset_part == typeset_coloured)
             *brace += strspn(*brace, "abcdefghijklmnopqrstuvwxyz0123456789");
         if (**brace == '{')
             return i;
     }
-    return MARKUP_COMMANDS;
+    return COMMAND_COUNT;
 }
 
 bool text_is_markup_brace(const char *text, const char *brace)
 {
     const char *found = NULL;
     for (const char *at = brace + 1; at > text && brace - at < 16; at--)
-        if (find_command(at - 1, &found) < MARKUP_COMMANDS && found == brace)
+        if (find_command(at - 1, &found) < COMMAND_COUNT && found == brace)
             return true;
     return false;
 }
@@ -311,15 +312,15 @@ static const char *typeset_first_part(Pen *pen, MarkupPart part, int depth)
 {
     const char *at = part.start, *brace = at;
     bool plain = pen->style.is_plain || depth >= MAX_FORMULA_DEPTH;
-    int command = plain ? MARKUP_COMMANDS : find_command(at, &brace);
-    if (command < MARKUP_COMMANDS && commands[command].expansion) {
+    int command = plain ? COMMAND_COUNT : find_command(at, &brace);
+    if (command < COMMAND_COUNT && commands[command].expansion) {
         typeset_markup(pen, whole_markup(commands[command].expansion), depth);
         return at + strlen(commands[command].name);
     }
-    if (command < MARKUP_COMMANDS && brace < part.end) {
+    if (command < COMMAND_COUNT && brace < part.end) {
         MarkupPart inside = {brace + 1, part.end};
         inside.end = find_outside_braces(inside, NULL);
-        commands[command].set_in_braces(pen, inside, depth + 1);
+        commands[command].typeset_part(pen, inside, depth + 1);
         return inside.end + (inside.end < part.end);
     }
     typeset_letter(pen, read_utf8_letter(&at));

@@ -5,8 +5,8 @@
 #include <stdio.h>
 
 enum {
-    MIN_STEPS = 60,       /* least number of steps of a time line */
-    MIN_BAR = 3,          /* pixels, width below which bars are merged */
+    MIN_TIME_LINE_STEPS = 60, /* least number of steps of a time line */
+    MIN_BAR_WIDTH = 3,        /* pixels, width below which bars are merged */
     FULL_BAR_UPDATES = 12 /* least number of updates at a bar's full height */
 };
 
@@ -93,13 +93,13 @@ static void draw_setting(Paper *paper, Box box, const Setting *setting,
 static long count_time_line_steps(const FrameContent *content)
 {
     long steps = content->time_line.steps;
-    return steps > MIN_STEPS ? steps : MIN_STEPS;
+    return steps > MIN_TIME_LINE_STEPS ? steps : MIN_TIME_LINE_STEPS;
 }
 
 long frame_find_bar_step(const FrameContent *content, const Layout *layout,
                          double x)
 {
-    const Box *bars = &layout->bars;
+    const Box *bars = &layout->step_bars;
     double step =
         (x - bars->x) / fmax(bars->width, 1) * count_time_line_steps(content);
     return (long)fmin(fmax(step < 0.25 ? 0 : floor(step) + 1, 0),
@@ -110,7 +110,7 @@ long frame_find_bar_step(const FrameContent *content, const Layout *layout,
 static void draw_step_bars(Paper *paper, Box bars, double pitch,
                            const TimeLine *line)
 {
-    long group = (long)ceil(MIN_BAR / pitch), most = FULL_BAR_UPDATES;
+    long group = (long)ceil(MIN_BAR_WIDTH / pitch), most = FULL_BAR_UPDATES;
     int gap = (int)fmax(1, 0.14 * pitch), least = (int)(0.08 * bars.height) + 1;
     for (long s = 1; s <= line->steps; s++)
         most = (long)fmax(most, line->get_bar(line->bar_data, s).updates);
@@ -124,7 +124,7 @@ static void draw_step_bars(Paper *paper, Box bars, double pitch,
         int left = (int)(s * pitch), right = (int)((s + group) * pitch) - gap;
         int high = least + (int)((bars.height - least) *
                                  sqrt((double)bar.updates / most));
-        bool shown = line->step > s && line->step <= s + group;
+        bool shown = line->shown_step > s && line->shown_step <= s + group;
         Box box = {bars.x + left, bars.y + bars.height - high, right - left,
                    high};
         canvas_fill(&paper->canvas, box,
@@ -138,11 +138,11 @@ static void draw_step_bars(Paper *paper, Box bars, double pitch,
 static void draw_time_line(Paper *paper, const Layout *layout,
                            const FrameContent *content)
 {
-    Box zone = layout->time_line, bars = layout->bars;
+    Box zone = layout->time_line, bars = layout->step_bars;
     const TimeLine *line = &content->time_line;
     double em = paper->em, room = count_time_line_steps(content);
     bool words = zone.height > 3.5 * em;
-    double part = fmax((line->step - 0.5) / room, 0);
+    double part = fmax((line->shown_step - 0.5) / room, 0);
     double x = floor(bars.x + part * bars.width) + 0.5;
     double top = zone.y + (words ? 1.1 : 0.5) * em, at = x + 1.1 * em;
     if (zone.width <= 0)
@@ -170,10 +170,10 @@ static void draw_chips(Paper *paper, const Layout *layout,
     const double gap = 0.5 * paper->em, size = 0.92;
     const WindowHit *mouse = &content->view->mouse_hit;
     draw_zone_background(paper, layout->chip_row, false);
-    for (int i = 0; i < layout->chips; i++) {
+    for (int i = 0; i < layout->chip_count; i++) {
         const Chip *chip = &content->chips.chip[i];
         Box box = layout->chip[i];
-        bool all = layout->chips_left_out > 0 && i == layout->chips - 1;
+        bool all = layout->chips_left_out > 0 && i == layout->chip_count - 1;
         bool over = mouse->zone == ZONE_CHIP && mouse->index == i;
         const char *label = all ? "all \u2026" : chip->label;
         int key = paper_measure(paper, FACE_BOLD, size, chip->key);
@@ -199,7 +199,7 @@ void window_rows_draw(Paper *paper, const Layout *layout,
     const WindowHit *mouse = &content->view->mouse_hit;
     draw_title_bar(paper, layout->title_bar, &content->title_bar);
     draw_zone_background(paper, layout->settings_row, false);
-    for (int i = 0; i < layout->settings; i++)
+    for (int i = 0; i < layout->setting_count; i++)
         if (layout->setting[i].width > 0)
             draw_setting(paper, layout->setting[i], &content->settings.item[i],
                          mouse->zone == ZONE_SETTING && mouse->index == i);

@@ -48,7 +48,7 @@ void card_write_text(const Plot *card, const LiveValues *values,
         if (width > 0)
             size = fmin(size, 0.97 * box.width / width);
     }
-    size = fmax(fmin(size, box.height / height), paper->min_letter);
+    size = fmax(fmin(size, box.height / height), paper->min_letter_size);
     for (TextLine line = begin; text_next_line(&line);)
         box.y += draw_text_line(paper, box, size, &line, true);
 }
@@ -79,7 +79,7 @@ void card_write_hint(const Plot *card, const char *text)
 
 /* ---- scale and legend ---------------------------------------------------- */
 
-void plot_scale_bar(const Plot *plot)
+void plot_draw_scale_bar(const Plot *plot)
 {
     Paper *paper = plot->paper;
     double scale = plot->camera.scale[0];
@@ -112,7 +112,7 @@ void plot_legend(Plot *plot, Colour colour, const char *format, ...)
 
 /* ---- labels -------------------------------------------------------------- */
 
-double plot_label_cost(const Plot *plot, Box place)
+double plot_find_label_cost(const Plot *plot, Box place)
 {
     const Canvas *canvas = &plot->paper->canvas;
     Box seen = box_intersect(place, box_intersect(plot->box, canvas->clip));
@@ -123,7 +123,8 @@ double plot_label_cost(const Plot *plot, Box place)
             ink += (pixel & 255) < INK || (pixel >> 8 & 255) < INK ||
                    (pixel >> 16 & 255) < INK;
         }
-    for (int i = 0; i < plot->paper->word_count && i < MAX_WORD_BOXES; i++) {
+    for (int i = 0; i < plot->paper->word_box_count && i < MAX_WORD_BOXES;
+         i++) {
         Box both = box_intersect(seen, plot->paper->word_boxes[i]);
         ink += both.width > 0 ? (double)both.width * both.height : 0;
     }
@@ -159,7 +160,7 @@ void plot_label(const Plot *plot, int points, const double *at, Colour colour,
                      wide, high};
         Box wider = box_inset(place, -paper_pixels(paper, LABEL_MARGIN));
         double cost =
-            plot_label_cost(plot, wider) + COST_FAR * far + COST_LATER * i;
+            plot_find_label_cost(plot, wider) + COST_FAR * far + COST_LATER * i;
         if (cost < least) {
             least = cost;
             best = place;

@@ -6,21 +6,22 @@
 Status obey_toggle_pin(Player *player, const Command *command)
 {
     long node = command->number;
-    const Simulation *simulation = player_simulation(player);
+    const Simulation *simulation = player_get_simulation(player);
     if (!(simulation->scene->parts & HAS_MESH) || simulation->scene->step)
         return player_refuse(player, "only nodes of a square can be pinned");
     bool pinned = simulation->system.pinned[node];
     Command change = {.kind = COMMAND_PIN, .number = node, .x = !pinned};
     Status status = player_edit_step(player, &change, ALL_PANES, false);
     if (!status)
-        player_note(player, "node %ld is %s", node, pinned ? "free" : "pinned");
+        player_notify(player, "node %ld is %s", node,
+                      pinned ? "free" : "pinned");
     return status;
 }
 
 /* Takes hold of a node or an obstacle without moving it. */
 Status obey_take_hold(Player *player, const Command *command)
 {
-    const Simulation *simulation = player_simulation(player);
+    const Simulation *simulation = player_get_simulation(player);
     bool pulls = command->kind == COMMAND_GRAB;
     double place[2];
     if (!simulation_is_draggable(simulation))
@@ -36,17 +37,17 @@ Status obey_take_hold(Player *player, const Command *command)
     Status status = player_edit_step(player, &change, ALL_PANES, false);
     player->hands.is_holding = player->hands.is_holding || !status;
     if (!status && player_is_stopped(player))
-        player_note(player,
-                    "paused: the hand %s as soon as time goes on (Space, N)",
-                    pulls ? "pulls" : "pushes");
+        player_notify(player,
+                      "paused: the hand %s as soon as time goes on (Space, N)",
+                      pulls ? "pulls" : "pushes");
     return status;
 }
 
 Status obey_place_node(Player *player, const Command *command)
 {
-    if (!simulation_is_draggable(player_simulation(player)))
+    if (!simulation_is_draggable(player_get_simulation(player)))
         return player_refuse(player, "nothing to be placed here");
-    for (int p = 0; p < past_pane_count(&player->past); p++) {
+    for (int p = 0; p < past_count_panes(&player->past); p++) {
         Simulation *simulation = &player->past.pane[p].simulation;
         if (simulation_place_node(simulation, (int)command->number, command->x,
                                   command->y, false))
@@ -59,24 +60,25 @@ Status obey_place_node(Player *player, const Command *command)
 
 Status obey_place_obstacle(Player *player, const Command *command)
 {
-    Options moved = *player_active_options(player);
-    double *at = options_obstacle_point(&moved, (int)command->number);
+    Options moved = *player_get_active_options(player);
+    double *at = options_get_obstacle_point(&moved, (int)command->number);
     at[0] = command->x;
     at[1] = command->y;
     Status status = STATUS_OK;
-    for (int p = 0; p < past_pane_count(&player->past) && !status; p++)
+    for (int p = 0; p < past_count_panes(&player->past) && !status; p++)
         status = simulation_check_clearance(&player->past.pane[p].simulation,
                                             &moved, MESSAGE(player->message));
     return status ? status
                   : player_edit_step(player, command, ALL_PANES, false);
 }
 
-Status obey_drag_hand(Player *player, const Command *command)
+Status obey_drag_or_release(Player *player, const Command *command)
 {
-    if (!control_is_holding(past_control(&player->past, player->active)))
+    if (!control_is_holding(
+            past_get_control(&player->past, player->active_pane)))
         return player_refuse(player, "the hand holds nothing");
     player->hands.is_holding = command->kind == COMMAND_DRAG;
-    player->hands.pulled_step = player->past.step;
+    player->hands.last_pull_step = player->past.shown_step;
     return player_edit_step(player, command, ALL_PANES, false);
 }
 
@@ -85,9 +87,9 @@ Status obey_drag_handle(Player *player, const Command *command)
 {
     Past *past = &player->past;
     Status status = STATUS_OK;
-    unsigned needs = player_simulation(player)->scene->parts;
-    long step = past->step;
-    int now = past->current;
+    unsigned needs = player_get_simulation(player)->scene->parts;
+    long step = past->shown_step;
+    int now = past->branch_index;
     if (command->kind == COMMAND_HANDLE && (needs & HAS_START) &&
         !(needs & HAS_TIME)) {
         player_pause(player);
@@ -96,7 +98,7 @@ Status obey_drag_handle(Player *player, const Command *command)
     }
     if (!status)
         status = player_edit_step(player, command, ALL_PANES, false);
-    if (past->current > now)
-        past->branch[now].left_step = step; /* undo returns to `step` */
+    if (past->branch_index > now)
+        past->branch[now].exit_step = step; /* undo returns to `step` */
     return status;
 }

@@ -130,7 +130,7 @@ static bool read_argument(const char *word, char kind, Command *command)
             return append(command->text, sizeof command->text, " %s", word),
                    true;
         row = &option_rows[command->number];
-        one = row->count <= 1 && row->max_times == 0 &&
+        one = row->number_count <= 1 && row->max_repetitions == 0 &&
               row->kind != OPTION_TEXT && row->kind != OPTION_SWITCH &&
               row->kind != OPTION_PAGE;
         if (one && option_parse(row, 1, word, &command->x))
@@ -197,7 +197,7 @@ void command_format(const Command *command, char *line, size_t size)
 
 bool command_replaces_last(const Command *command, const Command *before)
 {
-    return command_rows[command->kind].flags & REPLACES &&
+    return command_rows[command->kind].flags & REPLACES_LAST &&
            command->kind == before->kind && command->number == before->number;
 }
 

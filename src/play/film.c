@@ -88,7 +88,7 @@ Status film_add_frame(Film *film, const Canvas *canvas, int times)
         for (int x = there; x < film->width; x++)
             fwrite(&white, sizeof white, 1, film->pipe);
     }
-    film->frames += times;
+    film->frame_count += times;
     if (!ferror(film->pipe))
         return STATUS_OK;
     return output_report_failure(&film->output, WHY_FFMPEG_FAILS);
@@ -105,10 +105,10 @@ Status film_close(Film *film, CloseAction keep)
     bool full = stat(output->part_name, &info) == 0 && info.st_size > 0;
     if (!well || !full)
         status = output_report_failure(
-            output,
-            film->frames > 0 ? WHY_FFMPEG_FAILS : "no frame was drawn for it");
+            output, film->frame_count > 0 ? WHY_FFMPEG_FAILS
+                                          : "no frame was drawn for it");
     Status closed = output_close(output, !full    ? KEEP_NOTHING
-                                         : status ? KEEP_PART
+                                         : status ? KEEP_PART_FILE
                                                   : keep);
     return status ? status : closed;
 }

@@ -69,31 +69,34 @@ static void build_settings_row(const Player *player, WindowFrame *frame)
 {
     FrameContent *content = &frame->content;
     const WindowHit *mouse = &player->screen.view.mouse_hit;
-    const Options shown = player_shown_options(player), *options = &shown;
+    const Options shown = player_get_shown_options(player), *options = &shown;
     const OptionRow *all[OPTIONS_MAX_ROWS];
-    frame->options = player_list_options(player, false, frame->option);
-    bool over = mouse->zone == ZONE_SETTING && mouse->index < frame->options;
-    for (int i = 0; i < frame->options; i++) {
+    frame->option_count = player_list_options(player, false, frame->option);
+    bool over =
+        mouse->zone == ZONE_SETTING && mouse->index < frame->option_count;
+    for (int i = 0; i < frame->option_count; i++) {
         const OptionRow *row = frame->option[i];
         Setting *setting = &content->settings.item[content->settings.count++];
         setting->name = option_get_label(row);
         setting->min_letters = row->display.max_letters;
-        player_format_value(row, options, player_simulation(player),
+        player_format_value(row, options, player_get_simulation(player),
                             setting->value, VALUE_SIZE);
         setting->is_changed = !option_is_equal(
             row, options,
-            &past_start_control(&player->past, player->active)->options);
+            &past_get_start_control(&player->past, player->active_pane)
+                 ->options);
         const char *idle = player_find_idle_reason(player, row);
         setting->is_off = strcmp(setting->value, "none") == 0 || idle;
-        setting->is_selected = row == player->hands.selected;
+        setting->is_selected = row == player->hands.selected_option;
         bool is_explained = over ? i == mouse->index : setting->is_selected;
         if (is_explained && (idle || row->help[0]))
             snprintf(content->title_bar.sentence, SENTENCE_SIZE, "%s: %s",
                      row->name, idle ? idle : row->help);
         if (setting->is_selected && player->hands.is_typing)
-            snprintf(setting->value, VALUE_SIZE, "%s_", player->hands.typed);
+            snprintf(setting->value, VALUE_SIZE, "%s_",
+                     player->hands.typed_text);
     }
-    if (player_list_options(player, true, all) > frame->options)
+    if (player_list_options(player, true, all) > frame->option_count)
         content->settings.item[content->settings.count++] =
             (Setting){.name = "", .value = "+ more"};
 }
@@ -102,15 +105,15 @@ static void build_settings_row(const Player *player, WindowFrame *frame)
 static void list_shown_options(const Player *player, FrameContent *content)
 {
     const OptionRow *all[OPTIONS_MAX_ROWS];
-    const Options options = player_shown_options(player);
+    const Options options = player_get_shown_options(player);
     content->list.row_count = player_list_options(player, true, all);
     for (int i = 0; i < content->list.row_count; i++) {
         ListRow *row = &content->list.row[i];
         char value[VALUE_SIZE];
         const char *idle = player_find_idle_reason(player, all[i]);
-        player_format_value(all[i], &options, player_simulation(player), value,
-                            sizeof value);
-        row->target = (int)(all[i] - option_rows);
+        player_format_value(all[i], &options, player_get_simulation(player),
+                            value, sizeof value);
+        row->target_index = (int)(all[i] - option_rows);
         snprintf(row->key, VALUE_SIZE, "%d", i + 1);
         snprintf(row->text, SENTENCE_SIZE, "%s %s%s%s", all[i]->name, value,
                  idle || all[i]->help[0] ? ": " : "",
@@ -140,8 +143,8 @@ static void add_chip(WindowFrame *frame, CommandKind kind, int state, bool lit)
 
 static void build_chip_row(const Player *player, WindowFrame *frame)
 {
-    const Simulation *simulation = player_simulation(player);
-    const Options *options = player_active_options(player);
+    const Simulation *simulation = player_get_simulation(player);
+    const Options *options = player_get_active_options(player);
     bool time = simulation->scene->parts & HAS_TIME;
     bool nears = options->next_action == NEXT_SHORTENS_SPRING;
     bool newton = simulation_has_newton_updates(simulation) && !nears;
@@ -176,7 +179,7 @@ static void build_chip_row(const Player *player, WindowFrame *frame)
                  options->line_search == LINE_SEARCH_NONE, false);
     if (time && simulation->runs == 1)
         add_chip(frame, COMMAND_METHOD, 0, false);
-    if (player->past.current > 0)
+    if (player->past.branch_index > 0)
         add_chip(frame, COMMAND_UNDO, 0, false);
     add_chip(frame, COMMAND_SHEET, 0, false);
     add_chip(frame, COMMAND_KEYS, 0, player->screen.column == COLUMN_KEYS);
@@ -192,9 +195,9 @@ static void format_pane_value(const Player *player, int pane,
                               const OptionRow *row, char value[VALUE_SIZE])
 {
     const Past *past = &player->past;
-    const PastEntry *entry =
-        past_entry(past, pane, past_find_made_step(past, pane, past->step));
-    player_format_value(row, &entry->control->options,
+    const PastEntry *entry = past_find_entry(
+        past, pane, past_find_made_step(past, pane, past->shown_step));
+    player_format_value(row, &entry->next_control->options,
                         &past->pane[pane].simulation, value, VALUE_SIZE);
 }
 
@@ -202,7 +205,7 @@ static void format_pane_value(const Player *player, int pane,
 static bool most_panes_have_value(const Player *player, const OptionRow *row,
                                   const char *value)
 {
-    int panes = past_pane_count(&player->past), equal = 0;
+    int panes = past_count_panes(&player->past), equal = 0;
     char other[VALUE_SIZE];
     for (int p = 0; p < panes && panes > 2; p++) {
         format_pane_value(player, p, row, other);
@@ -214,7 +217,7 @@ static bool most_panes_have_value(const Player *player, const OptionRow *row,
 void player_write_label(const Player *player, int pane, char label[LABEL_SIZE])
 {
     const Past *past = &player->past;
-    long last = past_find_made_step(past, pane, past->step);
+    long last = past_find_made_step(past, pane, past->shown_step);
     char value[VALUE_SIZE];
     label[0] = '\0';
     for (int all = 0; all < 2 && !label[0]; all++)
@@ -229,7 +232,7 @@ void player_write_label(const Player *player, int pane, char label[LABEL_SIZE])
                 append(label, LABEL_SIZE, "%s ", row->label);
             append(label, LABEL_SIZE, "%s", format_power_of_ten(value).text);
         }
-    if (last == past->step)
+    if (last == past->shown_step)
         return;
     append(label, LABEL_SIZE, "%sended at step %ld", label[0] ? ", " : "",
            last);
@@ -250,8 +253,8 @@ static void build_pane_content(const Player *player, int p, WindowFrame *frame)
                    .history = &frame->history[p],
                    .ghost_x = view->ghost_x,
                    .ghost_label = view->ghost_label,
-                   .failure = shown->outcome.status};
-    if (past_pane_count(&player->past) > 1)
+                   .step_status = shown->outcome.status};
+    if (past_count_panes(&player->past) > 1)
         pane->label = frame->label[p];
     if (shown->has_trace && simulation_has_newton_updates(simulation)) {
         pane->trace = &frame->trace[p];
@@ -265,7 +268,7 @@ static StepBar get_step_bar(const void *shown, long step)
 {
     const Player *player = shown;
     const StepOutcome *outcome =
-        &past_entry(&player->past, player->active, step)->outcome;
+        &past_find_entry(&player->past, player->active_pane, step)->outcome;
     return (StepBar){outcome->updates, status_is_unconverged(outcome->status)};
 }
 
@@ -274,28 +277,30 @@ static StepBar get_step_bar(const void *shown, long step)
 static void build_time_line(const Player *player, FrameContent *content)
 {
     const Past *past = &player->past;
-    const char *turn = player_simulation(player)->scene->step_name;
+    const char *turn = player_get_simulation(player)->scene->step_name;
     char *text = content->time_line.label;
     double time = 0, longest = -1; /* time of the pane of longest timestep, s */
-    bool shared = true;            /* all panes have the same time step */
-    for (int p = 0; p < past_pane_count(past); p++) {
+    bool shared = true;            /* is one time step the same in each pane? */
+    for (int p = 0; p < past_count_panes(past); p++) {
         const Simulation *now = &past->pane[p].simulation;
-        bool goes = past_find_made_step(past, p, past->step) == past->step;
+        bool goes =
+            past_find_made_step(past, p, past->shown_step) == past->shown_step;
         double h = goes ? now->options.timestep : 0;
-        time = h > longest ? simulation_time(now) : time;
+        time = h > longest ? simulation_get_time(now) : time;
         shared = shared && (p == 0 || h == longest);
         longest = fmax(longest, h);
     }
     content->time_line.is_paused = player_is_stopped(player);
-    if (player_active_options(player)->next_action == NEXT_ADDS_SPRING) {
-        long last = player_simulation(player)->system.springs - 1;
+    if (player_get_active_options(player)->next_action == NEXT_ADDS_SPRING) {
+        long last = player_get_simulation(player)->system.springs - 1;
         snprintf(text, SENTENCE_SIZE, "spring %ld",
-                 past->step < last ? past->step : last);
+                 past->shown_step < last ? past->shown_step : last);
         return;
     }
-    snprintf(text, SENTENCE_SIZE, "%s %ld", turn ? turn : "step", past->step);
-    if (past_newest(past) > past->step)
-        append(text, SENTENCE_SIZE, " of %ld", past_newest(past));
+    snprintf(text, SENTENCE_SIZE, "%s %ld", turn ? turn : "step",
+             past->shown_step);
+    if (past_find_newest(past) > past->shown_step)
+        append(text, SENTENCE_SIZE, " of %ld", past_find_newest(past));
     if (!turn)
         append(text, SENTENCE_SIZE, "   t = %.4g s", time);
     if (!turn && shared && player->play.log_speed != 0)
@@ -306,13 +311,13 @@ static void build_time_line(const Player *player, FrameContent *content)
     snprintf(content->title_bar.state, VALUE_SIZE, "%s",
              player->play.mode == MODE_REST ? "at rest" : "");
     if (!past_makes_step(past) ||
-        (clock_now() - player->play.work_start <= LONG_WORK &&
-         !player_is_slow(player)))
+        (clock_now() - player->play.work_start_time <= LONG_WORK &&
+         !player_factorises_slowly(player)))
         return;
     snprintf(content->title_bar.sentence, SENTENCE_SIZE,
              "a long step: Esc stops it, at the last whole one");
     snprintf(content->title_bar.state, VALUE_SIZE, "computing, update %d",
-             player_active_pane(player)->outcome.updates);
+             player_get_active_pane(player)->outcome.updates);
 }
 
 /* If the user has changed the page, writes a heading of the answer with the
@@ -329,10 +334,10 @@ static void write_page_heading(const Player *player, LectureContent *lecture)
         const Options *own = player_find_page_options(player, row[i]);
         if (!own)
             continue;
-        player_format_value(row[i], own, player_simulation(player), value,
+        player_format_value(row[i], own, player_get_simulation(player), value,
                             sizeof value);
         size_t comma = strcspn(value, ",");
-        if (player_simulation(player)->descent.scalar)
+        if (player_get_simulation(player)->descent.scalar)
             value[comma] = '\0'; /* only x: the scene has one unknown */
         append(text, sizeof text,
                value[comma] ? "%s%s = (%.*s)%s" : "%s%s = %.*s%s", before,
@@ -348,8 +353,8 @@ static void build_frame_content(const Player *player, WindowFrame *frame)
     const Past *past = &player->past;
     const Window *window = player->screen.window;
     FrameContent *content = &frame->content;
-    const int active = player->active;
-    frame_create(player_simulation(player), content);
+    const int active = player->active_pane;
+    frame_create(player_get_simulation(player), content);
     content->view = &player->screen.view;
     content->fonts = player->screen.paper.text;
     content->min_em = window                        ? window->find_font_size()
@@ -357,28 +362,28 @@ static void build_frame_content(const Player *player, WindowFrame *frame)
                                                     : 0;
     content->is_stage_only = window && window->has_document;
     content->has_document = content->is_stage_only && window->has_document();
-    content->panes = past_pane_count(past);
+    content->panes = past_count_panes(past);
     if (content->panes > LAYOUT_MAX_PANES) /* a script can open more panes */
         content->panes = LAYOUT_MAX_PANES;
-    content->active_pane = active < content->panes ? active : 0;
+    content->active_pane_index = active < content->panes ? active : 0;
     for (int i = 0; i < content->panes; i++)
         build_pane_content(player, i, frame);
     build_time_line(player, content);
     build_settings_row(player, frame);
     build_chip_row(player, frame);
-    const UserControl *control = past_control(past, active);
+    const UserControl *control = past_get_control(past, active);
     if (control_is_holding(control) &&
         player->view_of_pane[active].trace_index < 0)
         content->hand = (HandGrip){true,
                                    control->held_node,
                                    control->held_obstacle,
                                    {control->target[0], control->target[1]}};
-    content->time_line.steps = past->stores_states ? past_newest(past) : 0;
+    content->time_line.steps = past->stores_states ? past_find_newest(past) : 0;
     content->time_line.get_bar = get_step_bar;
     content->time_line.bar_data = player;
-    content->time_line.step = past->step;
+    content->time_line.shown_step = past->shown_step;
     content->title_bar.is_warning = player->is_warning;
-    content->cards.enlarged = player->screen.enlarged_card;
+    content->cards.enlarged_card = player->screen.enlarged_card;
     content->shows_strain =
         player->screen.has_toggled_strain !=
         (content->pane[0].simulation->scene->strain_colour_max > 0);
@@ -399,8 +404,8 @@ static void build_frame_content(const Player *player, WindowFrame *frame)
         answered && player->tour.verdict[0] && !content->lecture.heading[0]
             ? player->tour.verdict
             : NULL;
-    content->lecture.guesses = player->tour.guesses;
-    content->lecture.right_guesses = player->tour.right_guesses;
+    content->lecture.guesses = player->tour.guess_count;
+    content->lecture.right_guesses = player->tour.right_guess_count;
     frame_add_lecture(player->screen.column, player->tour.last_page, content);
     content->cards.closed_cards ^= player->screen.toggled_cards;
     if (player->screen.sheet)
@@ -415,14 +420,14 @@ static void update_hovered_object(Player *player)
     const Mouse *mouse = &player->hands.mouse;
     const Canvas *canvas = &player->screen.paper.canvas;
     FrameView *view = &player->screen.view;
-    PickKind kind = view->hovered.kind;
+    PickKind kind = view->hovered_part.kind;
     bool body = kind == PICK_NODE || kind == PICK_SPRING ||
                 kind == PICK_OBSTACLE || kind == PICK_EDGE;
     if (!body || !canvas->pixels || !mouse->has_position ||
         mouse->drag_command || view->mouse_hit.zone != ZONE_STAGE)
         return;
     Layout layout = layout_create(content, canvas->width, canvas->height);
-    view->hovered = frame_find_pick(content, &layout, mouse->x, mouse->y);
+    view->hovered_part = frame_find_pick(content, &layout, mouse->x, mouse->y);
 }
 
 void player_build_frame(Player *player)

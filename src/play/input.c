@@ -35,24 +35,24 @@ static MouseTarget find_mouse_target(Player *player)
     MouseTarget target = {
         .layout = layout_create(content, paper ? paper->canvas.width : 1,
                                 paper ? paper->canvas.height : 1),
-        .pane = player->active};
+        .pane = player->active_pane};
     target.hit = layout_find_hit(&target.layout, mouse->x, mouse->y);
     int pane = held->is_dragging               ? held->pane_index
                : target.hit.zone == ZONE_STAGE ? target.hit.index
                                                : target.pane;
-    if (pane < past_pane_count(&player->past)) /* a dragged pane may close */
+    if (pane < past_count_panes(&player->past)) /* a dragged pane may close */
         target.pane = pane;
-    held->mouse_has_left = false;
+    held->is_mouse_off_stage = false;
     Camera camera = make_pane_camera(content, &target.layout, target.pane);
     camera_to_world(&camera, mouse->x, mouse->y, target.point);
     target.pick = frame_find_pick(content, &target.layout, mouse->x, mouse->y);
-    held->mouse_has_left = target.hit.zone != ZONE_STAGE;
+    held->is_mouse_off_stage = target.hit.zone != ZONE_STAGE;
     return target;
 }
 
 /* Obeys a command at a place (metres) as a part of the present gesture. */
-static Status obey_at(Player *player, CommandKind kind, long number,
-                      const double at[2])
+static Status obey_at_time(Player *player, CommandKind kind, long number,
+                           const double at[2])
 {
     const Command command = {kind, number, at[0], at[1], .joins_gesture = true};
     return player_obey(player, &command);
@@ -60,7 +60,7 @@ static Status obey_at(Player *player, CommandKind kind, long number,
 
 static Status obey(Player *player, CommandKind kind, long number)
 {
-    return obey_at(player, kind, number, (const double[2]){0, 0});
+    return obey_at_time(player, kind, number, (const double[2]){0, 0});
 }
 
 static Status change_number(Player *player, const OptionRow *row, int notches)
@@ -74,8 +74,8 @@ static Status change_number(Player *player, const OptionRow *row, int notches)
 /* Returns the part of the window that gets the keys now. */
 static KeyScope find_key_scope(const Player *player)
 {
-    bool number = player->hands.selected, list = player_shows_list(player),
-         asks = player_hides_answer(player);
+    bool number = player->hands.selected_option,
+         list = player_shows_list(player), asks = player_hides_answer(player);
     return player->hands.is_typing && (number || list || asks) ? SCOPE_FIELD
            : player->screen.sheet                              ? SCOPE_SHEET
            : number                                            ? SCOPE_NUMBER
@@ -95,7 +95,7 @@ static Status open_page(Player *player, const char *name)
 static Status open_typed_line(Player *player)
 {
     const OptionRow *all[OPTIONS_MAX_ROWS];
-    const char *typed = player->hands.typed;
+    const char *typed = player->hands.typed_text;
     char *end;
     long number = strtol(typed, &end, 10);
     if (player->screen.column != COLUMN_OPTIONS || player->screen.sheet)
@@ -109,7 +109,7 @@ static Status open_typed_line(Player *player)
  * the answer.  The field stays open if its text cannot be read. */
 static Status accept_typed_text(Player *player)
 {
-    const OptionRow *row = player->hands.selected;
+    const OptionRow *row = player->hands.selected_option;
     Status status;
     if (!row && player_shows_list(player)) {
         status = open_typed_line(player);
@@ -118,12 +118,13 @@ static Status accept_typed_text(Player *player)
     }
     if (row) {
         Command made = make_set_command(row, 0);
-        if (row->count > 1 ||
-            !option_parse(row, 1, player->hands.typed, &made.x))
-            memcpy(made.text, player->hands.typed, sizeof player->hands.typed);
+        if (row->number_count > 1 ||
+            !option_parse(row, 1, player->hands.typed_text, &made.x))
+            memcpy(made.text, player->hands.typed_text,
+                   sizeof player->hands.typed_text);
         status = player_obey(player, &made);
     } else {
-        status = player_reveal_answer(player, player->hands.typed);
+        status = player_reveal_answer(player, player->hands.typed_text);
         status = status ? status : player_obey_queue(player, false);
     }
     if (!status)
@@ -138,16 +139,17 @@ static Status accept_typed_text(Player *player)
 static Status drag_number(Player *player, const MouseTarget *target)
 {
     const Mouse *mouse = &player->hands.mouse;
-    const Options now = player_shown_options(player);
-    bool edge = mouse->dragged_id < 0;
+    const Options now = player_get_shown_options(player);
+    bool edge = mouse->dragged_index < 0;
     const OptionRow *row =
-        edge ? option_find("stretch") : player->hands.selected;
+        edge ? option_find("stretch") : player->hands.selected_option;
     double notches = (mouse->x - mouse->drag_start[0]) / NOTCH_PIXELS;
     double wanted =
         fmax(rint(200 * fabs(target->point[0]) / now.side), 2) / 100;
     if (!row)
         return STATUS_OK;
-    if (row->count > 1) /* change_number refuses an option of several numbers */
+    if (row->number_count >
+        1) /* change_number refuses an option of several numbers */
         return change_number(player, row, 1);
     if (row->display.notch_increment > 0 || row->kind == OPTION_NAME)
         notches = rint(notches);
@@ -164,7 +166,7 @@ static Status drag_number(Player *player, const MouseTarget *target)
 /* Opens a square with h, k and stretch of a cell, by commands for scripts. */
 static Status open_clicked_cell(Player *player, long cell)
 {
-    const Options map = player_simulation(player)->options;
+    const Options map = player_get_simulation(player)->options;
     player_enqueue_lines(player, "scene square");
     player_enqueue_set(player, option_find("segments"), map.segments);
     player_enqueue_set(player, option_find("stretch"), map.stretch);
@@ -174,8 +176,9 @@ static Status open_clicked_cell(Player *player, long cell)
                        envelope_stiffness((int)(cell / ENVELOPE_COLUMNS)));
     player_enqueue_lines(player, "pause;restart");
     Status status = player_obey_queue(player, true);
-    player_note(player, "this cell as a scene; Ctrl+Z leads back to the map%s",
-                map.page ? ", Page Down goes on" : "");
+    player_notify(player,
+                  "this cell as a scene; Ctrl+Z leads back to the map%s",
+                  map.page ? ", Page Down goes on" : "");
     return status;
 }
 
@@ -189,22 +192,22 @@ static bool drag_places_nodes(const Player *player)
 static Status begin_press(Player *player, const MouseTarget *target)
 {
     Mouse *mouse = &player->hands.mouse;
-    const LecturePage *page = player_active_options(player)->page;
+    const LecturePage *page = player_get_active_options(player)->page;
     double point[2];
-    mouse->dragged_id = target->pick.index;
+    mouse->dragged_index = target->pick.index;
     player->screen.view.drag_bounds = frame_find_view_bounds(
         &player->screen.frame.content, &target->layout, target->pane);
     switch (target->pick.kind) {
     case PICK_OBSTACLE:
         mouse->drag_command = COMMAND_OBSTACLE;
-        simulation_locate_obstacle(player_simulation(player), 0,
-                                   mouse->dragged_id, point);
+        simulation_locate_obstacle(player_get_simulation(player), 0,
+                                   mouse->dragged_index, point);
         mouse->grip_offset[0] = point[0] - target->point[0];
         mouse->grip_offset[1] = point[1] - target->point[1];
         return STATUS_OK;
     case PICK_EDGE:
         mouse->drag_command = COMMAND_SET;
-        mouse->dragged_id = -1;
+        mouse->dragged_index = -1;
         return STATUS_OK;
     case PICK_HANDLE:
         mouse->drag_command = COMMAND_HANDLE;
@@ -215,26 +218,27 @@ static Status begin_press(Player *player, const MouseTarget *target)
         return open_clicked_cell(player, target->pick.index);
     case PICK_POINT:
         if (page_wants_click(page) && player_hides_answer(player))
-            return obey_at(player, COMMAND_PREDICT, 0, target->pick.point);
+            return obey_at_time(player, COMMAND_PREDICT, 0, target->pick.point);
         mouse->drag_command = COMMAND_START;
-        return obey_at(player, COMMAND_START, mouse->dragged_id,
-                       target->pick.point);
+        return obey_at_time(player, COMMAND_START, mouse->dragged_index,
+                            target->pick.point);
     default:
         if (target->pick.kind != PICK_NODE) /* a drag highlights only nodes */
-            player->screen.view.hovered.kind = PICK_NONE;
-        mouse->dragged_id = target->pick.nearest_node;
-        mouse->drag_command = mouse->dragged_id < 0       ? COMMAND_PAN
+            player->screen.view.hovered_part.kind = PICK_NONE;
+        mouse->dragged_index = target->pick.nearest_node;
+        mouse->drag_command = mouse->dragged_index < 0    ? COMMAND_PAN
                               : drag_places_nodes(player) ? COMMAND_PLACE
                                                           : COMMAND_GRAB;
         return STATUS_OK;
     }
 }
 
-/* Adds a ball.  Its radius is 1/8 of the square, in a coarse mesh 0.7 cells so
- * that the ball cannot slip between nodes, and smaller beside a node. */
+/* Adds a ball with a radius of 1/8 of the square.  In a coarse mesh the radius
+ * is 0.7 cells so that no ball slips between nodes; beside a node it is less.
+ */
 static Status add_ball(Player *player, const double at[2])
 {
-    const Simulation *simulation = player_simulation(player);
+    const Simulation *simulation = player_get_simulation(player);
     Command command = make_set_command(option_find("ball"), 0);
     double radius =
         fmax(simulation->options.side / 8, 0.7 * simulation->mesh.spacing);
@@ -247,7 +251,7 @@ static Status add_ball(Player *player, const double at[2])
              radius);
     Status status = player_obey(player, &command);
     if (!status)
-        player_note(player, "a ball; drag moves it, Ctrl+Z takes it away");
+        player_notify(player, "a ball; drag moves it, Ctrl+Z takes it away");
     return status;
 }
 
@@ -256,49 +260,51 @@ static Status add_ball(Player *player, const double at[2])
 static Status drag_obstacle(Player *player, const double at[2])
 {
     Past *past = &player->past;
-    int number = player->hands.mouse.dragged_id;
+    int number = player->hands.mouse.dragged_index;
     double part = 1, from[2];
     if (player->hands.is_holding || !drag_places_nodes(player)) {
         Status status = STATUS_OK;
         if (!player->hands.is_holding)
             status = obey(player, COMMAND_PUSH, number);
-        return status ? status : obey_at(player, COMMAND_DRAG, 0, at);
+        return status ? status : obey_at_time(player, COMMAND_DRAG, 0, at);
     }
-    for (int p = 0; p < past_pane_count(past); p++) {
-        const Options *options = &past_control(past, p)->options;
+    for (int p = 0; p < past_count_panes(past); p++) {
+        const Options *options = &past_get_control(past, p)->options;
         part = fmin(part, simulation_find_free_fraction(
                               &past->pane[p].simulation, options, number, at));
     }
-    simulation_locate_obstacle(player_simulation(player), 0, number, from);
+    simulation_locate_obstacle(player_get_simulation(player), 0, number, from);
     if (part == 0)
         return player_refuse(player, "no room: the square is in its way");
     const double to[2] = {from[0] + part * (at[0] - from[0]),
                           from[1] + part * (at[1] - from[1])};
-    return obey_at(player, COMMAND_OBSTACLE, number, part < 1 ? to : at);
+    return obey_at_time(player, COMMAND_OBSTACLE, number, part < 1 ? to : at);
 }
 
 static Status continue_drag(Player *player)
 {
     Mouse *mouse = &player->hands.mouse;
-    const Simulation *simulation = player_simulation(player);
+    const Simulation *simulation = player_get_simulation(player);
     MouseTarget target = find_mouse_target(player);
     double dx = mouse->x - mouse->drag_start[0],
            dy = mouse->y - mouse->drag_start[1];
     Status status = STATUS_OK;
     mouse->has_moved = mouse->has_moved || math_hypot(dx, dy) > CLICK_TOLERANCE;
-    if (mouse->dragged_id >=
-        player_count_targets(player, player->active, mouse->drag_command))
+    if (mouse->dragged_index >=
+        player_count_targets(player, player->active_pane, mouse->drag_command))
         mouse->drag_command = COMMAND_NONE; /* undo removed the dragged part */
     switch (mouse->has_moved ? mouse->drag_command : COMMAND_NONE) {
     case COMMAND_GRAB: /* a drag frees a pinned node */
         if (!player->hands.is_holding) {
-            mouse->repins_node = simulation->system.pinned[mouse->dragged_id];
+            mouse->repins_node =
+                simulation->system.pinned[mouse->dragged_index];
             if (mouse->repins_node)
-                status = obey(player, COMMAND_PIN, mouse->dragged_id);
-            status =
-                status ? status : obey(player, COMMAND_GRAB, mouse->dragged_id);
+                status = obey(player, COMMAND_PIN, mouse->dragged_index);
+            status = status ? status
+                            : obey(player, COMMAND_GRAB, mouse->dragged_index);
         }
-        return status ? status : obey_at(player, COMMAND_DRAG, 0, target.point);
+        return status ? status
+                      : obey_at_time(player, COMMAND_DRAG, 0, target.point);
     case COMMAND_OBSTACLE:
         target.point[0] += mouse->grip_offset[0];
         target.point[1] += mouse->grip_offset[1];
@@ -306,8 +312,8 @@ static Status continue_drag(Player *player)
     case COMMAND_PLACE:
     case COMMAND_START:
     case COMMAND_HANDLE:
-        return obey_at(player, mouse->drag_command, mouse->dragged_id,
-                       target.point);
+        return obey_at_time(player, mouse->drag_command, mouse->dragged_index,
+                            target.point);
     case COMMAND_SET:
         return drag_number(player, &target);
     case COMMAND_GOTO:
@@ -334,17 +340,17 @@ static Status describe_hovered_object(Player *player)
     FrameView *view = &player->screen.view;
     MouseTarget target = find_mouse_target(player);
     Pick pick = target.pick;
-    const Pick *old = &view->hovered;
+    const Pick *old = &view->hovered_part;
     bool same = target.hit.zone == view->mouse_hit.zone &&
                 target.hit.index == view->mouse_hit.index &&
                 pick.kind == old->kind && pick.index == old->index &&
-                pick.pane == old->pane;
+                pick.pane_index == old->pane_index;
     bool idle =
         pick.kind == PICK_NONE && !player->screen.frame.content.lecture.page;
     if (target.hit.zone == ZONE_CELL)
         view->selected_cell = target.hit.index;
     view->mouse_hit = target.hit;
-    view->hovered = pick;
+    view->hovered_part = pick;
     player->must_explain = player->must_explain || !same;
     if (!same || !idle)
         player->screen.must_redraw = true;
@@ -357,16 +363,17 @@ static Status describe_hovered_object(Player *player)
 static Status press_setting(Player *player, int index, int clicks)
 {
     Mouse *mouse = &player->hands.mouse;
-    if (index >= player->screen.frame.options) /* the last item is "+ more" */
+    if (index >=
+        player->screen.frame.option_count) /* the last item is "+ more" */
         return obey(player, COMMAND_OPTIONS, 0);
-    player->hands.selected = player->screen.frame.option[index];
+    player->hands.selected_option = player->screen.frame.option[index];
     player->screen.must_redraw = true;
     if (clicks == 2)
         return obey(player, COMMAND_DEFAULT,
-                    player->hands.selected - option_rows);
+                    player->hands.selected_option - option_rows);
     mouse->drag_command = COMMAND_SET;
-    mouse->dragged_id = index;
-    mouse->start_options = player_shown_options(player);
+    mouse->dragged_index = index;
+    mouse->start_options = player_get_shown_options(player);
     return STATUS_OK;
 }
 
@@ -377,7 +384,7 @@ static Status press_left_button(Player *player, const MouseTarget *target,
     bool ground =
         target->pick.kind == PICK_NONE || target->pick.kind == PICK_SPRING;
     const ListRow *row = player->screen.frame.content.list.row;
-    const Scene *scene = player_simulation(player)->scene;
+    const Scene *scene = player_get_simulation(player)->scene;
     bool body = (scene->parts & HAS_BODY) && !scene->step;
     Status status = STATUS_OK;
     player_deselect(player);
@@ -388,7 +395,8 @@ static Status press_left_button(Player *player, const MouseTarget *target,
         return obey(player, COMMAND_CARD, index);
     case ZONE_CARD:
         return obey(player, COMMAND_ENLARGE, index);
-    case ZONE_TIME: /* a click, like a drag, shows the step under the mouse */
+    case ZONE_TIME_LINE: /* a click, like a drag, shows the step under the mouse
+                          */
         player->hands.mouse.drag_command = COMMAND_GOTO;
         player->hands.mouse.has_moved = true;
         return continue_drag(player);
@@ -397,19 +405,21 @@ static Status press_left_button(Player *player, const MouseTarget *target,
     case ZONE_LIST_CLOSE:
         return obey(player, COMMAND_ESCAPE, 0);
     case ZONE_LIST:
-        index = frame_find_row(&player->screen.frame.content, &target->layout,
-                               player->hands.mouse.x, player->hands.mouse.y);
+        index =
+            frame_find_list_row(&player->screen.frame.content, &target->layout,
+                                player->hands.mouse.x, player->hands.mouse.y);
         if (find_key_scope(player) != SCOPE_LIST || index < 0 ||
-            row[index].target < 0)
+            row[index].target_index < 0)
             return STATUS_OK;
         return player->screen.column == COLUMN_OPTIONS
-                   ? obey(player, COMMAND_ADD, row[index].target)
-                   : open_page(player, lecture_pages[row[index].target].name);
+                   ? obey(player, COMMAND_ADD, row[index].target_index)
+                   : open_page(player,
+                               lecture_pages[row[index].target_index].name);
     case ZONE_CELL:
         player->screen.view.selected_cell = index;
         return obey(player, COMMAND_OPEN, 0);
     case ZONE_STAGE:
-        if (target->pane != player->active)
+        if (target->pane != player->active_pane)
             status = obey(player, COMMAND_PANE, target->pane);
         if (status || clicks < 2 || !ground)
             return status ? status : begin_press(player, target);
@@ -426,7 +436,7 @@ static Status press_button(Player *player, const Input *input)
 {
     Mouse *mouse = &player->hands.mouse;
     MouseTarget target = find_mouse_target(player);
-    const Scene *scene = player_simulation(player)->scene;
+    const Scene *scene = player_get_simulation(player)->scene;
     bool nodes = (scene->parts & HAS_MESH) && !scene->step;
     int near = target.pick.nearest_node;
     mouse->drag_start[0] = mouse->x;
@@ -452,15 +462,15 @@ static Status press_button(Player *player, const Input *input)
 static Status release_button(Player *player)
 {
     Mouse *mouse = &player->hands.mouse;
-    const Simulation *simulation = player_simulation(player);
+    const Simulation *simulation = player_get_simulation(player);
     CommandKind drag = mouse->drag_command;
-    int node = mouse->dragged_id;
+    int node = mouse->dragged_index;
     mouse->drag_command = COMMAND_NONE;
     player->screen.view.drag_bounds.is_dragging = false;
     if (!mouse->has_moved && (drag == COMMAND_GRAB || drag == COMMAND_PLACE) &&
         node < simulation->mesh.nodes)
-        player_note(player, "a drag moves node %d, a right click %s it", node,
-                    simulation->system.pinned[node] ? "frees" : "pins");
+        player_notify(player, "a drag moves node %d, a right click %s it", node,
+                      simulation->system.pinned[node] ? "frees" : "pins");
     if ((drag == COMMAND_OBSTACLE || drag == COMMAND_GRAB) &&
         player->hands.is_holding) {
         Command next = {.kind = COMMAND_RELEASE, .joins_gesture = true};
@@ -473,9 +483,10 @@ static Status release_button(Player *player)
     }
     if (drag == COMMAND_SET && mouse->has_moved)
         player_deselect(player); /* after a click the selection stays */
-    if (drag == COMMAND_SET && !mouse->has_moved && mouse->dragged_id >= 0 &&
-        player->hands.selected && player->hands.selected->kind == OPTION_NAME)
-        return change_number(player, player->hands.selected, 1);
+    if (drag == COMMAND_SET && !mouse->has_moved && mouse->dragged_index >= 0 &&
+        player->hands.selected_option &&
+        player->hands.selected_option->kind == OPTION_NAME)
+        return change_number(player, player->hands.selected_option, 1);
     return STATUS_OK;
 }
 
@@ -483,11 +494,11 @@ static Status turn_wheel(Player *player, double amount)
 {
     MouseTarget target = find_mouse_target(player);
     if (target.hit.zone == ZONE_SETTING &&
-        target.hit.index < player->screen.frame.options)
+        target.hit.index < player->screen.frame.option_count)
         return change_number(player,
                              player->screen.frame.option[target.hit.index],
                              amount > 0 ? 1 : -1);
-    if (target.hit.zone == ZONE_TIME)
+    if (target.hit.zone == ZONE_TIME_LINE)
         return obey(player, amount > 0 ? COMMAND_BACK : COMMAND_NEXT, 0);
     if (target.hit.zone != ZONE_STAGE)
         return STATUS_OK;
@@ -524,7 +535,7 @@ Status player_obey_input(Player *player, const Input *input)
     Command command;
     bool wheel = input->kind == INPUT_WHEEL, press = input->kind == INPUT_PRESS;
     Status status = STATUS_OK;
-    player->commands.gesture = mouse->gesture;
+    player->commands.gesture = mouse->input_gesture;
     if (press && mouse->drag_command != COMMAND_NONE)
         status = release_button(player); /* a second button ends the drag */
     if (!status)
@@ -536,17 +547,17 @@ Status player_obey_input(Player *player, const Input *input)
     bool key = input->kind == INPUT_KEY && !input->is_repeat &&
                mouse->drag_command == COMMAND_NONE;
     if (press || key || (wheel && !mouse->was_wheel_turn))
-        mouse->gesture = ++player->commands.gestures;
+        mouse->input_gesture = ++player->commands.gesture_count;
     mouse->was_wheel_turn = wheel;
-    player->commands.gesture = mouse->gesture;
+    player->commands.gesture = mouse->input_gesture;
     switch (input->kind) {
     case INPUT_KEY:
         command = command_from_key(input->key, input->is_repeat,
                                    find_key_scope(player));
         command.joins_gesture = true;
         if (command.kind == COMMAND_SCENE &&
-            player_active_options(player)->page) {
-            player_note(player, "no number is asked for; G shows the scenes");
+            player_get_active_options(player)->page) {
+            player_notify(player, "no number is asked for; G shows the scenes");
             return STATUS_OK;
         }
         if (command.kind)
@@ -557,7 +568,7 @@ Status player_obey_input(Player *player, const Input *input)
     case INPUT_CLOSE:
         return obey(player, COMMAND_QUIT, 0);
     case INPUT_LEAVE:
-        player->screen.view.hovered = (Pick){.kind = PICK_NONE};
+        player->screen.view.hovered_part = (Pick){.kind = PICK_NONE};
         player->screen.view.mouse_hit = (WindowHit){.zone = ZONE_NONE};
         /* fall through */
     case INPUT_REDRAW:

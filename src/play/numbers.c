@@ -12,10 +12,10 @@ static const OptionRow *find_command_option(const Command *command)
 
 const char *player_find_idle_reason(const Player *player, const OptionRow *row)
 {
-    const Simulation *simulation = player_simulation(player);
+    const Simulation *simulation = player_get_simulation(player);
     bool minimises = simulation->scene->step;
     int slot = row->slot;
-    for (int p = 0; p < past_pane_count(&player->past); p++)
+    for (int p = 0; p < past_count_panes(&player->past); p++)
         minimises = minimises || player->past.pane[p].simulation.run[0].newton;
     if (slot == OPTION_SLOT(projection) &&
         !simulation_has_projection(simulation))
@@ -26,8 +26,9 @@ const char *player_find_idle_reason(const Player *player, const OptionRow *row)
     if ((slot == OPTION_SLOT(tolerance) || slot == OPTION_SLOT(solver)) &&
         !minimises)
         return "explicit methods minimise nothing";
-    return row->idle_reason ? row->idle_reason(player_active_options(player))
-                            : NULL;
+    return row->idle_reason
+               ? row->idle_reason(player_get_active_options(player))
+               : NULL;
 }
 
 Status obey_add_option(Player *player, const Command *command)
@@ -38,11 +39,12 @@ Status obey_add_option(Player *player, const Command *command)
     const char *idle = player_find_idle_reason(player, row);
     if (idle)
         return player_refuse(player, "%s: %s", row->name, idle);
-    player->hands.added_rows |= (uint64_t)1 << (row - option_rows);
+    player->hands.added_option_rows |= (uint64_t)1 << (row - option_rows);
     player->screen.column = COLUMN_CARDS;
     player_deselect(player);
-    player->hands.selected = row;
-    player_note(player, "%s: %s; type a value and Enter", row->name, row->help);
+    player->hands.selected_option = row;
+    player_notify(player, "%s: %s; type a value and Enter", row->name,
+                  row->help);
     return STATUS_OK;
 }
 
@@ -51,21 +53,21 @@ Status obey_select_option(Player *player, const Command *command)
     const OptionRow *number[OPTIONS_MAX_ROWS];
     int next = 0, count = player_list_options(player, false, number);
     for (int i = 0; i < count; i++)
-        next = number[i] == player->hands.selected ? i + 1 : next;
+        next = number[i] == player->hands.selected_option ? i + 1 : next;
     player_deselect(player);
-    player->hands.selected = next < count ? number[next] : NULL;
+    player->hands.selected_option = next < count ? number[next] : NULL;
     return STATUS_OK;
 }
 
 /* Types or deletes a letter; the first letter opens the field. */
 Status obey_type_letter(Player *player, const Command *command)
 {
-    char *typed = player->hands.typed;
+    char *typed = player->hands.typed_text;
     bool list = player_shows_list(player),
          shift = strncmp(command->text, "Shift+", 6) == 0;
     const char *key = command->text + (shift ? 6 : 0);
-    const LecturePage *page = player_active_options(player)->page;
-    if (!list && !player->hands.selected && !page_wants_number(page))
+    const LecturePage *page = player_get_active_options(player)->page;
+    if (!list && !player->hands.selected_option && !page_wants_number(page))
         return player_refuse(player, page_wants_click(page)
                                          ? "a click on the picture is the "
                                            "answer here; N shows it"
@@ -77,18 +79,18 @@ Status obey_type_letter(Player *player, const Command *command)
     if (strcmp(key, "Backspace") == 0)
         typed[length > 0 ? length - 1 : 0] = '\0';
     else if (strcmp(key, "Space") == 0)
-        append(typed, sizeof player->hands.typed, " ");
+        append(typed, sizeof player->hands.typed_text, " ");
     else if (!key[1])
-        append(typed, sizeof player->hands.typed, "%c",
+        append(typed, sizeof player->hands.typed_text, "%c",
                shift ? key[0] : tolower(key[0]));
-    if (player->hands.selected)
-        player_note(player, "type a value: Enter sets it, Esc leaves it");
+    if (player->hands.selected_option)
+        player_notify(player, "type a value: Enter sets it, Esc leaves it");
     else
-        player_note(player, "%s %s_: Enter %s it, Esc leaves it",
-                    !list                                     ? "your answer"
-                    : player->screen.column == COLUMN_OPTIONS ? "number"
-                                                              : "page",
-                    typed, list ? "opens" : "checks");
+        player_notify(player, "%s %s_: Enter %s it, Esc leaves it",
+                      !list                                     ? "your answer"
+                      : player->screen.column == COLUMN_OPTIONS ? "number"
+                                                                : "page",
+                      typed, list ? "opens" : "checks");
     return STATUS_OK;
 }
 
@@ -97,7 +99,7 @@ Status obey_type_letter(Player *player, const Command *command)
 Status obey_set_option(Player *player, const Command *command)
 {
     const OptionRow *row = find_command_option(command);
-    const Simulation *simulation = player_simulation(player);
+    const Simulation *simulation = player_get_simulation(player);
     Options options[OPTIONS_MAX_PANES];
     if (!row || row->kind == OPTION_TEXT || row->kind == OPTION_PAGE ||
         row->kind == OPTION_SWITCH)
@@ -108,9 +110,9 @@ Status obey_set_option(Player *player, const Command *command)
     if (idle)
         return player_refuse(player, "%s", idle);
     bool one = player->tour.is_page_running || player_panes_differ(player, row);
-    int pane = one ? player->active : ALL_PANES;
+    int pane = one ? player->active_pane : ALL_PANES;
     int panes = player_copy_options(player, options);
-    double old = options[player->active].number[row->slot];
+    double old = options[player->active_pane].number[row->slot];
     Status status = STATUS_OK;
     const Message message = MESSAGE(player->message);
     for (int p = 0; p < panes && !status; p++) {
@@ -118,23 +120,25 @@ Status obey_set_option(Player *player, const Command *command)
             continue;
         status =
             options_set(&options[p], row, command->text, command->x, message);
-        if (!status && row->max_times) /* bodies and obstacles: no overlap */
+        if (!status &&
+            row->max_repetitions) /* bodies and obstacles: no overlap */
             status = simulation_check_clearance(
                 &player->past.pane[p].simulation, &options[p], message);
     }
     if (status)
         return status;
     Command change = *command;
-    change.x = options[player->active].number[row->slot];
+    change.x = options[player->active_pane].number[row->slot];
     const SavedState *state =
-        past_entry(&player->past, 0, player->past.step)->state;
-    bool is_set = state && state->is_set; /* the user has set the state */
-    bool again = (!is_set || player_active_pane(player)->has_failed) &&
-                 (row->effect == EFFECT_REPEAT ||
-                  (player_active_options(player)->law_name &&
-                   player->past.step > 0 && player_is_stopped(player)) ||
+        past_find_entry(&player->past, 0, player->past.shown_step)->state;
+    bool is_set =
+        state && state->is_set_by_user; /* the user has set the state */
+    bool again = (!is_set || player_get_active_pane(player)->has_failed) &&
+                 (row->effect == EFFECT_REPEATED_STEP ||
+                  (player_get_active_options(player)->law_name &&
+                   player->past.shown_step > 0 && player_is_stopped(player)) ||
                   (player->play.walk_unit != UNIT_STEP &&
-                   player->view_of_pane[player->active].trace_index >= 0));
+                   player->view_of_pane[player->active_pane].trace_index >= 0));
     if (simulation_find_option_effect(simulation, row) == EFFECT_NEW_RUN)
         return player_restart_runs(player, options, panes, command);
     if (again && change.x != old)
@@ -144,8 +148,8 @@ Status obey_set_option(Player *player, const Command *command)
 
 Status player_enqueue_notches(Player *player, const OptionRow *row, int notches)
 {
-    const Options now = player_shown_options(player);
-    if (row->count > 1)
+    const Options now = player_get_shown_options(player);
+    if (row->number_count > 1)
         return player_refuse(player, "several numbers: type them");
     player_enqueue_set(player, row,
                        option_find_value_after_wheel(row, &now, notches));
@@ -156,9 +160,10 @@ Status obey_change_number(Player *player, const Command *command)
 {
     const OptionRow *number[OPTIONS_MAX_ROWS];
     player_list_options(player, false, number); /* finds at least one number */
-    player->hands.selected =
-        player->hands.selected ? player->hands.selected : number[0];
-    return player_enqueue_notches(player, player->hands.selected,
+    player->hands.selected_option = player->hands.selected_option
+                                        ? player->hands.selected_option
+                                        : number[0];
+    return player_enqueue_notches(player, player->hands.selected_option,
                                   command->kind == COMMAND_RAISE ? 1 : -1);
 }
 
@@ -166,7 +171,7 @@ Status obey_change_number(Player *player, const Command *command)
 Status obey_reset_option(Player *player, const Command *command)
 {
     const OptionRow *row = find_command_option(command);
-    const Options *now = &past_start_control(&player->past, 0)->options;
+    const Options *now = &past_get_start_control(&player->past, 0)->options;
     Options options[OPTIONS_MAX_PANES];
     if (!row || !row->label)
         return player_refuse(player, "there is no such number");
@@ -185,7 +190,7 @@ Status obey_switch_option(Player *player, const Command *command)
     double on = player->setup.options[0].number[row->slot];
     if (on == off)
         on = search ? LINE_SEARCH_BACKTRACK : PROJECTION_CLAMP;
-    bool was_off = player_active_options(player)->number[row->slot] == off;
+    bool was_off = player_get_active_options(player)->number[row->slot] == off;
     player_enqueue_set(player, row, was_off ? on : off);
     return STATUS_OK;
 }

@@ -33,10 +33,10 @@ long player_count_targets(const Player *player, int pane, CommandKind kind)
     case COMMAND_PUSH:
         return (long)(simulation->options.grounds + simulation->options.balls);
     case COMMAND_PANE:
-        return past_pane_count(&player->past);
+        return past_count_panes(&player->past);
     case COMMAND_CARD:
     case COMMAND_ENLARGE:
-        return picture_of_scene(scene)->count;
+        return picture_of_scene(scene)->card_count;
     case COMMAND_CELL:
         return cells ? (long)ENVELOPE_ROWS * ENVELOPE_COLUMNS : 0;
     default:
@@ -47,7 +47,7 @@ long player_count_targets(const Player *player, int pane, CommandKind kind)
 /* Refuses a number if a pane has no such node, obstacle, ... */
 static Status check_command_target(Player *player, const Command *command)
 {
-    for (int p = 0; p < past_pane_count(&player->past); p++) {
+    for (int p = 0; p < past_count_panes(&player->past); p++) {
         long count = player_count_targets(player, p, command->kind);
         if (command->number >= count)
             return player_refuse(
@@ -62,12 +62,12 @@ static Status check_command_target(Player *player, const Command *command)
 /* Returns the script command that does what the key does now. */
 static Command resolve_key_command(const Player *player, const Command *asked)
 {
-    const double *x = player_simulation(player)->run[0].x;
+    const double *x = player_get_simulation(player)->run[0].x;
     Command meant = *asked;
     if (asked->kind == COMMAND_TOGGLE_PAUSE)
         meant.kind = player_is_stopped(player) ? COMMAND_PLAY : COMMAND_PAUSE;
     if (asked->kind == COMMAND_NEXT && !player_hides_answer(player) &&
-        player_active_options(player)->next_action == NEXT_SHORTENS_SPRING)
+        player_get_active_options(player)->next_action == NEXT_SHORTENS_SPRING)
         meant =
             (Command){.kind = COMMAND_HANDLE, .x = 0.8 * x[0], .y = 0.8 * x[1]};
     return meant;
@@ -76,12 +76,12 @@ static Command resolve_key_command(const Player *player, const Command *asked)
 /* Stores the change by a page's command in the page's own options. */
 static void store_page_option(Player *player, const Command *command)
 {
-    Options *own = &player->tour.page_options[player->active];
+    Options *own = &player->tour.page_options[player->active_pane];
     if (command->kind == COMMAND_FLIP)
-        own->flips = exhibit_get_flip_bits(player_simulation(player));
+        own->flips = exhibit_get_flip_bits(player_get_simulation(player));
     if (command->kind == COMMAND_SET)
         option_copy(&option_rows[command->number],
-                    player_active_options(player), own);
+                    player_get_active_options(player), own);
 }
 
 Status player_obey_queue(Player *player, bool now)
@@ -96,7 +96,7 @@ Status player_obey_queue(Player *player, bool now)
         const Command *command = &queue.command[i];
         bool pulls = command->kind == COMMAND_RELEASE &&
                      !player_is_stopped(player) &&
-                     past->step <= player->hands.pulled_step;
+                     past->shown_step <= player->hands.last_pull_step;
         if (!now && (past_is_working(past) || pulls))
             break;
         player->tour.is_page_running = obeys_page || queue.is_from_page;
@@ -108,7 +108,7 @@ Status player_obey_queue(Player *player, bool now)
     if (!status && i == queue.count) {
         status = player_restore_pins(player, queue.pins);
         if (queue.note[0])
-            player_note(player, "%s", queue.note);
+            player_notify(player, "%s", queue.note);
         return status;
     }
     if (status) {
@@ -136,10 +136,10 @@ static Status abandon_unfinished_step(Player *player)
     int gesture = player->commands.gesture;
     const Script *done = &player->commands.journal;
     for (size_t i = done->lines;
-         i-- > 0 && done->line[i].due_step == player->past.step + 1 &&
+         i-- > 0 && done->line[i].due_step == player->past.shown_step + 1 &&
          command_waits_for_goal(&player->past, done->line[i].command.kind);)
         done->line[i].due_step--;
-    past_set_goal(&player->past, player->past.step, false);
+    past_set_goal(&player->past, player->past.shown_step, false);
     player->play.after_work = AFTER_NOTHING;
     Status status =
         player_show_refusal(player, player_obey_queue(player, true));
@@ -154,30 +154,30 @@ static void begin_command(Player *player, const Command *command)
     unsigned flags = command_rows[command->kind].flags;
     Commands *commands = &player->commands;
     if (command->kind == COMMAND_DRAG || command->kind == COMMAND_RELEASE)
-        commands->gesture = commands->held_gesture;
+        commands->gesture = commands->drag_gesture;
     else if (!command->joins_gesture)
-        commands->gesture = ++commands->gestures;
+        commands->gesture = ++commands->gesture_count;
     if (command->kind == COMMAND_GRAB || command->kind == COMMAND_PUSH)
-        commands->held_gesture = commands->gesture;
+        commands->drag_gesture = commands->gesture;
     if (commands->leave_command != command->kind)
         commands->leave_command = COMMAND_NONE;
     player->screen.must_redraw = true;
     player->message[0] = '\0';
     if (!(flags & KEEPS_NOTE ||
-          (flags & REPLACES && player->hands.mouse.drag_command)))
+          (flags & REPLACES_LAST && player->hands.mouse.drag_command)))
         player->note[0] = '\0';
 }
 
 /* Whether a command only waits for the present work: "next" for the step that
  * is loaded or made, and, while a new step is made, a drag in the queue. */
-static bool command_waits_for_step(Player *player, const Command *command)
+static bool command_only_waits(Player *player, const Command *command)
 {
     bool drags =
         player->hands.mouse.drag_command || command->kind == COMMAND_DRAG;
     if (past_is_working(&player->past) && command->kind == COMMAND_NEXT)
         return true;
     if (!past_makes_step(&player->past) || !drags ||
-        !(command_rows[command->kind].flags & REPLACES))
+        !(command_rows[command->kind].flags & REPLACES_LAST))
         return false;
     player_enqueue(player, command);
     return true;
@@ -188,11 +188,11 @@ static Status do_work(Player *player)
 {
     Past *past = &player->past;
     double begin = clock_now();
-    if (player->play.work_start == 0)
-        player->play.work_start = begin;
+    if (player->play.work_start_time == 0)
+        player->play.work_start_time = begin;
     player_sample_line_energy(player);
     while (past_is_working(past) && !player->is_quitting) {
-        long before = past->step;
+        long before = past->shown_step;
         bool made = past_makes_step(past);
         Status status = past_do_work(past);
         if (!past_is_working(past) || (status && status != STATUS_RUNNING)) {
@@ -202,13 +202,14 @@ static Status do_work(Player *player)
             player_sample_line_energy(player);
         }
         player->is_quitting = player->is_quitting || *player->setup.stop_signal;
-        bool begins = past_makes_step(past) && !made && player_is_slow(player);
+        bool begins =
+            past_makes_step(past) && !made && player_factorises_slowly(player);
         if (player->screen.window && (begins || clock_now() - begin > SLICE))
             break;
     }
     player->screen.must_redraw = true;
     if (!past_is_working(past))
-        player->play.work_start = 0;
+        player->play.work_start_time = 0;
     return STATUS_OK;
 }
 
@@ -217,12 +218,12 @@ Status player_obey(Player *player, const Command *command)
     Past *past = &player->past;
     Command meant = resolve_key_command(player, command);
     const unsigned flags = command_rows[meant.kind].flags;
-    long step = past->step, newest = past_newest(past);
-    int now = past->current;
+    long step = past->shown_step, newest = past_find_newest(past);
+    int now = past->branch_index;
     bool stops = false;
     Status status = STATUS_OK;
     begin_command(player, &meant);
-    if (command_waits_for_step(player, &meant))
+    if (command_only_waits(player, &meant))
         return STATUS_OK;
     if (player_hides_answer(player) &&
         (meant.kind == COMMAND_NEXT || meant.kind == COMMAND_PLAY)) {
@@ -235,7 +236,7 @@ Status player_obey(Player *player, const Command *command)
     }
     status = status ? status : check_command_target(player, &meant);
     if (!status && stops)
-        player_note(player, "step abandoned: the last whole one is shown");
+        player_notify(player, "step abandoned: the last whole one is shown");
     else if (!status)
         status = functions[meant.kind](player, &meant);
     if (flags & IN_SCRIPT && status != STATUS_INVALID_INPUT &&
@@ -249,8 +250,8 @@ Status player_obey(Player *player, const Command *command)
         Status shown = do_work(player);
         status = status ? status : shown;
     }
-    if (past->current > now && meant.kind != COMMAND_REDO &&
-        !past->branch[past->current].from_options && step < newest)
+    if (past->branch_index > now && meant.kind != COMMAND_REDO &&
+        !past->branch[past->branch_index].from_options && step < newest)
         append(player->note, sizeof player->note,
                "%ssteps %ld ... %ld: Ctrl+Z leads back",
                player->note[0] ? "; " : "", step + 1, newest);
@@ -261,9 +262,10 @@ Status player_obey(Player *player, const Command *command)
 Status player_make_step(Player *player)
 {
     const Past *past = &player->past;
-    Status status = past_is_working(past)
-                        ? STATUS_OK
-                        : player_seek(player, past->step + 1, AFTER_NOTHING);
+    Status status =
+        past_is_working(past)
+            ? STATUS_OK
+            : player_seek(player, past->shown_step + 1, AFTER_NOTHING);
     status = status ? status : do_work(player);
     return status
                ? status

@@ -23,7 +23,7 @@ void print_line(FILE *file, const char *format, ...)
 {
     char line[1024];
     write_formatted(line, sizeof line, format);
-    replace_line_breaks(line);
+    replace_control_characters(line);
     fprintf(file, "%s\n", line);
 }
 
@@ -86,12 +86,13 @@ void table_add_columns(CsvTable *table, const char *names)
         char name[TABLE_NAME_SIZE];
         int length = (int)strcspn(at, ",:"), c = 0;
         snprintf(name, sizeof name, "%.*s", length, at);
-        while (c < table->columns && strcmp(table->column[c].name, name) != 0)
+        while (c < table->column_count &&
+               strcmp(table->column[c].name, name) != 0)
             c++;
-        if (c == table->columns && c < TABLE_MAX_COLUMNS) {
+        if (c == table->column_count && c < TABLE_MAX_COLUMNS) {
             memcpy(table->column[c].name, name, sizeof name);
             table->column[c].kind = at[length] == ':' ? at[length + 1] : '\0';
-            table->columns++;
+            table->column_count++;
         }
         at += strcspn(at, ",");
     }
@@ -102,16 +103,16 @@ Status table_open(const char *name, char *message, CsvTable *table)
     Status status = output_open(name, message, &table->output);
     if (status)
         return status;
-    for (int c = 0; c < table->columns; c++)
+    for (int c = 0; c < table->column_count; c++)
         fprintf(table->output.file, "%s%c", table->column[c].name,
-                c + 1 < table->columns ? ',' : '\n');
+                c + 1 < table->column_count ? ',' : '\n');
     return table_check(table);
 }
 
 void table_add_row(CsvTable *table, const double *value)
 {
     FILE *file = table->output.file;
-    for (int c = 0; c < table->columns && !ferror(file); c++) {
+    for (int c = 0; c < table->column_count && !ferror(file); c++) {
         char kind = table->column[c].kind;
         if (kind == 't')
             fputs(table->get_text(table->column[c].name, (int)value[c]), file);
@@ -119,7 +120,7 @@ void table_add_row(CsvTable *table, const double *value)
             fprintf(file, "%.17g", value[c]);
         else if (value[c] >= 0)
             fprintf(file, "%.0f", value[c]);
-        putc(c + 1 < table->columns ? ',' : '\n', file);
+        putc(c + 1 < table->column_count ? ',' : '\n', file);
     }
 }
 

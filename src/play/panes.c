@@ -12,7 +12,7 @@ static const IntegratorMethod *find_next_method(Player *player, int pane)
         next = next[1].name ? next + 1 : &integrator_methods[0];
         taken = next->only_by_name ||
                 integrator_method_refuses_system(next, &simulation->system);
-        for (int p = 0; p < past_pane_count(&player->past); p++)
+        for (int p = 0; p < past_count_panes(&player->past); p++)
             taken =
                 taken || player->past.pane[p].simulation.run[0].method == next;
     } while (next != own && taken);
@@ -28,7 +28,8 @@ static const IntegratorMethod *find_next_method(Player *player, int pane)
 
 Status obey_next_method(Player *player, const Command *command)
 {
-    const IntegratorMethod *next = find_next_method(player, player->active);
+    const IntegratorMethod *next =
+        find_next_method(player, player->active_pane);
     if (!next)
         return STATUS_INVALID_INPUT;
     player_enqueue_set(player, option_find("integrator"),
@@ -40,15 +41,16 @@ Status obey_next_method(Player *player, const Command *command)
  * the method stays: further commands of the page set the differences. */
 Status obey_add_pane(Player *player, const Command *command)
 {
-    int panes = past_pane_count(&player->past);
+    int panes = past_count_panes(&player->past);
     if (panes >= OPTIONS_MAX_DRAWN_PANES)
         return player_refuse(player, "six are side by side: no room for more");
-    if (player_simulation(player)->runs > 1)
+    if (player_get_simulation(player)->runs > 1)
         return player_refuse(player, "several runs are in this picture "
                                      "already: nothing goes beside it");
-    const IntegratorMethod *next = player->tour.is_page_running
-                                       ? player_simulation(player)->run->method
-                                       : find_next_method(player, panes - 1);
+    const IntegratorMethod *next =
+        player->tour.is_page_running
+            ? player_get_simulation(player)->run->method
+            : find_next_method(player, panes - 1);
     if (!next)
         return STATUS_INVALID_INPUT;
     const Command change = make_set_command(
@@ -58,14 +60,14 @@ Status obey_add_pane(Player *player, const Command *command)
         status = player_edit_step(player, &change, panes, false);
     if (status)
         return status;
-    player->active = panes;
-    player_note(player, "beside it: %s", next->label);
+    player->active_pane = panes;
+    player_notify(player, "beside it: %s", next->label);
     return STATUS_OK;
 }
 
 Status obey_close_pane(Player *player, const Command *command)
 {
-    if (past_pane_count(&player->past) < 2)
+    if (past_count_panes(&player->past) < 2)
         return player_refuse(player, "there is only one");
     return player_edit_step(player, command, ALL_PANES, false);
 }

@@ -10,24 +10,25 @@
 
 /* ---- reading ------------------------------------------------------------- */
 
-static Branch *present_branch(const Past *past)
+static Branch *get_present_branch(const Past *past)
 {
-    return &past->branch[past->current];
+    return &past->branch[past->branch_index];
 }
 
-int past_pane_count(const Past *past)
+int past_count_panes(const Past *past)
 {
-    return past->branches > 0 ? present_branch(past)->panes : 0;
+    return past->branch_count > 0 ? get_present_branch(past)->panes : 0;
 }
 
-long past_newest(const Past *past)
+long past_find_newest(const Past *past)
 {
-    return present_branch(past)->first_step + present_branch(past)->entries - 1;
+    return get_present_branch(past)->first_step +
+           get_present_branch(past)->entry_count - 1;
 }
 
 /* Returns which pane of the branch before, branch[-1], this pane continues.  A
  * pane that was added continues the last pane of that branch. */
-static int find_pane_below(const Branch *branch, int pane)
+static int find_pane_in_branch_below(const Branch *branch, int pane)
 {
     int last = branch[-1].panes - 1;
     return pane < last ? pane : last;
@@ -38,7 +39,7 @@ static int find_pane_below(const Branch *branch, int pane)
 static PastEntry *find_branch_entry(const Branch *branch, int pane, long step)
 {
     for (; step < branch->first_step && !branch->from_options; branch--)
-        pane = find_pane_below(branch, pane);
+        pane = find_pane_in_branch_below(branch, pane);
     long i = step - branch->first_step;
     return i < 0 || i >= branch->capacity
                ? NULL
@@ -47,47 +48,50 @@ static PastEntry *find_branch_entry(const Branch *branch, int pane, long step)
 
 static PastEntry *find_entry(const Past *past, int pane, long step)
 {
-    return find_branch_entry(present_branch(past), pane, step);
+    return find_branch_entry(get_present_branch(past), pane, step);
 }
 
-const PastEntry *past_entry(const Past *past, int pane, long step)
+const PastEntry *past_find_entry(const Past *past, int pane, long step)
 {
-    return step > past_newest(past) ? NULL : find_entry(past, pane, step);
+    return step > past_find_newest(past) ? NULL : find_entry(past, pane, step);
 }
 
-const UserControl *past_control(const Past *past, int pane)
+const UserControl *past_get_control(const Past *past, int pane)
 {
-    return find_entry(past, pane, past->step)->control;
+    return find_entry(past, pane, past->shown_step)->next_control;
 }
 
-const UserControl *past_start_control(const Past *past, int pane)
+const UserControl *past_get_start_control(const Past *past, int pane)
 {
-    const Branch *branch = present_branch(past);
+    const Branch *branch = get_present_branch(past);
     for (; !branch->from_options; branch--)
-        pane = find_pane_below(branch, pane);
-    return branch->entry[pane].control;
+        pane = find_pane_in_branch_below(branch, pane);
+    return branch->entry[pane].next_control;
 }
 
 /* Whether a failure has ended the pane before the step of this entry. */
-static bool entry_ends_pane(const PastEntry *entry)
+static bool entry_is_after_failure(const PastEntry *entry)
 {
-    return entry->substeps == 0 && status_is_failure(entry->outcome.status);
+    return entry->substep_count == 0 &&
+           status_is_failure(entry->outcome.status);
 }
 
 long past_find_made_step(const Past *past, int pane, long step)
 {
-    while (step > 0 && entry_ends_pane(past_entry(past, pane, step)))
+    while (step > 0 &&
+           entry_is_after_failure(past_find_entry(past, pane, step)))
         step--;
     return step;
 }
 
 long past_find_drawable_step(const Past *past, int pane, long step)
 {
-    const PastEntry *first = past_entry(past, pane, 1);
+    const PastEntry *first = past_find_entry(past, pane, 1);
     if (!first)
         return step;
-    double most = PAST_EXPLODED * fmax(first->outcome.max_x, 1e-300);
-    while (step > 0 && !(past_entry(past, pane, step)->outcome.max_x <= most))
+    double most = PAST_EXPLODED * fmax(first->outcome.max_coordinate, 1e-300);
+    while (step > 0 &&
+           !(past_find_entry(past, pane, step)->outcome.max_coordinate <= most))
         step--;
     return step;
 }
@@ -112,7 +116,7 @@ static void drop_state(Past *past, PastEntry *entry)
 
 static void drop_entry(Past *past, PastEntry *entry)
 {
-    control_release(entry->control);
+    control_release(entry->next_control);
     drop_state(past, entry);
     *entry = (PastEntry){0};
 }
@@ -121,15 +125,15 @@ static void drop_entry(Past *past, PastEntry *entry)
 static Status reserve_entry(Past *past, Branch *branch)
 {
     size_t row = (size_t)branch->panes * sizeof(PastEntry);
-    if (!past->stores_states && branch->entries == 2) {
+    if (!past->stores_states && branch->entry_count == 2) {
         for (int p = 0; p < branch->panes; p++)
             drop_entry(past, &branch->entry[p]);
         memmove(branch->entry, branch->entry + branch->panes, row);
         memset(branch->entry + branch->panes, 0, row);
         branch->first_step++;
-        branch->entries--;
+        branch->entry_count--;
     }
-    if (branch->entries < branch->capacity)
+    if (branch->entry_count < branch->capacity)
         return STATUS_OK;
     long room = branch->capacity ? 2 * branch->capacity : 4;
     PastEntry *entry = realloc(branch->entry, (size_t)room * row);
@@ -144,8 +148,8 @@ static Status reserve_entry(Past *past, Branch *branch)
 
 static void drop_branches(Past *past, int from)
 {
-    while (past->branches > from) {
-        Branch *branch = &past->branch[--past->branches];
+    while (past->branch_count > from) {
+        Branch *branch = &past->branch[--past->branch_count];
         for (long i = 0; i < branch->capacity * branch->panes; i++)
             drop_entry(past, &branch->entry[i]);
         free(branch->entry);
@@ -159,20 +163,22 @@ static void drop_branches(Past *past, int from)
 static bool branch_keeps_state(const Branch *branch, const PastEntry *entry)
 {
     long i = (entry - branch->entry) / branch->panes;
-    return i % branch->stride == 0 && (i > 0 || branch->stride == 1 ||
-                                       !entry->state || entry->state->is_set);
+    return i % branch->stride == 0 &&
+           (i > 0 || branch->stride == 1 || !entry->state ||
+            entry->state->is_set_by_user);
 }
 
 /* Drops every second state of the branch with the smallest stride; the present
  * branch has its turn last.  Returns false if no state is left to drop. */
-static bool halve_states(Past *past)
+static bool drop_every_second_state(Past *past)
 {
     Branch *finest = NULL;
-    for (int b = 0; b < past->branches; b++) {
+    for (int b = 0; b < past->branch_count; b++) {
         Branch *branch = &past->branch[b];
-        bool finer = !finest || branch->stride < finest->stride ||
-                     (branch->stride == finest->stride && b != past->current);
-        if (branch->stride <= branch->entries && finer)
+        bool finer =
+            !finest || branch->stride < finest->stride ||
+            (branch->stride == finest->stride && b != past->branch_index);
+        if (branch->stride <= branch->entry_count && finer)
             finest = branch;
     }
     if (!finest)
@@ -184,14 +190,14 @@ static bool halve_states(Past *past)
     return true;
 }
 
-/* Samples at most HISTORY_POINTS steps of a run, among them the newest. */
+/* Samples at most HISTORY_MAX_POINTS steps of a run, among them the newest. */
 void past_fill_history(const Past *past, int pane, History *history)
 {
-    long newest = past_newest(past), stride = 1;
+    long newest = past_find_newest(past), stride = 1;
     long last = past_find_made_step(past, pane, newest);
-    while (newest / stride > HISTORY_POINTS - 2)
+    while (newest / stride > HISTORY_MAX_POINTS - 2)
         stride *= 2;
-    history->series = history->count = 0;
+    history->series_count = history->point_count = 0;
     for (long step = 0; step < last + stride; step += stride) {
         const EnergySample *sample =
             find_entry(past, pane, step < last ? step : last)->sample;
@@ -210,7 +216,8 @@ static Status store_state(Past *past, int p, bool set, PastEntry *entry)
     /* Memory for the state and for the sample, which is made next. */
     size_t both = size + sizeof *entry->sample;
     drop_state(past, entry);
-    while (past->used_bytes + both > past->max_bytes && halve_states(past))
+    while (past->used_bytes + both > past->max_bytes &&
+           drop_every_second_state(past))
         continue;
     SavedState *state = malloc(size);
     if (!state)
@@ -227,7 +234,7 @@ static Status store_state(Past *past, int p, bool set, PastEntry *entry)
 static void pane_leave_step(Past *past, int p)
 {
     PastPane *pane = &past->pane[p];
-    const Branch *branch = present_branch(past);
+    const Branch *branch = get_present_branch(past);
     if (!pane->has_state)
         return;
     while (pane->step < branch->first_step && !branch->from_options)
@@ -240,7 +247,7 @@ static void pane_leave_step(Past *past, int p)
 
 static void leave_steps_of_panes(Past *past)
 {
-    for (int p = 0; p < past_pane_count(past); p++)
+    for (int p = 0; p < past_count_panes(past); p++)
         pane_leave_step(past, p);
 }
 
@@ -249,8 +256,8 @@ static void leave_steps_of_panes(Past *past)
  * its state with the copied entry.  Returns NULL if memory is missing. */
 static Branch *push_new_branch(Past *past, Branch wanted, const Command *edit)
 {
-    drop_branches(past, past->current + 1);
-    if (past->branches == past->capacity) {
+    drop_branches(past, past->branch_index + 1);
+    if (past->branch_count == past->capacity) {
         int room = past->capacity ? 2 * past->capacity : 16;
         Branch *grown = realloc(past->branch, (size_t)room * sizeof *grown);
         if (!grown)
@@ -258,33 +265,34 @@ static Branch *push_new_branch(Past *past, Branch wanted, const Command *edit)
         past->branch = grown;
         past->capacity = room;
     }
-    Branch *branch = &past->branch[past->branches];
+    Branch *branch = &past->branch[past->branch_count];
     *branch = wanted;
     branch->stride = 1;
     branch->edit = *edit;
     if (reserve_entry(past, branch))
         return NULL;
-    branch->entries = 1;
-    for (int p = 0; p < past_pane_count(past); p++)
+    branch->entry_count = 1;
+    for (int p = 0; p < past_count_panes(past); p++)
         if (branch->from_options || p >= branch->panes ||
             past->pane[p].step > branch->first_step)
             pane_leave_step(past, p);
     for (int p = 0; p < branch->panes && !branch->from_options; p++)
-        for (int i = 0; i < branch->copied; i++) {
+        for (int i = 0; i < branch->copied_count; i++) {
             PastEntry *to = &branch->entry[i * branch->panes + p];
-            *to = *find_branch_entry(branch - 1, find_pane_below(branch, p),
+            *to = *find_branch_entry(branch - 1,
+                                     find_pane_in_branch_below(branch, p),
                                      branch->first_step + i);
-            control_retain(to->control);
+            control_retain(to->next_control);
             to->sample = NULL;
             if (i > 0)
                 to->state = NULL;
             if (to->state)
                 to->state->ref_count++;
         }
-    if (past->branches > 0)
-        branch[-1].left_step = past->step;
-    past->current = past->branches++;
-    past->step = past->goal_step = branch->first_step;
+    if (past->branch_count > 0)
+        branch[-1].exit_step = past->shown_step;
+    past->branch_index = past->branch_count++;
+    past->shown_step = past->goal_step = branch->first_step;
     return branch;
 }
 
@@ -304,7 +312,8 @@ static const Newton *find_newton_to_trace(const Simulation *simulation)
 {
     for (int r = 0; r < simulation->runs && !simulation->scene->step; r++)
         if (simulation->run[r].newton)
-            return r == simulation->step_run ? simulation->run[r].newton : NULL;
+            return r == simulation->current_run ? simulation->run[r].newton
+                                                : NULL;
     return NULL;
 }
 
@@ -317,11 +326,11 @@ static bool observe_newton(void *user, const NewtonRecord *record)
         return false;
     pane->outcome.updates += record->alpha != 0;
     if (pane->simulation.scene->step) /* a scene whose step is one update */
-        pane->outcome.energy_change = record->change;
+        pane->outcome.energy_change = record->energy_change;
     const Newton *newton = find_newton_to_trace(&pane->simulation);
     if (newton && pane->trace.x_length > 0 && record->iteration >= 0)
         step_trace_add_iterate(&pane->trace, newton, record);
-    NewtonRecords *records = &pane->records;
+    NewtonRecords *records = &pane->newton_records;
     if (newton_records_reserve(records, records->count + 1))
         records->record[records->count++] = *record;
     else
@@ -333,9 +342,9 @@ static bool observe_newton(void *user, const NewtonRecord *record)
 static void pane_forget_step(PastPane *pane)
 {
     pane->has_trace = pane->has_failed = false;
-    pane->substeps = 0;
-    pane->trace.position_count = pane->records.count = 0;
-    pane->records.is_incomplete = false;
+    pane->substep_count = 0;
+    pane->trace.position_count = pane->newton_records.count = 0;
+    pane->newton_records.is_incomplete = false;
 }
 
 static void pane_free(PastPane *pane)
@@ -374,8 +383,8 @@ static Status pane_set_step(Past *past, int p, long step)
     PastPane *pane = &past->pane[p];
     PastEntry *entry = find_entry(past, p, step);
     bool samples = past->stores_states &&
-                   (!entry->sample || pane->control != entry->control);
-    Status status = pane_use_control(pane, entry->control);
+                   (!entry->sample || pane->control != entry->next_control);
+    Status status = pane_use_control(pane, entry->next_control);
     pane->step = step;
     pane->has_state = !status;
     if (status || !samples)
@@ -386,7 +395,7 @@ static Status pane_set_step(Past *past, int p, long step)
     }
     if (entry->sample) {
         const Picture *picture = picture_of_scene(pane->simulation.scene);
-        entry->sample->time = simulation_time(&pane->simulation);
+        entry->sample->time = simulation_get_time(&pane->simulation);
         entry->sample->energy_count = 0;
         if (picture->get_energies)
             entry->sample->energy_count =
@@ -409,13 +418,14 @@ static Status pane_load_state(PastPane *pane, const SavedState *state)
 static Status pane_seek(Past *past, int p, long goal)
 {
     PastPane *pane = &past->pane[p];
-    const UserControl *start = past_start_control(past, p);
+    const UserControl *start = past_get_start_control(past, p);
     long from = goal;
     while (past->stores_states && from > 0 && !find_entry(past, p, from)->state)
         from--;
     bool is_near = pane->has_state && pane->step <= goal &&
                    (pane->step >= from || pane->step >= goal - 1);
-    if (is_near && pane->control == find_entry(past, p, pane->step)->control)
+    if (is_near &&
+        pane->control == find_entry(past, p, pane->step)->next_control)
         return pane_set_step(past, p, pane->step);
     const PastEntry *entry = find_entry(past, p, from);
     if (!entry->state)
@@ -439,22 +449,23 @@ static Status pane_seek(Past *past, int p, long goal)
 
 /* Abandons the present work.  A pane that is in the middle of a step or ahead
  * of the newest whole step must load a stored state again (has_state). */
-static void abandon_past_work(Past *past)
+static void past_abandon_work(Past *past)
 {
     if (past->work_stage == WORK_DONE)
         return;
-    long new = past_newest(past) + 1;
-    for (int p = 0; p < past_pane_count(past); p++) {
+    long new = past_find_newest(past) + 1;
+    for (int p = 0; p < past_count_panes(past); p++) {
         PastPane *pane = &past->pane[p];
-        if (pane->is_iterating || pane->substeps > 0 || pane->step >= new)
+        if (pane->is_iterating || pane->substep_count > 0 || pane->step >= new)
             pane->has_state = false;
         pane->is_iterating = false;
-        pane->substeps = 0;
+        pane->substep_count = 0;
         if (!past_makes_step(past))
             continue;
         drop_state(past, find_entry(past, p, new));
         /* A copied entry keeps its control, to make the step again. */
-        if (present_branch(past)->entries >= present_branch(past)->copied)
+        if (get_present_branch(past)->entry_count >=
+            get_present_branch(past)->copied_count)
             drop_entry(past, find_entry(past, p, new));
     }
     past->work_stage = WORK_DONE;
@@ -481,11 +492,11 @@ static Status end_pane_by_failure(Past *past, int p, Status why)
     if (status && status != STATUS_RUNNING)
         return status;
     pane->step = step;
-    pane->substeps = 0;
-    pane->outcome = past_entry(past, p, last)->outcome;
+    pane->substep_count = 0;
+    pane->outcome = past_find_entry(past, p, last)->outcome;
     pane->outcome.status = past->bad_status = why;
     if (past_makes_step(past))
-        past->work_stage = WORK_MADE;
+        past->work_stage = WORK_PARTLY_MADE;
     return pane_finish_step(past, p);
 }
 
@@ -494,19 +505,19 @@ static Status pane_record_failure(Past *past, int p, Status status)
 {
     PastPane *pane = &past->pane[p];
     if (past_makes_step(past) && past->panes_fail_alone &&
-        past_pane_count(past) > 1 && !is_out_of_memory(status)) {
+        past_count_panes(past) > 1 && !is_out_of_memory(status)) {
         status = end_pane_by_failure(past, p, status);
         if (status == STATUS_RUNNING)
             return status;
     }
-    abandon_past_work(past);
+    past_abandon_work(past);
     if (!is_out_of_memory(status) && pane->start_control) {
         pane->has_failed = pane->has_trace = true;
         pane->outcome.status = status;
     }
     /* Some panes may have made the next step, so the state is not of `step`. */
     pane->has_state = false;
-    past->goal_step = past->step;
+    past->goal_step = past->shown_step;
     return status;
 }
 
@@ -517,18 +528,18 @@ static Status pane_finish_step(Past *past, int p)
     long step = pane->step + 1;
     PastEntry *to = find_entry(past, p, step);
     Status status = STATUS_OK;
-    if (step > past_newest(past)) {
-        if (!to->control)
-            to->control =
-                control_retain(find_entry(past, p, step - 1)->control);
-        to->substeps = pane->substeps;
+    if (step > past_find_newest(past)) {
+        if (!to->next_control)
+            to->next_control =
+                control_retain(find_entry(past, p, step - 1)->next_control);
+        to->substep_count = pane->substep_count;
         to->outcome = pane->outcome;
     }
-    if (past_makes_step(past) && pane->substeps > 0)
-        past->work_stage = WORK_MADE;
-    pane->substeps = 0;
+    if (past_makes_step(past) && pane->substep_count > 0)
+        past->work_stage = WORK_PARTLY_MADE;
+    pane->substep_count = 0;
     pane_leave_step(past, p);
-    if (to->state && to->state->is_set)
+    if (to->state && to->state->is_set_by_user)
         status = pane_load_state(pane, to->state);
     else if (past->stores_states && !to->state)
         store_state(past, p, false, to);
@@ -551,23 +562,25 @@ static Status pane_end_iteration(Past *past, int p, Status status)
         step_trace_end(&pane->trace, &simulation->options);
     bool moved = simulation->steps > pane->steps_before_substep;
     outcome->status = status ? status : outcome->status;
-    outcome->max_x = 0;
+    outcome->max_coordinate = 0;
     for (int i = 0; i < 2 * simulation->system.nodes; i++)
-        outcome->max_x = fmax(outcome->max_x, fabs(simulation->run[0].x[i]));
+        outcome->max_coordinate =
+            fmax(outcome->max_coordinate, fabs(simulation->run[0].x[i]));
     for (int r = 0; r < simulation->runs && !simulation->scene->step; r++)
         if (simulation->run[r].newton)
-            outcome->energy_change += simulation->run[r].newton->total_change;
+            outcome->energy_change +=
+                simulation->run[r].newton->total_energy_change;
     if (status && !moved && (is_out_of_memory(status) || !simulation->is_over))
         return pane_record_failure(past, p, status);
     pane->has_trace = past->stores_states;
-    pane->substeps += moved;
+    pane->substep_count += moved;
     if (past_makes_step(past) && status)
         past->bad_status = status;
     double middle =
-        simulation_time(simulation) + 0.5 * find_pane_timestep(pane);
-    const PastEntry *to = past_entry(past, p, pane->step + 1);
-    bool more = to ? pane->substeps < to->substeps
-                   : moved && middle < past->end_time &&
+        simulation_get_time(simulation) + 0.5 * find_pane_timestep(pane);
+    const PastEntry *to = past_find_entry(past, p, pane->step + 1);
+    bool more = to ? pane->substep_count < to->substep_count
+                   : moved && middle < past->step_end_time &&
                          (simulation->scene->parts & HAS_TIME);
     return more ? STATUS_RUNNING : pane_finish_step(past, p);
 }
@@ -576,23 +589,24 @@ static Status pane_end_iteration(Past *past, int p, Status status)
 static Status pane_iterate(Past *past, int p)
 {
     PastPane *pane = &past->pane[p];
-    const PastEntry *from = past_entry(past, p, pane->step);
-    const PastEntry *to = past_entry(past, p, pane->step + 1);
+    const PastEntry *from = past_find_entry(past, p, pane->step);
+    const PastEntry *to = past_find_entry(past, p, pane->step + 1);
     if (pane->is_iterating)
         return pane_end_iteration(past, p,
                                   simulation_advance(&pane->simulation));
-    if (pane->substeps == 0) {
+    if (pane->substep_count == 0) {
         pane->outcome = (StepOutcome){0};
         pane_forget_step(pane);
     }
-    if (entry_ends_pane(from)) {
+    if (entry_is_after_failure(from)) {
         pane->outcome = from->outcome;
         return pane_finish_step(past, p);
     }
     if (to && status_is_failure(to->outcome.status))
         return end_pane_by_failure(past, p, to->outcome.status);
     if (past->stores_states)
-        step_trace_begin(&pane->trace, &pane->simulation, past->samples_energy,
+        step_trace_begin(&pane->trace, &pane->simulation,
+                         past->samples_line_energy,
                          p == past->line_energy_pane);
     pane->steps_before_substep = pane->simulation.steps;
     pane->is_iterating = true;
@@ -606,16 +620,17 @@ static Status pane_iterate(Past *past, int p)
 static Status begin_new_step(Past *past)
 {
     double longest = -1;
-    for (int p = 0; p < past_pane_count(past); p++) {
+    for (int p = 0; p < past_count_panes(past); p++) {
         const PastPane *pane = &past->pane[p];
         double pace = find_pane_timestep(pane);
-        if (pace <= longest || entry_ends_pane(past_entry(past, p, pane->step)))
+        if (pace <= longest ||
+            entry_is_after_failure(past_find_entry(past, p, pane->step)))
             continue;
         longest = pace;
-        past->end_time = simulation_time(&pane->simulation) + pace;
+        past->step_end_time = simulation_get_time(&pane->simulation) + pace;
     }
     past->bad_status = STATUS_OK;
-    if (reserve_entry(past, present_branch(past)))
+    if (reserve_entry(past, get_present_branch(past)))
         return pane_record_failure(past, 0, STATUS_OUT_OF_MEMORY);
     past->work_stage = WORK_MAKING;
     return STATUS_RUNNING;
@@ -623,19 +638,19 @@ static Status begin_new_step(Past *past)
 
 /* Ends the work when all panes are at `goal_step`.  If no pane could make a new
  * step, as its scene is over or it has failed, the newest step is shown. */
-static Status end_past_work(Past *past)
+static Status show_goal_step(Past *past)
 {
     Status status = past_makes_step(past) ? past->bad_status : STATUS_OK;
-    if (past->work_stage == WORK_MADE) {
-        present_branch(past)->entries++;
+    if (past->work_stage == WORK_PARTLY_MADE) {
+        get_present_branch(past)->entry_count++;
     } else if (past->work_stage == WORK_MAKING) {
-        past->goal_step = past_newest(past);
-        for (int p = 0; p < past_pane_count(past); p++)
+        past->goal_step = past_find_newest(past);
+        for (int p = 0; p < past_count_panes(past); p++)
             past->pane[p].step = past->goal_step;
-        abandon_past_work(past);
+        past_abandon_work(past);
     }
     past->work_stage = WORK_DONE;
-    past->step = past->goal_step;
+    past->shown_step = past->goal_step;
     return status;
 }
 
@@ -643,7 +658,7 @@ Status past_do_work(Past *past)
 {
     if (past->work_stage == WORK_DONE)
         return STATUS_OK;
-    int panes = past_pane_count(past), pane = 0;
+    int panes = past_count_panes(past), pane = 0;
     for (; past->work_stage == WORK_LOADING && pane < panes; pane++) {
         Status status = pane_seek(past, pane, past->step_to_load);
         if (status)
@@ -652,13 +667,13 @@ Status past_do_work(Past *past)
     if (past->work_stage == WORK_LOADING)
         past->work_stage = WORK_REPEATING;
     /* First each pane repeats steps up to newest, then each makes the next. */
-    long newest = past_newest(past);
+    long newest = past_find_newest(past);
     long goal = past->goal_step,
          limit = past_makes_step(past) || goal < newest ? goal : newest;
     for (pane = 0; pane < panes; pane++)
         if (past->pane[pane].is_iterating || past->pane[pane].step < limit)
             return pane_iterate(past, pane);
-    return limit < goal ? begin_new_step(past) : end_past_work(past);
+    return limit < goal ? begin_new_step(past) : show_goal_step(past);
 }
 
 Status past_finish_work(Past *past)
@@ -674,15 +689,15 @@ static bool can_trace_goal(const Past *past)
 {
     enum { SHORT_STEP_WORK = 400000 }; /* limit of nodes times updates */
     long work = 0;
-    for (int p = 0; p < past_pane_count(past); p++) {
+    for (int p = 0; p < past_count_panes(past); p++) {
         const PastPane *pane = &past->pane[p];
         const Simulation *simulation = &pane->simulation;
-        const PastEntry *entry = past_entry(past, p, past->goal_step);
+        const PastEntry *entry = past_find_entry(past, p, past->goal_step);
         long behind = past->goal_step - pane->step;
         bool is_known = pane->has_state &&
                         (behind == 1 || (behind == 0 && pane->has_trace));
-        if (!is_known && simulation->run[0].newton && entry->substeps > 0 &&
-            simulation_is_draggable(simulation))
+        if (!is_known && simulation->run[0].newton &&
+            entry->substep_count > 0 && simulation_is_draggable(simulation))
             work += simulation->system.nodes * (1 + entry->outcome.updates);
     }
     return 0 < work && work < SHORT_STEP_WORK;
@@ -690,17 +705,17 @@ static bool can_trace_goal(const Past *past)
 
 void past_set_goal(Past *past, long step, bool again)
 {
-    abandon_past_work(past);
-    long newest = past_newest(past);
+    past_abandon_work(past);
+    long newest = past_find_newest(past);
     past->goal_step = step < 0 ? 0 : step > newest ? newest + 1 : step;
     past->step_to_load = past->goal_step < newest ? past->goal_step : newest;
     past->work_stage = WORK_LOADING;
-    past->samples_energy = again;
+    past->samples_line_energy = again;
     if (past->goal_step == 0 || past->goal_step > newest ||
         !past->stores_states || !(again || can_trace_goal(past)))
         return;
     past->step_to_load = past->goal_step - 1;
-    for (int p = 0; p < past_pane_count(past); p++)
+    for (int p = 0; p < past_count_panes(past); p++)
         step_trace_clear(&past->pane[p].trace);
     leave_steps_of_panes(past);
 }
@@ -720,7 +735,7 @@ static void invalidate_tables(Past *past, long step, bool changed)
 /* Brings the simulations of all panes to the step that is shown. */
 static Status finish_shown_step(Past *past)
 {
-    past_set_goal(past, past->step, false);
+    past_set_goal(past, past->shown_step, false);
     return past_finish_work(past);
 }
 
@@ -730,13 +745,13 @@ Status past_begin_runs(Past *past, const Options *options, int panes,
     const Branch wanted = {
         .from_options = true, .panes = panes, .gesture = gesture};
     Status status = STATUS_OK;
-    abandon_past_work(past);
+    past_abandon_work(past);
     leave_steps_of_panes(past);
     for (int p = 0; p < panes && !status; p++) {
         PastPane *pane = &past->pane[p];
         status = pane_create(pane, &options[p]);
         UserControl *control =
-            status ? NULL : control_from_simulation(&pane->simulation);
+            status ? NULL : control_create(&pane->simulation);
         if (!control) {
             status = status ? status : STATUS_OUT_OF_MEMORY;
             break;
@@ -746,8 +761,8 @@ Status past_begin_runs(Past *past, const Options *options, int panes,
         pane->outcome = (StepOutcome){.status = pane->simulation.status};
         step_trace_clear(&pane->trace);
     }
-    if (status && past->current >= 0)
-        past_set_goal(past, past->step, false);
+    if (status && past->branch_index >= 0)
+        past_set_goal(past, past->shown_step, false);
     if (status)
         return status;
     Branch *branch = push_new_branch(past, wanted, edit);
@@ -756,8 +771,8 @@ Status past_begin_runs(Past *past, const Options *options, int panes,
     invalidate_tables(past, 0, true);
     for (int p = 0; p < panes && !status; p++) {
         PastEntry *entry = &branch->entry[p];
-        entry->control = control_retain(past->pane[p].start_control);
-        entry->substeps = 1;
+        entry->next_control = control_retain(past->pane[p].start_control);
+        entry->substep_count = 1;
         if (past->stores_states)
             status = store_state(past, p, true, entry);
         if (!status)
@@ -794,7 +809,7 @@ static const UserControl *make_edited_control(const UserControl *from,
                     edit->x, MESSAGE(message));
     if (edit->kind == COMMAND_OBSTACLE) {
         double *at =
-            options_obstacle_point(&control->options, (int)edit->number);
+            options_get_obstacle_point(&control->options, (int)edit->number);
         at[0] = edit->x;
         at[1] = edit->y;
     }
@@ -821,11 +836,11 @@ static Status apply_pane_edit(Past *past, int pane, const Command *edit,
     Simulation *simulation = &past->pane[pane].simulation;
     if (!edit_sets_state(edit)) {
         const UserControl *control =
-            make_edited_control(entry->control, edit, simulation);
+            make_edited_control(entry->next_control, edit, simulation);
         if (!control)
             return STATUS_OUT_OF_MEMORY;
-        control_release(entry->control);
-        entry->control = control;
+        control_release(entry->next_control);
+        entry->next_control = control;
         return STATUS_OK;
     }
     if (edit->kind == COMMAND_HANDLE)
@@ -836,7 +851,7 @@ static Status apply_pane_edit(Past *past, int pane, const Command *edit,
     else if (edit->kind == COMMAND_FLIP)
         exhibit_flip_switch(simulation, (int)edit->number);
     Status status = store_state(past, pane, true, entry);
-    return status ? status : pane_set_step(past, pane, past->step);
+    return status ? status : pane_set_step(past, pane, past->shown_step);
 }
 
 Status past_edit(Past *past, const Command *edit, int pane, bool again,
@@ -845,29 +860,29 @@ Status past_edit(Past *past, const Command *edit, int pane, bool again,
     Status status = finish_shown_step(past);
     if (status)
         return status;
-    Branch *branch = present_branch(past);
+    Branch *branch = get_present_branch(past);
     const int panes = branch->panes + (edit->kind == COMMAND_ADD_PANE) -
                       (edit->kind == COMMAND_END_PANE);
     bool counts = panes != branch->panes; /* the edit adds or removes a pane */
     bool joins = gesture && branch->gesture == gesture &&
                  !branch->from_options && !counts && !again &&
-                 past->step == past_newest(past) &&
+                 past->shown_step == past_find_newest(past) &&
                  edit_sets_state(edit) == edit_sets_state(&branch->edit) &&
-                 (!edit_sets_state(edit) || branch->entries == 1);
-    const Branch wanted = {.first_step = past->step - again,
-                           .copied = 1 + again,
+                 (!edit_sets_state(edit) || branch->entry_count == 1);
+    const Branch wanted = {.first_step = past->shown_step - again,
+                           .copied_count = 1 + again,
                            .panes = panes,
                            .gesture = gesture};
     if (joins) /* the edit joins the present branch; undone branches end */
-        drop_branches(past, past->current + 1);
+        drop_branches(past, past->branch_index + 1);
     else
         branch = push_new_branch(past, wanted, edit);
     if (!branch)
         return STATUS_OUT_OF_MEMORY;
     if (edit->kind == branch->edit.kind)
         branch->edit = *edit; /* undo reports the last edit of the gesture */
-    invalidate_tables(past, past->step, edit_changes_state(edit));
-    for (long i = branch->entries - 1; i < branch->entries + again; i++)
+    invalidate_tables(past, past->shown_step, edit_changes_state(edit));
+    for (long i = branch->entry_count - 1; i < branch->entry_count + again; i++)
         for (int p = 0; p < panes && !counts && !status; p++)
             if (pane == ALL_PANES || pane == p)
                 status = apply_pane_edit(past, p, edit,
@@ -877,9 +892,9 @@ Status past_edit(Past *past, const Command *edit, int pane, bool again,
 
 const Command *past_undo(Past *past, int way)
 {
-    int from = past->current, to = from + way;
-    int last = way < 0 ? 0 : past->branches - 1;
-    if (to < 0 || to >= past->branches)
+    int from = past->branch_index, to = from + way;
+    int last = way < 0 ? 0 : past->branch_count - 1;
+    if (to < 0 || to >= past->branch_count)
         return NULL;
     while (to != last && past->branch[to].gesture &&
            past->branch[to].gesture == past->branch[to + 1].gesture)
@@ -889,18 +904,18 @@ const Command *past_undo(Past *past, int way)
         invalidate_tables(past, past->branch[b].first_step,
                           past->branch[b].from_options ||
                               edit_changes_state(&past->branch[b].edit));
-    abandon_past_work(past);
+    past_abandon_work(past);
     leave_steps_of_panes(past);
-    present_branch(past)->left_step = past->step;
-    past->current = to;
-    past->step = present_branch(past)->left_step;
-    past_set_goal(past, past->step, false);
+    get_present_branch(past)->exit_step = past->shown_step;
+    past->branch_index = to;
+    past->shown_step = get_present_branch(past)->exit_step;
+    past_set_goal(past, past->shown_step, false);
     return &past->branch[high].edit;
 }
 
 void past_create(bool stores_states, bool panes_fail_alone, Past *past)
 {
-    *past = (Past){.current = -1,
+    *past = (Past){.branch_index = -1,
                    .stores_states = stores_states,
                    .panes_fail_alone = panes_fail_alone,
                    .written_step = -1,
@@ -916,7 +931,7 @@ void past_free(Past *past)
     for (int p = 0; p < OPTIONS_MAX_PANES; p++) {
         pane_free(&past->pane[p]);
         step_trace_free(&past->pane[p].trace);
-        free(past->pane[p].records.record);
+        free(past->pane[p].newton_records.record);
     }
-    *past = (Past){.current = -1};
+    *past = (Past){.branch_index = -1};
 }

@@ -31,8 +31,8 @@ Status player_draw(Player *player)
     Paper *paper = player_prepare_paper(player);
     if (!paper)
         return STATUS_OUT_OF_MEMORY;
-    bool fresh = player->screen.drawn_step != player->past.step;
-    player->screen.drawn_step = player->past.step;
+    bool fresh = player->screen.drawn_step != player->past.shown_step;
+    player->screen.drawn_step = player->past.shown_step;
     player_paint_frame(player, paper);
     Status status = player->screen.paper_size[0]
                         ? STATUS_OK
@@ -40,7 +40,7 @@ Status player_draw(Player *player)
     int slow = player->play.log_speed < 0 ? -player->play.log_speed : 0;
     if (!status && (fresh || film_is_open(&player->recording.film)))
         status = recording_write_frame(&player->recording, &paper->canvas,
-                                       player->past.step, 1 << slow);
+                                       player->past.shown_step, 1 << slow);
     return status;
 }
 
@@ -56,7 +56,7 @@ bool player_has_ended(const Player *player)
     if (!script_is_over(&player->setup.script) ||
         past_is_working(&player->past))
         return false;
-    return (counted && player->past.step >= options->steps) ||
+    return (counted && player->past.shown_step >= options->steps) ||
            ((!player->screen.window || counted) && simulation->is_over) ||
            (!player->screen.window && player_is_stopped(player));
 }
@@ -66,17 +66,17 @@ static Status obey_due_script_lines(Player *player)
     Status status = STATUS_OK;
     while (!status && !player->is_quitting) {
         bool done = player->past.pane[0].simulation.is_over;
-        const Command *command =
-            script_take_due_command(&player->setup.script, player->past.step,
-                                    !player_is_stopped(player) && !done);
+        const Command *command = script_take_due_command(
+            &player->setup.script, player->past.shown_step,
+            !player_is_stopped(player) && !done);
         if (!command)
             break;
         status = player_obey(player, command);
         if (status == STATUS_INVALID_INPUT) {
             char line[128];
             command_format(command, line, sizeof line);
-            print_line(stderr, "script: step %ld: '%s': %s", player->past.step,
-                       line, player->message);
+            print_line(stderr, "script: step %ld: '%s': %s",
+                       player->past.shown_step, line, player->message);
             player->message[0] = '\0';
             player->commands.has_refused_line = true;
             status = STATUS_OK;
@@ -130,7 +130,7 @@ Status player_make_frame(Player *player)
     bool first = player->screen.drawn_step < 0 && player->screen.draws_frames;
     bool works = past_is_working(&player->past);
     /* Work that begins in this frame waits until the frame is drawn. */
-    bool begins = works && player->play.work_start > start;
+    bool begins = works && player->play.work_start_time > start;
     bool lives = player->screen.sheet && player->screen.window;
     bool goes = !lives && !player_is_stopped(player) && due && !first &&
                 !player_has_ended(player);
@@ -241,15 +241,15 @@ Status player_create(const Options *options, char *const *words,
     /* Scripts begin unpaused: a paused run's journal begins with `pause`. */
     if (!status && player_is_stopped(player))
         status = script_add(&player->commands.journal, 0, &pause, 0);
-    bool nodes = !status && player_simulation(player)->mesh.nodes > 0;
+    bool nodes = !status && player_get_simulation(player)->mesh.nodes > 0;
     if (!status && player->setup.asks_guess && options->page) {
         status = player_enqueue_page(player);
         status = status ? status : player_obey_queue(player, false);
     } else if (!status && player->setup.asks_guess &&
-               simulation_is_draggable(player_simulation(player)))
-        player_note(player, "pull at a %s%s; G: scenes; Page Down: the tour",
-                    nodes ? "node" : "mass",
-                    nodes ? "; right click pins it" : "");
+               simulation_is_draggable(player_get_simulation(player)))
+        player_notify(player, "pull at a %s%s; G: scenes; Page Down: the tour",
+                      nodes ? "node" : "mass",
+                      nodes ? "; right click pins it" : "");
     return status;
 }
 
@@ -263,12 +263,12 @@ static void close_window(Player *player)
 
 Status player_finish(Player *player, Status status)
 {
-    if (player->past.branches > 0) {
+    if (player->past.branch_count > 0) {
         Status rest = player_write_missing_steps(player);
         status = status ? status : rest;
     }
     CloseAction keep = player->past.written_step < 0 ? KEEP_NOTHING
-                       : status                      ? KEEP_PART
+                       : status                      ? KEEP_PART_FILE
                                                      : KEEP_FILE;
     close_window(player);
     Status closed = recording_close(&player->recording, keep);

@@ -14,13 +14,13 @@ static const double SLICE = 0.05;
 /* ---- session.c ----------------------------------------------------------- */
 
 /* Three getters: the active pane, its simulation, its present options. */
-const PastPane *player_active_pane(const Player *player);
-const Simulation *player_simulation(const Player *player);
-const Options *player_active_options(const Player *player);
+const PastPane *player_get_active_pane(const Player *player);
+const Simulation *player_get_simulation(const Player *player);
+const Options *player_get_active_options(const Player *player);
 
 /* Returns the options of the active pane, with the time step of its simulation,
  * which some scenes change by themselves. */
-Options player_shown_options(const Player *player);
+Options player_get_shown_options(const Player *player);
 
 /* Whether the scene uses this option, and its value is a number or a choice. */
 bool player_shows_number(const Player *player, const OptionRow *row);
@@ -50,7 +50,7 @@ bool player_panes_differ(const Player *player, const OptionRow *row);
 bool player_is_stopped(const Player *player);
 
 /* Whether a factorisation of --solver newton takes longer than SLICE. */
-bool player_is_slow(const Player *player);
+bool player_factorises_slowly(const Player *player);
 
 /* Lets E along p be sampled from now on if a card draws the curve.  Prepares to
  * make the shown step once more (player_obey) if its samples are missing. */
@@ -69,7 +69,7 @@ void player_format_value(const OptionRow *row, const Options *options,
                          const Simulation *simulation, char *text, size_t size);
 
 /* Shows a message below the picture. */
-void player_note(Player *player, const char *format, ...);
+void player_notify(Player *player, const char *format, ...);
 
 /* Refuses a command, with a formatted reason.  Returns INVALID_INPUT. */
 #define player_refuse(player, ...)                                             \

@@ -53,7 +53,7 @@ static int print_help_or_list(const Options *options)
                    lecture_pages[i].topic);
     else
         for (const Scene *scene = scenes; scene->name; scene++)
-            printf("%-12s %s\n", scene->name, scene->sentence);
+            printf("%-12s %s\n", scene->name, scene->description);
     return check_standard_output();
 }
 
@@ -75,7 +75,7 @@ static int report_failure(const Player *player, Status status)
 {
     int code = status == STATUS_INVALID_INPUT ? EXIT_MISUSED : EXIT_FAILED;
     const char *message = player->message;
-    int panes = past_pane_count(&player->past), p = 0;
+    int panes = past_count_panes(&player->past), p = 0;
     char pane[32] = "";
     if (status == STATUS_FILE_FAILED && player->recording.uses_stdout &&
         stdout_is_closed())
@@ -116,12 +116,12 @@ static void print_newton_counters(FILE *file, const Simulation *simulation)
         long long value; /* 0: the row is not printed */
     } rows[] = {
         {"Newton iterations",
-         needs & HAS_TIME ? sum.updates : simulation->descent.count},
+         needs & HAS_TIME ? sum.updates : simulation->descent.record_count},
         {"factorisations", sum.factorisations},
-        {"solves", sum.solves},
-        {"blocks projected", sum.projected},
-        {"V-cycles", sum.cycles},
-        {"not at a minimum", sum.indefinite_ends},
+        {"solves", sum.linear_solves},
+        {"blocks projected", sum.projected_blocks},
+        {"V-cycles", sum.v_cycles},
+        {"not at a minimum", sum.indefinite_convergences},
     };
     if (newton && needs & HAS_SPRINGS)
         print_quantity(file, "solver", "%s%s%s",
@@ -154,7 +154,7 @@ static void print_energy_gain(FILE *file, const Simulation *simulation)
 static void print_summary(FILE *file, const Player *player)
 {
     const Recording *recording = &player->recording;
-    int panes = past_pane_count(&player->past);
+    int panes = past_count_panes(&player->past);
     for (int p = 0; p < panes; p++) {
         const Simulation *simulation = &player->past.pane[p].simulation;
         bool in_time = simulation->scene->parts & HAS_TIME;
@@ -166,7 +166,7 @@ static void print_summary(FILE *file, const Player *player)
         print_quantity(file, "steps", "%ld", simulation->steps);
         if (in_time)
             print_quantity(file, "simulated time", "%g s",
-                           simulation_time(simulation));
+                           simulation_get_time(simulation));
         print_newton_counters(file, simulation);
         if (in_time) {
             print_quantity(file, "energy at start", "%.9g J",
@@ -186,13 +186,14 @@ static void print_summary(FILE *file, const Player *player)
     print_quantity(file, "wall time", "%.3f s",
                    clock_now() - player->setup.start_time);
     if (recording->folder)
-        print_quantity(file, "frames written", "%ld, in %s/", recording->frames,
-                       recording->folder);
-    if (recording->film.frames > 0)
+        print_quantity(file, "frames written", "%ld, in %s/",
+                       recording->frame_count, recording->folder);
+    if (recording->film.frame_count > 0)
         print_quantity(file, "film", "%ld frames, in %s",
-                       recording->film.frames, recording->film.output.name);
+                       recording->film.frame_count,
+                       recording->film.output.name);
     print_quantity(file, "state hash", "%016llx",
-                   (unsigned long long)player_hash(player));
+                   (unsigned long long)player_compute_hash(player));
 }
 
 /* Reports frames of an earlier, longer run that are still in the folder. */
@@ -229,7 +230,7 @@ int program_end(Player *player, Status status)
     int code = check_standard_output();
     if (code == EXIT_FINE && player->commands.has_refused_line)
         return EXIT_MISUSED;
-    for (int i = 0; i < past_pane_count(&player->past) && code == EXIT_FINE;
+    for (int i = 0; i < past_count_panes(&player->past) && code == EXIT_FINE;
          i++) {
         const Simulation *simulation = &player->past.pane[i].simulation;
         if (simulation->unconverged_steps > 0 ||
@@ -248,7 +249,7 @@ static const char *find_option_file(const Options *options,
                : NULL;
 }
 
-/* Refuses a file name of two options: one file would replace the other. */
+/* Refuses two options with one file name: a file would replace the other. */
 static Status check_file_names(const Options *options, Message message)
 {
     for (const OptionRow *row = option_rows; row->name; row++)
@@ -266,7 +267,7 @@ static Status check_file_names(const Options *options, Message message)
 }
 
 /* Warns that --state alone restores neither broken springs nor the ceiling. */
-static void warn_of_reset_terms(const Options *options)
+static void warn_of_unrestored_state(const Options *options)
 {
     const Scene *scene = options->scene;
     bool moves = options->ceiling[1] != 0 ||
@@ -308,7 +309,7 @@ int program_begin(int argc, char **argv, const Window *window,
         return code;
     if (check_file_names(options, MESSAGE(message)))
         return print_error(EXIT_MISUSED, "%s", message);
-    warn_of_reset_terms(options);
+    warn_of_unrestored_state(options);
     Status status = player_create(options, argv, window, stop, player);
     return status ? program_end(player, status) : EXIT_NONE;
 }

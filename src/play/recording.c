@@ -19,8 +19,9 @@ typedef struct RunAtStep {
     double step, time;
     int run_index; /* index of the run in its simulation */
     int pane;      /* number of the pane, from 1 */
-    /* Numbers in the tables: of the run, of its first node and first spring. */
-    int first_run, first_node, first_spring;
+    /* The run, its first node and its first spring, as the tables number them.
+     */
+    int run_number, first_node, first_spring;
 } RunAtStep;
 
 static void add_state_rows(CsvTable *table, const RunAtStep *at)
@@ -60,11 +61,11 @@ static void add_energy_rows(CsvTable *table, const RunAtStep *at)
     const Energies energies =
         simulation_get_energies(at->simulation, at->run_index);
     double row[TABLE_MAX_COLUMNS] = {at->step, at->time};
-    for (int c = 2; c < table->columns; c++)
+    for (int c = 2; c < table->column_count; c++)
         for (int r = 0; r < energies.count; r++)
             if (strcmp(energies.energy[r].name, table->column[c].name) == 0)
                 row[c] = energies.energy[r].value;
-    row[table->columns - 1] = at->first_run;
+    row[table->column_count - 1] = at->run_number;
     table_add_row(table, row);
 }
 
@@ -79,8 +80,8 @@ static const char *get_log_code_name(const char *column, int number)
 
 /* The tables, in the order of RecordingTable. */
 static const struct {
-    size_t file;         /* offset of the file's name in Options */
-    const char *columns; /* names of columns, for table_add_columns */
+    size_t file_name_offset; /* offset of the file's name in Options */
+    const char *columns;     /* names of columns, for table_add_columns */
     /* Writes a step's rows; NULL for the log, whose rows are iterations. */
     void (*write_rows)(CsvTable *table, const RunAtStep *at);
 } kinds[RECORDING_TABLE_COUNT] = {
@@ -131,7 +132,7 @@ Status png_file_write(const char *name, char *message, const Canvas *canvas)
     if (!status)
         return output_close(&output, KEEP_FILE);
     output_report(message, name, status, NULL);
-    output_close(&output, KEEP_PART);
+    output_close(&output, KEEP_PART_FILE);
     return status;
 }
 
@@ -157,7 +158,8 @@ static void find_old_frames(Recording *recording)
 static Status open_table(const Options *options, Recording *recording, int t)
 {
     CsvTable *table = &recording->table[t];
-    const char *name = *(char *const *)((const char *)options + kinds[t].file);
+    const char *name =
+        *(char *const *)((const char *)options + kinds[t].file_name_offset);
     if (!name)
         return STATUS_OK;
     recording->uses_stdout = recording->uses_stdout || output_is_stdout(name);
@@ -171,7 +173,7 @@ static Status open_table(const Options *options, Recording *recording, int t)
         }
     if (t == ENERGIES_TABLE)
         table_add_columns(table, "work,dissipated,run:whole");
-    else if (recording->panes > 1)
+    else if (recording->pane_count > 1)
         table_add_columns(table, "pane:whole");
     return table_open(name, recording->message, table);
 }
@@ -179,7 +181,7 @@ static Status open_table(const Options *options, Recording *recording, int t)
 Status recording_open(const Options *options, Recording *recording)
 {
     const char *folder = options->frames;
-    *recording = (Recording){.folder = folder, .panes = options->panes};
+    *recording = (Recording){.folder = folder, .pane_count = options->panes};
     char *message = recording->message;
     Status status = STATUS_OK;
     if (folder && mkdir(folder, 0777) && errno != EEXIST)
@@ -203,7 +205,7 @@ Status recording_write_frame(Recording *recording, const Canvas *canvas,
     if (status || !recording->folder)
         return status;
     snprintf(name, sizeof name, "%s/frame_%06ld.png", recording->folder, step);
-    recording->frames++;
+    recording->frame_count++;
     if (recording->is_old_frame && step < MAX_FRAMES)
         recording->is_old_frame[step] = 0;
     return png_file_write(name, recording->message, canvas);
@@ -219,14 +221,14 @@ Status recording_write_states(Recording *recording, bool energies_only,
         for (int r = 0; r < simulation[i]->runs; r++) {
             at.simulation = simulation[i];
             at.run = &simulation[i]->run[r];
-            at.time = simulation_time(simulation[i]);
+            at.time = simulation_get_time(simulation[i]);
             at.run_index = r;
             at.pane = i + 1;
             for (int t = 0; t < RECORDING_TABLE_COUNT; t++)
                 if (kinds[t].write_rows && recording->table[t].output.file &&
                     (!energies_only || t == ENERGIES_TABLE))
                     kinds[t].write_rows(&recording->table[t], &at);
-            at.first_run++;
+            at.run_number++;
             at.first_node += at.run->system->nodes;
             at.first_spring += at.run->system->springs;
         }
@@ -242,10 +244,21 @@ Status recording_write_iteration(Recording *recording, const NewtonRecord *at,
     /* An iteration below 0 is the end of a step by a prescribed motion. */
     double iteration = at->iteration < 0 ? NAN : at->iteration;
     double step = (double)at->step_number;
-    double row[] = {
-        step,       iteration,   at->residual,  at->alpha,          at->trials,
-        at->slope,  at->change,  at->projected, at->has_new_factor, at->shift,
-        at->status, at->seconds, at->solver,    at->residual_kind,  pane};
+    double row[] = {step,
+                    iteration,
+                    at->residual,
+                    at->alpha,
+                    at->trials,
+                    at->slope,
+                    at->energy_change,
+                    at->projected_blocks,
+                    at->has_new_factor,
+                    at->shift,
+                    at->status,
+                    at->seconds,
+                    at->solver,
+                    at->residual_kind,
+                    pane};
     if (log->output.file)
         table_add_row(log, row);
     return table_check(log);
@@ -261,10 +274,10 @@ Status recording_close(Recording *recording, CloseAction keep)
             fflush(file);
         failed = table_check(&recording->table[t]) || failed;
     }
-    keep = failed && !keep ? KEEP_PART : keep;
+    keep = failed && !keep ? KEEP_PART_FILE : keep;
     failed = film_close(&recording->film, keep) || failed;
     for (int t = 0; t < RECORDING_TABLE_COUNT; t++) {
-        keep = failed && !keep ? KEEP_PART : keep;
+        keep = failed && !keep ? KEEP_PART_FILE : keep;
         failed = output_close(&recording->table[t].output, keep) || failed;
     }
     return failed ? STATUS_FILE_FAILED : STATUS_OK;

@@ -6,7 +6,7 @@
 
 #include "play/playing.h"
 
-enum { NOTED_LINE_BYTES = 100 }; /* longest command line that a note shows */
+enum { MAX_NOTE_BYTES = 100 }; /* longest command line that a note shows */
 
 /* Finds a name that no file has: elasto_SCENE_000012.png, ..._2.png, ... */
 static void find_unused_file_name(const Player *player, const char *end,
@@ -15,7 +15,7 @@ static void find_unused_file_name(const Player *player, const char *end,
     char number[16] = "";
     for (int i = 2; i < 100000; i++) {
         snprintf(name, size, "elasto_%s_%06ld%s%s", player->screen.scene->name,
-                 player->past.step, number, end);
+                 player->past.shown_step, number, end);
         if (access(name, F_OK) != 0)
             return;
         snprintf(number, sizeof number, "_%d", i);
@@ -36,9 +36,9 @@ Status obey_save_picture(Player *player, const Command *command)
         status = png_file_write(name, NULL, &paper->canvas);
     }
     if (status)
-        player_note(player, "not saved: %s", output_explain(status));
+        player_notify(player, "not saved: %s", output_explain(status));
     else
-        player_note(player, "saved %s", name);
+        player_notify(player, "saved %s", name);
     return STATUS_OK;
 }
 
@@ -56,12 +56,12 @@ Status obey_toggle_film(Player *player, const Command *command)
     film->output.message = player->recording.message;
     player->screen.drawn_step = -1; /* the film begins with the present frame */
     if (status)
-        player_note(player, "no film: %s", message);
+        player_notify(player, "no film: %s", message);
     else if (ends)
-        player_note(player, "film ends: %ld frames, in %s", film->frames,
-                    film->output.name);
+        player_notify(player, "film ends: %ld frames, in %s", film->frame_count,
+                      film->output.name);
     else
-        player_note(player, "filming %s", name);
+        player_notify(player, "filming %s", name);
     return STATUS_OK;
 }
 
@@ -116,12 +116,12 @@ static char *write_command_line(const Player *player, const char *script)
     if (script)
         fprintf(file, " --script %s", script);
     else
-        fprintf(file, " --steps %ld", player->past.step);
+        fprintf(file, " --steps %ld", player->past.shown_step);
     if (fclose(file)) {
         free(line);
         return NULL;
     }
-    replace_line_breaks(line);
+    replace_control_characters(line);
     return line;
 }
 
@@ -134,7 +134,7 @@ static Status save_journal(Player *player, const char *name, const char *line)
     size_t count = journal->lines;
     Status status = STATUS_OK;
     if (!player_is_stopped(player))
-        status = script_add(journal, player->past.step, &pause, 0);
+        status = script_add(journal, player->past.shown_step, &pause, 0);
     if (!status)
         status = script_write(name, line, journal);
     journal->lines = count;
@@ -158,14 +158,16 @@ Status obey_report_hash(Player *player, const Command *command)
     if (!status && commands)
         status = save_journal(player, name, line);
     snprintf(hash, sizeof hash, "state %016llx at step %ld",
-             (unsigned long long)player_hash(player), player->past.step);
+             (unsigned long long)player_compute_hash(player),
+             player->past.shown_step);
     if (status) {
-        player_note(player, "%s: no script: %s", hash, output_explain(status));
+        player_notify(player, "%s: no script: %s", hash,
+                      output_explain(status));
     } else {
-        bool fits = strlen(line) <= NOTED_LINE_BYTES;
+        bool fits = strlen(line) <= MAX_NOTE_BYTES;
         const char *where = commands ? name : "the terminal";
-        player_note(player, "%s: %s%s", hash, fits ? "" : "its line is in ",
-                    fits ? line : where);
+        player_notify(player, "%s: %s%s", hash, fits ? "" : "its line is in ",
+                      fits ? line : where);
         fprintf(stderr, "%s: %s\n", hash, line);
     }
     free(line);

@@ -10,8 +10,9 @@ static bool could_lose_work(const Player *player)
 {
     static const double LONG = 60; /* s */
     const Past *past = &player->past;
-    return past->current > 0 || (past_newest(past) > 0 &&
-                                 clock_now() - player->setup.start_time > LONG);
+    return past->branch_index > 0 ||
+           (past_find_newest(past) > 0 &&
+            clock_now() - player->setup.start_time > LONG);
 }
 
 Status obey_change_screen(Player *player, const Command *command)
@@ -31,7 +32,7 @@ Status obey_change_screen(Player *player, const Command *command)
     else if (kind == COMMAND_FULL && window)
         window->set_full_screen(!window->is_full_screen());
     else if (kind == COMMAND_PANE)
-        player->active = (int)command->number;
+        player->active_pane = (int)command->number;
     else if (kind == COMMAND_CLOSE)
         player_deselect(player);
     return STATUS_OK;
@@ -44,7 +45,7 @@ Status obey_show_column(Player *player, const Command *command)
                            : command->kind == COMMAND_LETTERS ? COLUMN_LETTERS
                            : command->kind == COMMAND_OPTIONS ? COLUMN_OPTIONS
                                                               : COLUMN_CODE;
-    if (column == COLUMN_CODE && !player_active_options(player)->page)
+    if (column == COLUMN_CODE && !player_get_active_options(player)->page)
         return player_refuse(player, "only pages of the lecture have code: "
                                      "Page Down opens them");
     player->screen.column =
@@ -61,8 +62,8 @@ Status obey_quit(Player *player, const Command *command)
     player->is_quitting = !key || asked || !could_lose_work(player);
     player->commands.leave_command = COMMAND_QUIT;
     if (!player->is_quitting)
-        player_note(player, "Q once more ends the program; Y saves first a "
-                            "script that leads here");
+        player_notify(player, "Q once more ends the program; Y saves first a "
+                              "script that leads here");
     return STATUS_OK;
 }
 
@@ -79,20 +80,20 @@ Status obey_escape(Player *player, const Command *command)
         sheet_close(player);
     else if (player->screen.column == COLUMN_KEYS)
         player->screen.column = COLUMN_CARDS;
-    else if (player->hands.selected)
+    else if (player->hands.selected_option)
         player_deselect(player);
     else if (player->screen.column)
         player->screen.column = COLUMN_CARDS;
     else if (window && window->is_full_screen())
         window->set_full_screen(false);
     else if (could_lose_work(player))
-        player_note(player, "nothing is open; Q ends the program");
+        player_notify(player, "nothing is open; Q ends the program");
     else if (asked)
         player->is_quitting = true;
     else
         player->commands.leave_command = COMMAND_ESCAPE;
     if (player->commands.leave_command)
-        player_note(player, "Esc once more, or Q, ends the program");
+        player_notify(player, "Esc once more, or Q, ends the program");
     return STATUS_OK;
 }
 
@@ -102,7 +103,7 @@ Status obey_move_camera(Player *player, const Command *command)
     Lens *lens = &player->screen.view.lens;
     if (command->kind == COMMAND_FIT) {
         *lens = LENS_FITS;
-        lens->shows_all = true;
+        lens->shows_all_obstacles = true;
         return STATUS_OK;
     }
     const Paper *paper = player_prepare_paper(player);
@@ -111,8 +112,8 @@ Status obey_move_camera(Player *player, const Command *command)
     player_build_frame(player);
     Layout layout =
         layout_create(content, paper->canvas.width, paper->canvas.height);
-    Camera camera = make_pane_camera(content, &layout, player->active);
-    Box pane = layout.pane[player->active];
+    Camera camera = make_pane_camera(content, &layout, player->active_pane);
+    Box pane = layout.pane[player->active_pane];
     double at[2] = {command->x, command->y}, pixel[2];
     camera_to_pixel(&camera, at, pixel);
     if (command->kind == COMMAND_ZOOM)
@@ -157,10 +158,10 @@ Status obey_choose_cell(Player *player, const Command *command)
     Layout layout =
         layout_create(content, paper->canvas.width, paper->canvas.height);
     const Box *cell = layout.cell, *now = &cell[*chosen];
-    while (upright && 0 <= i && i < layout.cells &&
+    while (upright && 0 <= i && i < layout.cell_count &&
            !((cell[i].y - now->y) * way > 0 && (cell[i].x - now->x) * way >= 0))
         i += way;
-    if (0 <= i && i < layout.cells)
+    if (0 <= i && i < layout.cell_count)
         *chosen = i;
     return STATUS_OK;
 }

@@ -11,25 +11,25 @@ enum {
     UPDATE_SPEED = -5        /* log_speed if a step is a Newton update */
 };
 
-const PastPane *player_active_pane(const Player *player)
+const PastPane *player_get_active_pane(const Player *player)
 {
-    return &player->past.pane[player->active];
+    return &player->past.pane[player->active_pane];
 }
 
-const Simulation *player_simulation(const Player *player)
+const Simulation *player_get_simulation(const Player *player)
 {
-    return &player_active_pane(player)->simulation;
+    return &player_get_active_pane(player)->simulation;
 }
 
-const Options *player_active_options(const Player *player)
+const Options *player_get_active_options(const Player *player)
 {
-    return &past_control(&player->past, player->active)->options;
+    return &past_get_control(&player->past, player->active_pane)->options;
 }
 
-Options player_shown_options(const Player *player)
+Options player_get_shown_options(const Player *player)
 {
-    Options options = *player_active_options(player);
-    options.timestep = player_simulation(player)->options.timestep;
+    Options options = *player_get_active_options(player);
+    options.timestep = player_get_simulation(player)->options.timestep;
     return options;
 }
 
@@ -37,26 +37,28 @@ int player_copy_options(const Player *player,
                         Options options[OPTIONS_MAX_PANES])
 {
     const Past *past = &player->past;
-    for (int p = 0; p < past_pane_count(past); p++) {
-        options[p] = past_control(past, p)->options;
+    for (int p = 0; p < past_count_panes(past); p++) {
+        options[p] = past_get_control(past, p)->options;
         options[p].flips = exhibit_get_flip_bits(&past->pane[p].simulation);
     }
-    return past_pane_count(past);
+    return past_count_panes(past);
 }
 
 bool player_shows_number(const Player *player, const OptionRow *row)
 {
-    return (row->needs_any_of & player_active_options(player)->scene->parts) &&
+    return (row->needs_any_scene_part &
+            player_get_active_options(player)->scene->parts) &&
            row->kind != OPTION_SWITCH && row->kind != OPTION_TEXT;
 }
 
 int player_list_options(const Player *player, bool all,
                         const OptionRow *found[OPTIONS_MAX_ROWS])
 {
-    const Options options = player_shown_options(player);
+    const Options options = player_get_shown_options(player);
     int own = all ? 0 : options_list_visible_rows(&options, found), count = own;
     for (const OptionRow *row = option_rows; row->name; row++) {
-        bool more = all || player->hands.added_rows >> (row - option_rows) & 1;
+        bool more =
+            all || player->hands.added_option_rows >> (row - option_rows) & 1;
         more = more && player_shows_number(player, row);
         for (int i = 0; i < own; i++)
             more = more && found[i] != row;
@@ -71,8 +73,8 @@ const Options *player_find_page_options(const Player *player,
 {
     const Past *past = &player->past;
     const Options *own = player->tour.page_options;
-    for (int p = 0; p < past_pane_count(past); p++)
-        if (!option_is_equal(row, &own[p], &past_control(past, p)->options))
+    for (int p = 0; p < past_count_panes(past); p++)
+        if (!option_is_equal(row, &own[p], &past_get_control(past, p)->options))
             return &own[p];
     return NULL;
 }
@@ -82,13 +84,13 @@ bool player_has_changed_page(const Player *player)
     const OptionRow *row[OPTIONS_MAX_ROWS];
     const Options *own = player->tour.page_options;
     const Past *past = &player->past;
-    const LecturePage *page = past_control(past, 0)->options.page;
+    const LecturePage *page = past_get_control(past, 0)->options.page;
     /* After undo the window may show another page than the one opened last. */
     if (!page || page != own->page || !player->setup.asks_guess)
         return false;
     bool is_changed =
         exhibit_get_flip_bits(&past->pane[0].simulation) != own->flips;
-    for (int b = past->current; !past->branch[b].from_options; b--)
+    for (int b = past->branch_index; !past->branch[b].from_options; b--)
         is_changed |= past->branch[b].edit.kind == COMMAND_HANDLE;
     int rows = player_list_options(player, true, row);
     for (int i = 0; i < rows && !is_changed; i++)
@@ -118,9 +120,10 @@ bool player_panes_differ(const Player *player, const OptionRow *row)
 {
     const Past *past = &player->past;
     bool differ = false;
-    for (int i = 1; row->label && i < past_pane_count(past); i++)
-        differ = differ || past_control(past, i)->options.number[row->slot] !=
-                               past_control(past, 0)->options.number[row->slot];
+    for (int i = 1; row->label && i < past_count_panes(past); i++)
+        differ =
+            differ || past_get_control(past, i)->options.number[row->slot] !=
+                          past_get_control(past, 0)->options.number[row->slot];
     return differ;
 }
 
@@ -129,17 +132,17 @@ bool player_is_stopped(const Player *player)
     return player->play.mode >= MODE_PAUSE;
 }
 
-uint64_t player_hash(const Player *player)
+uint64_t player_compute_hash(const Player *player)
 {
     uint64_t hash = STATE_HASH_SEED;
-    for (int i = 0; i < past_pane_count(&player->past); i++)
+    for (int i = 0; i < past_count_panes(&player->past); i++)
         hash = state_hash(&player->past.pane[i].simulation, hash);
     return hash;
 }
 
-bool player_is_slow(const Player *player)
+bool player_factorises_slowly(const Player *player)
 {
-    const Simulation *simulation = player_simulation(player);
+    const Simulation *simulation = player_get_simulation(player);
     return simulation->options.solver == SOLVER_NEWTON &&
            simulation->system.nodes > MAX_QUICK_NODES;
 }
@@ -150,26 +153,26 @@ void player_sample_line_energy(Player *player)
     bool has_cards = content->has_document || !content->is_stage_only;
     bool is_drawn = player->screen.draws_frames && !player->screen.is_bare &&
                     has_cards &&
-                    cards_need_line_energy(player_simulation(player),
+                    cards_need_line_energy(player_get_simulation(player),
                                            player->screen.toggled_cards);
     Past *past = &player->past;
-    const PastPane *pane = player_active_pane(player);
-    past->line_energy_pane = is_drawn ? player->active : -1;
-    bool lacks =
-        is_drawn && pane->has_trace && !past_is_working(past) &&
-        step_trace_lacks_samples(
-            &pane->trace, player->view_of_pane[player->active].trace_index);
-    for (int p = 0; p < past_pane_count(past); p++)
+    const PastPane *pane = player_get_active_pane(player);
+    past->line_energy_pane = is_drawn ? player->active_pane : -1;
+    bool lacks = is_drawn && pane->has_trace && !past_is_working(past) &&
+                 step_trace_lacks_samples(
+                     &pane->trace,
+                     player->view_of_pane[player->active_pane].trace_index);
+    for (int p = 0; p < past_count_panes(past); p++)
         lacks = lacks && !past->pane[p].has_failed;
     if (lacks)
-        past_set_goal(past, past->step, true);
+        past_set_goal(past, past->shown_step, true);
 }
 
 int player_find_first_speed(const Player *player, const Options *options)
 {
     double speed = options->speed;
     if (speed == 0 && !options->page && player->setup.is_attended)
-        speed = options->scene->speed;
+        speed = options->scene->steps_per_frame;
     if (speed > 0)
         return (int)lrint(
             fmin(fmax(log2(speed), MIN_LOG_SPEED), MAX_LOG_SPEED));
@@ -184,7 +187,7 @@ bool player_shows_list(const Player *player)
 
 void player_deselect(Player *player)
 {
-    player->hands.selected = NULL;
+    player->hands.selected_option = NULL;
     player->hands.is_typing = false;
 }
 
@@ -213,7 +216,7 @@ void player_format_value(const OptionRow *row, const Options *options,
         snprintf(text, size, "%.20s%s%s", value, unit[0] ? " " : "", unit);
 }
 
-void player_note(Player *player, const char *format, ...)
+void player_notify(Player *player, const char *format, ...)
 {
     write_formatted(player->note, sizeof player->note, format);
     player->is_warning = player->must_explain = false;
@@ -224,7 +227,7 @@ Status player_show_refusal(Player *player, Status status)
 {
     if (status != STATUS_INVALID_INPUT)
         return status;
-    player_note(player, "%s", player->message);
+    player_notify(player, "%s", player->message);
     player->message[0] = '\0';
     return STATUS_OK;
 }
@@ -259,11 +262,11 @@ void player_enqueue(Player *player, const Command *command)
 
 Command make_set_command(const OptionRow *row, double value)
 {
-    return (Command){.kind = COMMAND_SET,
-                     .number = row - option_rows,
-                     .x = row->kind == OPTION_NAME ? option_name_index(value)
-                                                   : value,
-                     .joins_gesture = true};
+    return (Command){
+        .kind = COMMAND_SET,
+        .number = row - option_rows,
+        .x = row->kind == OPTION_NAME ? option_get_name_index(value) : value,
+        .joins_gesture = true};
 }
 
 void player_enqueue_set(Player *player, const OptionRow *row, double value)

@@ -17,17 +17,18 @@ static const double STEP_TIME = 0.008;
 
 /* The first cell shows the tour's pages in turn, each other cell a scene. */
 typedef struct Sheet {
-    int cells;     /* number of cells */
-    int next_cell; /* index of the cell that gets the next step */
-    int next_page; /* index of the page that the first cell shows next */
-    int turns[LAYOUT_MAX_CELLS]; /* turns of each cell, one a frame at most */
+    int cell_count; /* number of cells */
+    int next_cell;  /* index of the cell that gets the next step */
+    int next_page;  /* index of the page that the first cell shows next */
+    int turn_count[LAYOUT_MAX_CELLS]; /* turns of each cell, one a frame at most
+                                       */
     Simulation simulation[LAYOUT_MAX_CELLS];
 } Sheet;
 
 void sheet_close(Player *player)
 {
     Sheet *sheet = player->screen.sheet;
-    for (int i = 0; sheet && i < sheet->cells; i++)
+    for (int i = 0; sheet && i < sheet->cell_count; i++)
         simulation_free(&sheet->simulation[i]);
     free(sheet);
     player->screen.sheet = NULL;
@@ -36,7 +37,7 @@ void sheet_close(Player *player)
 /* Closes the sheet, or opens it and selects the scene's cell or the tour's. */
 Status obey_toggle_sheet(Player *player, const Command *command)
 {
-    const Options *options = player_active_options(player);
+    const Options *options = player_get_active_options(player);
     bool opens = !player->screen.sheet;
     sheet_close(player);
     player_deselect(player);
@@ -46,7 +47,7 @@ Status obey_toggle_sheet(Player *player, const Command *command)
     if (!sheet)
         return STATUS_OUT_OF_MEMORY;
     const Scene *scene = scenes; /* scene of cell 1; cell 0 is the tour */
-    while (++sheet->cells < LAYOUT_MAX_CELLS && scene->name &&
+    while (++sheet->cell_count < LAYOUT_MAX_CELLS && scene->name &&
            !scene->is_hidden)
         scene++;
     player->screen.view.selected_cell =
@@ -80,10 +81,10 @@ void sheet_advance_cells(Player *player)
     double begin = clock_now();
     if (!sheet)
         return;
-    for (int i = 0; i < sheet->cells; i++) {
+    for (int i = 0; i < sheet->cell_count; i++) {
         if (player->screen.window && clock_now() - begin > STEP_TIME)
             break;
-        int cell = sheet->next_cell, age = sheet->turns[cell]++;
+        int cell = sheet->next_cell, age = sheet->turn_count[cell]++;
         Simulation *simulation = &sheet->simulation[cell];
         if (age % CELL_LIFE_FRAMES == 0)
             begin_scene_of_cell(sheet, cell);
@@ -92,7 +93,7 @@ void sheet_advance_cells(Player *player)
                  ((simulation->scene->parts & HAS_TIME) ||
                   age % CELL_PAUSE_FRAMES == 0))
             simulation_step(simulation);
-        sheet->next_cell = (cell + 1) % sheet->cells;
+        sheet->next_cell = (cell + 1) % sheet->cell_count;
     }
     player->screen.must_redraw = true;
 }
@@ -100,8 +101,8 @@ void sheet_advance_cells(Player *player)
 void sheet_build_content(const Player *player, FrameContent *content)
 {
     const Sheet *sheet = player->screen.sheet;
-    content->sheet.cells = sheet->cells;
-    for (int i = 0; i < sheet->cells; i++) {
+    content->sheet.cells = sheet->cell_count;
+    for (int i = 0; i < sheet->cell_count; i++) {
         const Scene *scene = &scenes[i > 0 ? i - 1 : 0];
         const Simulation *simulation = &sheet->simulation[i];
         content->sheet.cell[i] =
@@ -111,7 +112,7 @@ void sheet_build_content(const Player *player, FrameContent *content)
         if (i == player->screen.view.selected_cell)
             snprintf(content->title_bar.sentence, SENTENCE_SIZE, "%s: %s",
                      content->sheet.cell[i].name,
-                     i > 0 ? scene->sentence : "the lecture, page by page");
+                     i > 0 ? scene->description : "the lecture, page by page");
     }
     content->title_bar.topic = "Scenes";
     snprintf(content->title_bar.method, SENTENCE_SIZE, "arrows, Enter");
@@ -125,7 +126,7 @@ Status obey_open_cell(Player *player, const Command *command)
 {
     char line[32] = "page-on";
     int cell = player->screen.view.selected_cell;
-    bool behind = cell == 0 && player_active_options(player)->page;
+    bool behind = cell == 0 && player_get_active_options(player)->page;
     if (cell > 0)
         snprintf(line, sizeof line, "scene %s", scenes[cell - 1].name);
     sheet_close(player);

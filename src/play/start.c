@@ -34,10 +34,9 @@ Status obey_open_scene(Player *player, const Command *command)
 /* Makes room for the body at its start.  Obstacles that overlap the body go
  * back to their places when the run began.  Returns OK, or INVALID_INPUT if the
  * run began with another number of obstacles. */
-static Status clear_obstacles_at_start(Player *player, int pane,
-                                       Options *options)
+static Status make_room_for_body(Player *player, int pane, Options *options)
 {
-    Options began = past_start_control(&player->past, pane)->options;
+    Options began = past_get_start_control(&player->past, pane)->options;
     Options kept = *options;
     int count = (int)(options->grounds + options->balls);
     Message message = MESSAGE(player->message);
@@ -46,13 +45,13 @@ static Status clear_obstacles_at_start(Player *player, int pane,
     if (began.grounds != options->grounds || began.balls != options->balls)
         return STATUS_INVALID_INPUT;
     for (int k = 0; k < count; k++)
-        memcpy(options_obstacle_point(&kept, k),
-               options_obstacle_point(&began, k), sizeof began.at);
+        memcpy(options_get_obstacle_point(&kept, k),
+               options_get_obstacle_point(&began, k), sizeof began.at);
     for (int k = 0; k < count; k++) {
-        double *at = options_obstacle_point(&kept, k);
-        memcpy(at, options_obstacle_point(options, k), sizeof began.at);
+        double *at = options_get_obstacle_point(&kept, k);
+        memcpy(at, options_get_obstacle_point(options, k), sizeof began.at);
         if (body_check(&kept, message))
-            memcpy(at, options_obstacle_point(&began, k), sizeof began.at);
+            memcpy(at, options_get_obstacle_point(&began, k), sizeof began.at);
     }
     *options = kept;
     return body_check(options, message);
@@ -62,7 +61,7 @@ Status player_restore_pins(Player *player, const UserControl *before)
 {
     if (!before)
         return STATUS_OK;
-    const UserControl *now = past_control(&player->past, 0);
+    const UserControl *now = past_get_control(&player->past, 0);
     bool same = now->options.scene == before->options.scene &&
                 now->options.page == before->options.page &&
                 now->nodes == before->nodes;
@@ -70,7 +69,7 @@ Status player_restore_pins(Player *player, const UserControl *before)
     for (int i = 0; i < before->nodes && same && !status; i++) {
         const Command pin = {
             .kind = COMMAND_PIN, .number = i, .x = before->pinned[i]};
-        now = past_control(&player->past, 0);
+        now = past_get_control(&player->past, 0);
         if (now->pinned[i] != before->pinned[i])
             status = player_edit_step(player, &pin, ALL_PANES, false);
     }
@@ -81,7 +80,8 @@ Status player_restore_pins(Player *player, const UserControl *before)
 Status player_restart_runs(Player *player, const Options *options, int panes,
                            const Command *edit)
 {
-    const UserControl *before = control_retain(past_control(&player->past, 0));
+    const UserControl *before =
+        control_retain(past_get_control(&player->past, 0));
     const LecturePage *page = options->page;
     Options own; /* defaults of the page; on_open names nodes of its mesh */
     bool opens = edit->kind == COMMAND_RESTART && page && page->on_open &&
@@ -109,7 +109,7 @@ Status obey_restart(Player *player, const Command *command)
     Options options[OPTIONS_MAX_PANES];
     int panes = player_copy_options(player, options);
     for (int p = 0; p < panes; p++)
-        if (clear_obstacles_at_start(player, p, &options[p]))
+        if (make_room_for_body(player, p, &options[p]))
             return STATUS_INVALID_INPUT;
     bool moves = command->kind == COMMAND_START;
     if (moves && !(options->scene->parts & HAS_START))
@@ -130,7 +130,7 @@ Status obey_restart(Player *player, const Command *command)
 
 Status player_enqueue_page(Player *player)
 {
-    const LecturePage *page = player_active_options(player)->page;
+    const LecturePage *page = player_get_active_options(player)->page;
     player->commands.queue.is_from_page = true;
     return player_enqueue_lines(player, page ? page->on_open : NULL);
 }
@@ -143,7 +143,7 @@ void player_store_page_options(Player *player, const Options *options)
 
 bool player_hides_answer(const Player *player)
 {
-    const LecturePage *page = player_active_options(player)->page;
+    const LecturePage *page = player_get_active_options(player)->page;
     return page && page->question && player->tour.revealed_page != page &&
            player->setup.asks_guess && !player->tour.is_page_running;
 }
@@ -151,7 +151,7 @@ bool player_hides_answer(const Player *player)
 /* A guess may be wrong by 2.5 percent, since it is calculated on paper. */
 Status player_reveal_answer(Player *player, const char *typed)
 {
-    const LecturePage *page = player_active_options(player)->page;
+    const LecturePage *page = player_get_active_options(player)->page;
     const OptionRow any = {
         .kind = OPTION_NUMBER, .unit = "", .low = -HUGE_VAL, .high = HUGE_VAL};
     FrameContent *content = &player->screen.frame.content;
@@ -162,8 +162,8 @@ Status player_reveal_answer(Player *player, const char *typed)
     bool right = fabs(guess - truth) <= 0.025 * fabs(truth);
     bool judged = typed && page->answer && !isnan(truth);
     player->tour.revealed_page = page;
-    player->tour.guesses += judged;
-    player->tour.right_guesses += judged && right;
+    player->tour.guess_count += judged;
+    player->tour.right_guess_count += judged && right;
     player->tour.verdict[0] = '\0';
     TextLine asked =
         text_first_line(&active_pane(content)->values, page->question);
@@ -187,7 +187,7 @@ Status player_reveal_answer(Player *player, const char *typed)
 Status obey_open_page(Player *player, const Command *command)
 {
     Options options;
-    const LecturePage *page = player_active_options(player)->page;
+    const LecturePage *page = player_get_active_options(player)->page;
     bool on = command->kind == COMMAND_PAGE_ON;
     if (command->kind == COMMAND_PAGE) {
         page = lecture_find_page(command->text);
@@ -229,8 +229,8 @@ Status obey_open_page(Player *player, const Command *command)
 Status obey_store_guess(Player *player, const Command *command)
 {
     double at[2];
-    Simulation *simulation = &player->past.pane[player->active].simulation;
-    if (simulation->is_over || simulation_find_point(simulation, at) == 0)
+    Simulation *simulation = &player->past.pane[player->active_pane].simulation;
+    if (simulation->is_over || simulation_find_shown_point(simulation, at) == 0)
         return player_refuse(player, "nothing to predict here");
     player_pause(player);
     scene_store_guess(simulation, command->x, command->y);
@@ -241,8 +241,8 @@ Status obey_store_guess(Player *player, const Command *command)
         math_hypot(guess->outcome[0] - at[0], guess->outcome[1] - at[1]);
     bool right = guess->error <= 0.1 * way;
     Status status = player_reveal_answer(player, NULL);
-    player->tour.guesses++;
-    player->tour.right_guesses += right;
+    player->tour.guess_count++;
+    player->tour.right_guess_count += right;
     append(player->tour.verdict, VALUE_SIZE, "Your click is %s%s.",
            right ? "right" : format_number(guess->error).text,
            right ? "" : "\u00a0m off");
@@ -252,6 +252,6 @@ Status obey_store_guess(Player *player, const Command *command)
 Status obey_run_envelope_cell(Player *player, const Command *command)
 {
     int cell = (int)command->number;
-    return envelope_run_cell(&player->past.pane[player->active].simulation,
+    return envelope_run_cell(&player->past.pane[player->active_pane].simulation,
                              cell % ENVELOPE_COLUMNS, cell / ENVELOPE_COLUMNS);
 }

@@ -56,7 +56,7 @@ void step_trace_begin(StepTrace *trace, const Simulation *simulation, bool all,
     trace->common_trace =
         (NewtonTrace){.h = simulation->options.timestep,
                       .tolerance = simulation->options.tolerance,
-                      .projected = -1};
+                      .projected_blocks = -1};
     trace->x_length = 2 * simulation->system.nodes;
 }
 
@@ -151,7 +151,7 @@ static void store_iteration(StepTrace *trace, const Newton *newton)
     store_line_energy(trace, &at);
     record->slope = iterate->polynomial.q[0];
     iterate->alpha = record->alpha;
-    iterate->energy_change = record->change;
+    iterate->energy_change = record->energy_change;
 }
 
 void step_trace_add_iterate(StepTrace *trace, const Newton *newton,
@@ -251,7 +251,7 @@ int step_trace_find_peak(const StepTrace *trace)
     double sum = 0, rise = 0;
     int iterate = -1;
     for (int i = 0; i < trace->records.count; i++) {
-        sum += trace->records.record[i].change;
+        sum += trace->records.record[i].energy_change;
         if (sum > rise) {
             rise = sum;
             iterate = i;
@@ -273,7 +273,7 @@ static void show_iterate_values(const StepTrace *trace, const TracePosition *at,
     shown->trials = at->trials;
     shown->is_accepted = at->trials == record->trials && record->alpha > 0;
     if (at->at_line >= LINE_PROJECT)
-        shown->projected = record->projected;
+        shown->projected_blocks = record->projected_blocks;
     if (!solved)
         return;
     shown->residual = record->residual;

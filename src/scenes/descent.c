@@ -209,7 +209,7 @@ static void choose_stopping_test(Simulation *simulation)
     bool plain = descent->scalar || (options->projection == PROJECTION_NONE &&
                                      options->line_search == LINE_SEARCH_NONE);
     if (plain != descent->tests_g)
-        descent->count = 0; /* the residuals so far are not comparable */
+        descent->record_count = 0; /* the residuals so far are not comparable */
     descent->tests_g = plain;
 }
 
@@ -234,7 +234,7 @@ Status step_descent(Simulation *simulation)
         .alpha = 1,
         .slope = descent->slope,
         .has_new_factor = true,
-        .projected = evaluate_local_model(simulation).projected_springs,
+        .projected_blocks = evaluate_local_model(simulation).projected_springs,
         .x_before = {descent->iterate[0], descent->iterate[1]}};
     const double *p = descent->direction;
     double *x = simulation->run[0].x;
@@ -252,13 +252,13 @@ Status step_descent(Simulation *simulation)
             record.alpha = 0;
         }
     }
-    record.change = descent_energy_difference(simulation, record.alpha);
+    record.energy_change = descent_energy_difference(simulation, record.alpha);
     for (int i = 0; i < 2; i++)
         x[i] += record.alpha * p[i];
     record.status = update_iterate_values(simulation, status);
     memcpy(record.x_after, x, sizeof record.x_after);
-    if (descent->count < DESCENT_MAX_RECORDS)
-        descent->record[descent->count++] = record;
+    if (descent->record_count < DESCENT_MAX_RECORDS)
+        descent->record[descent->record_count++] = record;
     if (simulation->observer)
         simulation->observer(simulation->observer_data, &record);
     return simulation->is_over ? record.status : STATUS_OK;
@@ -348,7 +348,7 @@ void dial_restart(Simulation *simulation)
     for (int i = 0; i < DIAL_POINTS; i++) {
         dial->h[i] = DIAL_FIRST * pow(10, i / DIAL_PER_TEN);
         minimise_landscape(simulation, dial->h[i], point);
-        memcpy(dial->point[i], point, sizeof point);
+        memcpy(dial->minimiser[i], point, sizeof point);
         if (dial->h[i] <= h)
             memcpy(simulation->descent.iterate, point, sizeof point);
     }

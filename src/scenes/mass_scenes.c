@@ -7,7 +7,7 @@
 #include "model/pull_energy.h"
 #include "model/spring_law.h"
 
-/* Angular frequency in the scene `circle`: one turn per second, 1/s */
+/* Angular frequency in the scene `circle`, a turn per second, 1/s */
 static const double CIRCLE_OMEGA = 6.283185307179586;
 static const double MASS_OMEGA2 = 1; /* omega2 in the scene `arrows`, 1/s^2 */
 static const double SPRING_STIFFNESS = 100; /* J/m^2 */
@@ -45,7 +45,7 @@ static Status create_orbit(Simulation *simulation, double omega2,
     memcpy(simulation->exhibit.exact_start + 2, v, 2 * sizeof *v);
     for (int i = 0; i < simulation->runs && !status; i++)
         status = simulation_start_run(simulation, i,
-                                      chosen ? options_method(options)
+                                      chosen ? options_get_method(options)
                                              : integrator_find_method(names[i]),
                                       &simulation->system, x, v);
     return status;
@@ -125,6 +125,7 @@ Status create_spring_scene(Simulation *simulation)
         create_small_system(system, 1, SPRING_LENGTH, SPRING_STIFFNESS);
     simulation->runs = 1;
     return status ? status
-                  : simulation_start_run(simulation, 0, options_method(options),
-                                         system, x, v);
+                  : simulation_start_run(simulation, 0,
+                                         options_get_method(options), system, x,
+                                         v);
 }

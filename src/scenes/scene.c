@@ -74,14 +74,15 @@ static Status create_bend_scene(Simulation *simulation)
 
 const Scene scenes[] = {
     {"square", "A stretched square", "the stretched square relaxes", SQUARE,
-     NULL, create_square_scene, .speed = 0.25, .needs_dissipation = true,
+     NULL, create_square_scene, .steps_per_frame = 0.25,
+     .needs_dissipation = true,
      .group_heading = "Time steps and Newton's method"},
     {"circle", "Stability on a circle",
      "one circle, three Euler methods: out, in, or on it", PICTURE_CIRCLE,
      HAS_MOTION, "--timestep 0.02", .create = create_circle_scene},
     {"overshoot", "Overshooting",
      "Newton's full steps overshoot; a line search tames them", PICTURE_CURVE,
-     HAS_START | HAS_ONE_COORDINATE | HAS_MINIMUM,
+     HAS_START | HAS_ONE_COORDINATE | HAS_MINIMISATION,
      "--start 2 --tolerance 1e-10 --line-search none", create_overshoot_scene,
      .step_name = "iteration", .starts_paused = true, .step = step_descent,
      .restart = descent_update_direction, .handle_kinds = "x"},
@@ -101,7 +102,7 @@ const Scene scenes[] = {
      "pinned at its upper corners, it sags and swings", SQUARE,
      "--segments 12 --stiffness 1e4 --stretch 1 --timestep 0.01 "
      "--tolerance 1e-3 --gravity 9.81",
-     create_square_scene, .pin = "top-corners",
+     create_square_scene, .default_pin = "top-corners",
      .group_heading = "Gravity, contact, inelasticity, fracture"},
     {"drop", "Contact: a square thrown down",
      "it falls on a corner, tumbles, and comes to rest", SQUARE,
@@ -119,7 +120,7 @@ const Scene scenes[] = {
           "--ground -0.3420201433256687,0.9396926207859084,0,0",
      /* friction = tan(20 degrees): on this slope a block just stays at rest. */
      create_square_scene, .view = {-2.3, -2.75, 0.9, 2.0}, .body.runs = 3,
-     .body.height_step = 2.6, .body.friction_factor = {0.5, 0.9, 1.1}},
+     .body.height_between_runs = 2.6, .body.friction_factor = {0.5, 0.9, 1.1}},
     {"squeeze", "Contact: pressed flat",
      "a ceiling comes down and lets go: all of it returns", SQUARE,
      FALL "--segments 16 --timestep 0.01 --friction 0.8 "
@@ -130,7 +131,7 @@ const Scene scenes[] = {
      "pressed to 3 % of its width, a square again", SQUARE,
      "--segments 10 --stretch 0.03 --timestep 0.01 --tolerance 1e-3 "
      "--material neo-hookean",
-     create_square_scene, .speed = 0.125, .needs_dissipation = true,
+     create_square_scene, .steps_per_frame = 0.125, .needs_dissipation = true,
      .view = {-1.1, -1.1, 1.1, 1.1}},
     {"stack", "Self-contact: three squares",
      "three soft squares fall on one another", SQUARE,
@@ -143,14 +144,14 @@ const Scene scenes[] = {
      SOLIDS "--segments 12 --young 4e5 --friction 0.2 --barrier 0.02,1e5 "
             "--body 0,-0.125 --body -0.15,0.1448,0,1,0",
      create_square_scene, .view = {-0.75, -0.4, 0.75, 0.5}, .body.aspect = 0.25,
-     .pin = "all:1"},
+     .default_pin = "all:1"},
     {"gap", "Squeezed through a gap",
      "a soft square falls through a gap narrower than itself", SQUARE,
      SOLIDS "--segments 10 --side 0.5 --young 2e4 --friction 0.1 "
             "--barrier 0.0125,1e5 --ground 0,1,0,-1.1 --body 0,0.65 "
             "--body -0.5036,0,45 --body 0.5036,0,45",
      create_square_scene, .view = {-0.95, -1.2, 0.95, 0.95},
-     .pin = "all:2,all:3"},
+     .default_pin = "all:2,all:3"},
     {"dent", "Inelasticity: a dent that stays",
      "springs beyond their yield strain flow, and keep it", SQUARE,
      FALL "--segments 16 --stiffness 2e5 --timestep 0.004 --at 0,0.62 "
@@ -162,8 +163,9 @@ const Scene scenes[] = {
      FALL "--segments 24 --timestep 0.002 --gravity 0 --tear 0.12 "
           "--self-contact on",
      create_square_scene, .view = {-0.78, -0.65, 0.78, 0.65},
-     .strain_colour_max = 0.05, .pin = "left,right", .body.pin_speed = 0.2,
-     .body.notch = {-0.12, 0.12}, .body.cell_stiffness = 0.3},
+     .strain_colour_max = 0.05, .default_pin = "left,right",
+     .body.pin_speed = 0.2, .body.notch_ends = {-0.12, 0.12},
+     .body.cell_stiffness = 0.3},
     {"bend", "Fracture: a beam breaks",
      "struck from above it cracks from below, at a notch", SQUARE,
      FALL "--segments 32 --stiffness 2e5 --timestep 0.002 --side 2 "
@@ -172,22 +174,23 @@ const Scene scenes[] = {
           "--ground 0,1,0,-1",
      create_bend_scene, .view = {-1.25, -1.1, 1.25, 0.75},
      .strain_colour_max = 0.05, .body.aspect = 0.1875,
-     .body.cell_stiffness = 0.3, .body.notch = {-1, -0.4},
+     .body.cell_stiffness = 0.3, .body.notch_ends = {-1, -0.4},
      .body.make_obstacle = make_bend_ball},
     {"race", "Run time and error", "run time against error, measured now",
-     PICTURE_RACE, HAS_MESH | HAS_SPRINGS | HAS_MINIMUM | HAS_BODY,
+     PICTURE_RACE, HAS_MESH | HAS_SPRINGS | HAS_MINIMISATION | HAS_BODY,
      /* motion without chaos; a tolerance below the error of every time step */
      "--stretch 1.1 --tolerance 1e-8", create_race_scene, .step_name = "run",
      .step = step_race_scene, .switch_labels = {"error over h"},
      .group_heading = "Measured now"},
     {"envelope", "How far it can be trusted",
      "where the square converges: h across, k upwards", PICTURE_ENVELOPE,
-     HAS_MESH | HAS_SPRINGS | HAS_MINIMUM | HAS_TIMESTEP, NULL,
+     HAS_MESH | HAS_SPRINGS | HAS_MINIMISATION | HAS_TIMESTEP, NULL,
      create_envelope_scene, .step_name = "row", .step = step_envelope_scene},
     /* Scenes of the tour, small enough to compute on paper. */
     {"landscape", "Search directions",
      "without projection Newton may go uphill; clamped, never",
-     PICTURE_LANDSCAPE, HAS_START | HAS_SPRINGS | HAS_MINIMUM | HAS_TIMESTEP,
+     PICTURE_LANDSCAPE,
+     HAS_START | HAS_SPRINGS | HAS_MINIMISATION | HAS_TIMESTEP,
      "--start 0.1,-0.35 --tolerance 1e-6 --timestep 0.2",
      create_landscape_scene, .step_name = "iteration", .starts_paused = true,
      .step = step_descent, .restart = descent_update_direction,
@@ -199,7 +202,7 @@ const Scene scenes[] = {
      .starts_paused = true, .handle_kinds = "xv", .is_hidden = true},
     {"tangent", "Newton in one dimension",
      "Newton in one dimension: tangents of g, parabolas of E", PICTURE_TANGENT,
-     HAS_START | HAS_MINIMUM | HAS_ONE_COORDINATE | HAS_TIMESTEP,
+     HAS_START | HAS_MINIMISATION | HAS_ONE_COORDINATE | HAS_TIMESTEP,
      "--start 2.5 --tolerance 1e-10 --line-search none --timestep 0.3",
      create_tangent_scene, .step_name = "iteration", .step = step_descent,
      .restart = descent_update_direction, .handle_kinds = "xt",
@@ -211,7 +214,7 @@ const Scene scenes[] = {
      .switch_labels = {"inertia", "elasticity"}, .is_hidden = true},
     {"spring", "One spring",
      "one spring: energy, force, eigenvalues; drag its end", PICTURE_SPRING,
-     HAS_MOTION | HAS_START | HAS_SPRINGS | HAS_MINIMUM,
+     HAS_MOTION | HAS_START | HAS_SPRINGS | HAS_MINIMISATION,
      "--timestep 0.02 --start 0.6,0.3 --tolerance 1e-6", create_spring_scene,
      .handle_kinds = "x", .switch_labels = {"with the square root"},
      .is_hidden = true},
@@ -229,13 +232,13 @@ void scene_store_guess(Simulation *simulation, double x, double y)
     const Scene *scene = simulation->scene;
     const double *p = simulation->descent.direction;
     double at[2];
-    int count = simulation_find_point(simulation, at);
+    int count = simulation_find_shown_point(simulation, at);
     const double iterate[2] = {at[0] + p[0], at[1] + p[1]}, *end = iterate;
     MassStep step;
     if (simulation->is_over || count == 0)
         return;
     if (scene->step == step_dial_scene)
-        end = simulation->exhibit.dial.point[DIAL_POINTS - 1];
+        end = simulation->exhibit.dial.minimiser[DIAL_POINTS - 1];
     if (scene->parts & HAS_TIME) {
         mass_find_next_step(simulation, 0, &step);
         end = step.new_x;

@@ -31,7 +31,7 @@ static Status make_trial_run(const Options *options,
 /* ---- run time against error ---------------------------------------------- */
 
 /* Number of steps of a run with the longest time step */
-enum { RACE_COARSEST_STEPS = 8 };
+enum { RACE_FEWEST_STEPS = 8 };
 
 const IntegratorMethod *race_get_method(int i)
 {
@@ -173,13 +173,13 @@ static Status measure_run_time(Simulation *simulation,
 
 Status race_measure_method(Simulation *simulation,
                            const IntegratorMethod *method, double time,
-                           long steps, TimeIntegrator *run, RacePoint *point)
+                           long steps, TimeIntegrator *run, RaceResult *point)
 {
     const double *exact = simulation->run[1].x;
     *point =
-        (RacePoint){.method = method, .h = time / (double)steps, .error = NAN};
+        (RaceResult){.method = method, .h = time / (double)steps, .error = NAN};
     Status status = measure_run_time(simulation, method, point->h, steps, run,
-                                     &point->seconds);
+                                     &point->processor_time);
     point->converged = status == STATUS_OK;
     if (status_is_failure(status))
         return status;
@@ -195,17 +195,17 @@ Status step_race_scene(Simulation *simulation)
 {
     Race *race = &simulation->exhibit.race;
     const IntegratorMethod *method =
-        race_get_method(race->count % RACE_METHODS);
-    long steps = (long)RACE_COARSEST_STEPS << (race->count / RACE_METHODS);
+        race_get_method(race->run_count % RACE_METHODS);
+    long steps = (long)RACE_FEWEST_STEPS << (race->run_count / RACE_METHODS);
     TimeIntegrator run = {0};
     double seconds;
-    RacePoint *point = &race->point[race->count];
+    RaceResult *point = &race->result[race->run_count];
     /* The method's last run (2h) is timed again; the shorter time counts. */
-    if (race->count >= RACE_METHODS) {
-        RacePoint *before = point - RACE_METHODS;
+    if (race->run_count >= RACE_METHODS) {
+        RaceResult *before = point - RACE_METHODS;
         measure_run_time(simulation, method, before->h, steps / 2, &run,
                          &seconds);
-        before->seconds = fmin(before->seconds, seconds);
+        before->processor_time = fmin(before->processor_time, seconds);
     }
     Status status =
         race_measure_method(simulation, method, RACE_TIME, steps, &run, point);
@@ -214,8 +214,8 @@ Status step_race_scene(Simulation *simulation)
     time_integrator_free(&run);
     if (status && status != STATUS_NOT_FINITE)
         return status;
-    race->count++;
-    simulation->is_over = race->count == RACE_METHODS * RACE_STEP_SIZES;
+    race->run_count++;
+    simulation->is_over = race->run_count == RACE_METHODS * RACE_STEP_SIZES;
     return STATUS_OK;
 }
 
@@ -256,8 +256,8 @@ Status envelope_run_cell(Simulation *simulation, int column, int row)
     int updates = (int)run->newton->counters.updates;
     map->cell[row][column] = (EnvelopeCell){
         .is_known = true, .bad_status = worst, .updates = updates};
-    map->column = column;
-    map->row = row;
+    map->shown_column = column;
+    map->shown_row = row;
     return STATUS_OK;
 }
 
@@ -281,7 +281,8 @@ Status create_envelope_scene(Simulation *simulation)
 Status step_envelope_scene(Simulation *simulation)
 {
     const EnvelopeMap *map = &simulation->exhibit.envelope;
-    int row = (int)simulation->steps, shown[2] = {map->column, map->row};
+    int row = (int)simulation->steps,
+        shown[2] = {map->shown_column, map->shown_row};
     Status status = STATUS_OK;
     for (int column = 0; column < ENVELOPE_COLUMNS && !status; column++)
         status = envelope_run_cell(simulation, column, row);

@@ -91,7 +91,7 @@ static Status create_body_system(const Options *options, System *system)
 {
     const SquareMesh shape = body_make_mesh(options);
     int nodes = shape.nodes / shape.bodies, ball = find_ball_node(options);
-    if ((double)shape.segments * shape.rows * shape.bodies >
+    if ((double)shape.columns * shape.rows * shape.bodies >
         SQUARE_MESH_MAX_CELLS)
         return STATUS_TOO_LARGE;
     Status status =
@@ -103,7 +103,7 @@ static Status create_body_system(const Options *options, System *system)
     if (numbers && !(system->pin_v = calloc(numbers, sizeof(double))))
         return STATUS_OUT_OF_MEMORY;
     double m = options->density * shape.side * shape.side / nodes;
-    m *= (double)shape.rows / shape.segments;
+    m *= (double)shape.rows / shape.columns;
     for (int i = 0; i < system->nodes; i++)
         system->m[i] = m;
     square_mesh_list_springs(&shape, system->e);
@@ -115,8 +115,8 @@ static Status create_body_system(const Options *options, System *system)
         system->l2[s] = dx * dx + dy * dy;
         system->k[s] = options->stiffness;
     }
-    if (shape.rows == shape.segments && ball < 0 && shape.bodies == 1)
-        system->segments = shape.segments;
+    if (shape.rows == shape.columns && ball < 0 && shape.bodies == 1)
+        system->segments = shape.columns;
     system->gravity[1] = -options->gravity;
     square_mesh_order_nodes(&shape, system->elimination_order);
     if (options->pin && pins_parse(options->pin, &shape, system->pinned))
@@ -171,7 +171,7 @@ static int list_obstacles(const Options *options,
     if (options->scene->body.make_obstacle)
         list[count++] = options->scene->body.make_obstacle(options);
     for (int k = 0; k < count; k++)
-        memcpy(list[k].options_o, list[k].o, sizeof list->o);
+        memcpy(list[k].configured_o, list[k].o, sizeof list->o);
     return count;
 }
 
@@ -199,8 +199,8 @@ static Status set_obstacles(const Options *options, System *system)
     for (int i = 0; contact && i < contact->obstacle_count; i++) {
         const Obstacle *old = &contact->obstacle[i];
         for (int k = 0; k < count; k++)
-            if (memcmp(old->options_o, list[k].options_o,
-                       sizeof old->options_o) == 0 &&
+            if (memcmp(old->configured_o, list[k].configured_o,
+                       sizeof old->configured_o) == 0 &&
                 memcmp(old->n, list[k].n, sizeof old->n) == 0)
                 memcpy(list[k].o, old->o, sizeof old->o);
     }
@@ -287,7 +287,7 @@ static Status place_body(const Options *options, int run, double *x, double *v,
 
 double body_find_added_height(const Options *options, int run)
 {
-    return options->scene->body.height_step * options->side * (1 - run);
+    return options->scene->body.height_between_runs * options->side * (1 - run);
 }
 
 /* Returns the options of one run: with its own friction and height. */
@@ -318,14 +318,15 @@ static Status build_run_system(const Options *options, int run, System *system,
     status = place_body(options, run, *x, *x + size, message);
     return status || !options->state_springs
                ? status
-               : start_springs_read(options, run, system, message);
+               : start_table_read_springs(options, run, system, message);
 }
 
 /* Cuts the scene's notch beside the middle line, if springs can break. */
 static void cut_notch(const Options *options, const SquareMesh *mesh,
                       System *system)
 {
-    const double *notch = options->scene->body.notch, x = 0.5 * mesh->spacing;
+    const double *notch = options->scene->body.notch_ends,
+                 x = 0.5 * mesh->spacing;
     for (int s = 0; s < system->springs && options->tear > 0; s++) {
         double a[2], b[2];
         square_mesh_rest_position(mesh, system->e[2 * s], a);
@@ -350,8 +351,8 @@ static Status create_body_run(Simulation *simulation, int run)
         cut_notch(&options, &simulation->mesh, system);
         for (int i = 0; i < 2 * system->nodes; i++)
             v[i] = system->pinned[i / 2] ? 0 : v[i];
-        status = simulation_start_run(simulation, run, options_method(&options),
-                                      system, x, v);
+        status = simulation_start_run(
+            simulation, run, options_get_method(&options), system, x, v);
     }
     free(x);
     return status;
@@ -380,7 +381,7 @@ Status create_square_scene(Simulation *simulation)
 
 Status body_check_method(const Options *options, Message message)
 {
-    const IntegratorMethod *method = options_method(options);
+    const IntegratorMethod *method = options_get_method(options);
     const char *term =
         options->scene->body.pin_speed > 0 ? "moving pins" : NULL;
     for (const OptionRow *row = option_rows; row->name; row++)
@@ -448,11 +449,13 @@ static Status check_gaps_and_cells(const Options *options, const System *system,
         ElementIterator walk = elements_begin(&at, NULL, 0);
         const Element *element = &walk.element;
         while (elements_next(&walk)) {
-            bool own = kind == &contact_energy && element->partner == number;
+            bool own =
+                kind == &contact_energy && element->partner_index == number;
             if (element->s > (own ? min_gap : 0))
                 continue;
             return kind == &contact_energy
-                       ? refuse_obstacle_position(options, element->partner,
+                       ? refuse_obstacle_position(options,
+                                                  element->partner_index,
                                                   element->s, message)
                        : refuse(message,
                                 "the cell at node %d would be turned over at "
@@ -509,11 +512,12 @@ static Status check_clearance(const Simulation *simulation,
     for (int run = 0; run < simulation->runs && !status; run++) {
         const Options own = make_run_options(options, run);
         System system = *simulation->run[run].system;
-        Contact contact = {.barrier = make_barrier(&own), .free_ball = -1};
+        Contact contact = {.barrier = make_barrier(&own),
+                           .free_ball_index = -1};
         int count = list_obstacles(&own, contact.obstacle);
         contact.obstacle_count = (int)(own.grounds + own.balls);
         if (count > 0 && contact.obstacle[count - 1].node >= 0)
-            contact.free_ball = count - 1;
+            contact.free_ball_index = count - 1;
         system.term_count = 1;
         system.term[0] = (EnergyTerm){&contact_energy, &contact};
         status = check_gaps_and_cells(&own, &system, simulation->run[run].x,
@@ -537,7 +541,7 @@ double simulation_find_free_fraction(const Simulation *simulation,
     static const double MIN_GAP = 0.999;     /* least gap divided by d_hat */
     static const double MIN_PART = 1.0 / 64; /* least fraction tried first */
     Options moved = *options;
-    double *at = options_obstacle_point(&moved, number), free = 0, from[2];
+    double *at = options_get_obstacle_point(&moved, number), free = 0, from[2];
     memcpy(from, at, sizeof from);
     memcpy(at, to, sizeof from);
     if (!check_clearance(simulation, &moved, 0, -1, (Message){0}))
@@ -598,7 +602,8 @@ static Status check_crossing_outlines(const Options *options, const double *x,
 {
     const SquareMesh shape = body_make_mesh(options);
     int edge[2], other[2];
-    for (int k = 0; k < shape.outline_edges && options->self_contact; k++) {
+    for (int k = 0; k < shape.outline_edge_count && options->self_contact;
+         k++) {
         square_mesh_get_outline_edge(&shape, k, edge);
         for (int l = 0; l < k; l++) {
             square_mesh_get_outline_edge(&shape, l, other);

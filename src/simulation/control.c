@@ -12,7 +12,7 @@
 #include "model/pull_energy.h"
 #include "simulation/body.h"
 
-UserControl *control_from_simulation(const Simulation *simulation)
+UserControl *control_create(const Simulation *simulation)
 {
     const System *system = &simulation->system;
     UserControl *control = malloc(sizeof *control + (size_t)system->nodes);
@@ -44,8 +44,8 @@ bool control_is_holding(const UserControl *control)
 }
 
 /* Returns the height (m) that a run adds to an obstacle; 0 for balls. */
-static double get_height_offset(const Simulation *simulation, int run,
-                                const Obstacle *obstacle)
+static double get_obstacle_added_height(const Simulation *simulation, int run,
+                                        const Obstacle *obstacle)
 {
     return obstacle->kind == OBSTACLE_WALL
                ? body_find_added_height(&simulation->options, run)
@@ -58,7 +58,8 @@ void simulation_locate_obstacle(const Simulation *simulation, int run,
     const Contact *contact = get_contact(simulation->run[run].system);
     const Obstacle *obstacle = &contact->obstacle[number];
     at[0] = obstacle->o[0];
-    at[1] = obstacle->o[1] - get_height_offset(simulation, run, obstacle);
+    at[1] =
+        obstacle->o[1] - get_obstacle_added_height(simulation, run, obstacle);
 }
 
 void control_store_obstacle(UserControl *control, int number,
@@ -73,7 +74,7 @@ void control_store_obstacle(UserControl *control, int number,
         if (!(away < SAME * simulation->options.side))
             return;
     }
-    memcpy(options_obstacle_point(&control->options, number), place,
+    memcpy(options_get_obstacle_point(&control->options, number), place,
            sizeof place);
 }
 
@@ -120,15 +121,16 @@ static Status update_run_options(Simulation *simulation, int r,
     if (simulation->scene->parts & HAS_BODY)
         status = body_apply_options(simulation, r);
     if (!status && options->integrator != before->integrator) {
-        status = simulation_start_run(simulation, r, options_method(options),
-                                      old.system, old.x, old.v);
+        status =
+            simulation_start_run(simulation, r, options_get_method(options),
+                                 old.system, old.x, old.v);
         run->steps = old.steps;
         run->clock = old.clock;
         run->moved_fraction = old.moved_fraction;
         run->external_work = old.external_work;
         if (old.newton)
             newton_counters_add(&old.newton->counters,
-                                &simulation->old_counters);
+                                &simulation->replaced_counters);
         time_integrator_free(&old);
         return status;
     }
@@ -174,7 +176,7 @@ static Status apply_pull(Simulation *simulation, const UserControl *control)
     }
     const double *x = simulation->run[0].x + 2 * node;
     double k = get_neo_hookean(system) ? simulation->options.young
-                                       : mass_spring_curvature_bound(&at);
+                                       : mass_spring_curvature_estimate(&at);
     return pull_configure(
         system, &hand_energy,
         &(NodePull){.node = node,
@@ -195,12 +197,12 @@ static void apply_push(Simulation *simulation, const UserControl *control)
         int held = control->held_obstacle;
         contact->hand = (ObstaclePush){
             .is_held = 0 <= held && held < contact->obstacle_count,
-            .obstacle = held,
+            .obstacle_index = held,
             .target = {control->target[0], control->target[1]},
             .mesh = simulation->mesh};
         if (contact->hand.is_held)
-            contact->hand.target[1] +=
-                get_height_offset(simulation, r, &contact->obstacle[held]);
+            contact->hand.target[1] += get_obstacle_added_height(
+                simulation, r, &contact->obstacle[held]);
     }
 }
 

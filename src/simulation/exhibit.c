@@ -61,7 +61,7 @@ int exhibit_list_switches(const Simulation *simulation,
 {
     static const char *const kinds[SCENE_MAX_SWITCHES] = {
         "horizontal", "vertical", "diagonal /", "diagonal \\"};
-    bool has_kinds = simulation->options.layers & LAYER_KINDS;
+    bool has_kinds = simulation->options.layers & LAYER_SPRING_KINDS;
     const char *const *label =
         has_kinds ? kinds : simulation->scene->switch_labels;
     const Options *options = &simulation->options;
@@ -89,7 +89,7 @@ void exhibit_flip_switch(Simulation *simulation, int number)
     const Scene *scene = simulation->scene;
     System *system = &simulation->system;
     unsigned switches = simulation->exhibit.switches ^ (1U << number);
-    if (simulation->options.layers & LAYER_KINDS) {
+    if (simulation->options.layers & LAYER_SPRING_KINDS) {
         double k = switches >> number & 1 ? 0 : simulation->options.stiffness;
         double before = simulation_get_energies(simulation, 0).total;
         simulation->exhibit.switches = switches;
@@ -104,7 +104,7 @@ void exhibit_flip_switch(Simulation *simulation, int number)
     }
     bool none = switches == 0 && scene->switch_labels[1];
     simulation->exhibit.switches = none ? PART_BOTH ^ (1U << number) : switches;
-    simulation->descent.count = 0;
+    simulation->descent.record_count = 0;
     simulation->prediction = (Prediction){0};
     if (scene->find_direction)
         scene->find_direction(simulation);

@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-void replace_line_breaks(char *text)
+void replace_control_characters(char *text)
 {
     for (; *text; text++)
         if ((unsigned char)*text < ' ' || *text == '\177')
@@ -20,6 +20,6 @@ Status refuse(Message message, const char *format, ...)
 {
     write_formatted(message.text, message.size, format);
     if (message.size > 0)
-        replace_line_breaks(message.text);
+        replace_control_characters(message.text);
     return STATUS_INVALID_INPUT;
 }

@@ -36,7 +36,7 @@ static double parse_option_number(const OptionRow *row, const char *text)
 {
     static const struct {
         const char *prefix;
-        double per_unit; /* prefix "m": 1000, as 1000 mm are 1 m */
+        double parts_per_unit; /* prefix "m": 1000, as 1000 mm are 1 m */
     } prefixes[] = {{"", 1},    {"k", 1e-3},     {"c", 1e2},     {"m", 1e3},
                     {"u", 1e6}, {"\u00b5", 1e6}, {"\u03bc", 1e6}};
     double number, divisor = 1;
@@ -54,7 +54,7 @@ static double parse_option_number(const OptionRow *row, const char *text)
         size_t length = strlen(prefixes[i].prefix);
         if (strncmp(end, prefixes[i].prefix, length) == 0 &&
             is_option_unit(row, end + length))
-            return number / (divisor * prefixes[i].per_unit);
+            return number / (divisor * prefixes[i].parts_per_unit);
     }
     return NAN;
 }
@@ -90,7 +90,7 @@ bool option_parse(const OptionRow *row, int count, const char *text,
     strcpy(copy, text);
     for (char *comma; count == 1 && (comma = strchr(copy, ','));)
         *comma = '.';
-    if (given < count && row->short_counts >> given & 1) {
+    if (given < count && row->allowed_short_counts >> given & 1) {
         memcpy(number, row->omitted_defaults, (size_t)count * sizeof *number);
         count = given;
     }
@@ -107,7 +107,7 @@ void option_write(const OptionRow *row, double value, char *text, size_t size)
 {
     if (row && row->kind == OPTION_NAME) {
         snprintf(text, size, "%s",
-                 names_get(row->names, option_name_index(value)));
+                 names_get(row->names, option_get_name_index(value)));
         return;
     }
     snprintf(text, size, "%.15g", value);
@@ -120,13 +120,14 @@ void option_write_short(const OptionRow *row, const Options *options,
 {
     /* Most digits of a number; most letters of a list of numbers. */
     enum { MAX_DIGITS = 6, MAX_TOTAL_LENGTH = 20 };
-    int count = row->count > 1 ? row->count : 1, last = 0;
-    if (row->max_times)
+    int count = row->number_count > 1 ? row->number_count : 1, last = 0;
+    if (row->max_repetitions)
         last = (int)fmax(options->number[row->count_slot] - 1, 0);
     const double *value = options->number + row->slot + last * count;
-    /* only a default can be below the range; it means "none" */
-    if (*value < row->low || (row->count && (row->term || row->max_times) &&
-                              !option_is_on(row, options)))
+    /* a value below the range can only be a default that means "none" */
+    if (*value < row->low ||
+        (row->number_count && (row->term || row->max_repetitions) &&
+         !option_is_on(row, options)))
         snprintf(text, size, "none");
     else if (row->kind == OPTION_NAME)
         option_write(row, *value, text, size);
@@ -169,7 +170,7 @@ double option_find_value_after_wheel(const OptionRow *row,
     char text[32];
     if (row->kind == OPTION_NAME) {
         int count = names_count(row->names), turns = (int)rint(notches);
-        int index = (option_name_index(value) + turns) % count;
+        int index = (option_get_name_index(value) + turns) % count;
         return turns == 0 ? value : (index + count) % count;
     }
     if (increment > 0) {

@@ -64,7 +64,7 @@ REASON(why_no_table, options->state,
 REASON(why_nothing_yields, options->yield > 0,
        "the springs do not yield; --yield lets them")
 REASON(why_nothing_minimised,
-       options_method(options)->stages > 0 || !options->headless ||
+       options_get_method(options)->stages > 0 || !options->headless ||
            options->script || options->panes > 1,
        "an explicit integrator minimises nothing; choose an implicit one, such "
        "as backward-euler")
@@ -94,7 +94,7 @@ REASON(why_nothing_drawn,
 #define NUMBER(field, ...) RANGE(NUMBER, #field, field, __VA_ARGS__)
 #define WHOLE(field, ...)  RANGE(WHOLE_NUMBER, #field, field, __VA_ARGS__)
 #define NUMBERS(field, many, letters, text, u, from, to)                       \
-    NUMBER(field, letters, text, u, 0, from, to), .count = many
+    NUMBER(field, letters, text, u, 0, from, to), .number_count = many
 #define NAME(word, field, letters, text, number, all)                          \
     VALUE(NAME, word, letters, text, ""), .slot = OPTION_SLOT(field),          \
                                           .default_value = number,             \
@@ -108,12 +108,13 @@ REASON(why_nothing_drawn,
 /* Macros for the rest of a row: parts that the scene must have, repetitions,
  * the label of an option with lists of values.  SHOWN puts the option into the
  * window's row of numbers: place, length of the values, increment. */
-#define NEEDS(what)             .needs_any_of = HAS_##what
-#define TIMES(n, field)         .max_times = n, .count_slot = OPTION_SLOT(field)
-#define FEWER(bits, others)     .short_counts = bits, .omitted_defaults = others
+#define NEEDS(what)     .needs_any_scene_part = HAS_##what
+#define TIMES(n, field) .max_repetitions = n, .count_slot = OPTION_SLOT(field)
+#define FEWER(bits, others)                                                    \
+    .allowed_short_counts = bits, .omitted_defaults = others
 #define LIST(text)              .label = text
 #define LIVE                    .effect = EFFECT_NEXT_STEP
-#define AGAIN                   .effect = EFFECT_REPEAT
+#define AGAIN                   .effect = EFFECT_REPEATED_STEP
 #define TERM(kind)              .term = &(kind)
 #define IDLE(why)               .idle_reason = why
 #define SHOWN(n, longest, adds) .display = {n, longest, adds}
@@ -235,13 +236,13 @@ const OptionRow option_rows[] = {
 
     {SECTION("time step and solver:")},
     {NUMBER(timestep, "H", "time step h", "s", 0.004, 1e-30, 1e30),
-     .needs_any_of = HAS_TIMESTEP, LIST("h"), LIVE, SHOWN(1, 8, 0)},
+     .needs_any_scene_part = HAS_TIMESTEP, LIST("h"), LIVE, SHOWN(1, 8, 0)},
     {NAME("integrator", integrator, "I", "time integrator", -1,
           integrator_methods),
      NEEDS(TIME), LIST("method"), LIVE, SHOWN(8, 16, 0)},
     {NUMBER(tolerance, "T", "Newton's method stops at |p|/h <= T", "m/s", 1e-2,
             1e-300, 1e300),
-     NEEDS(MINIMUM), LIST("\u03b5"), LIVE, IDLE(why_nothing_minimised),
+     NEEDS(MINIMISATION), LIST("\u03b5"), LIVE, IDLE(why_nothing_minimised),
      SHOWN(5, 9, 0)},
     {NAME("solver", solver, "S",
           "how p is found; auto is newton up to 8 segments", SOLVER_AUTO,
@@ -255,8 +256,8 @@ const OptionRow option_rows[] = {
      SHOWN(9, 9, 0)},
     {NAME("line-search", line_search, "L", "line search along p",
           LINE_SEARCH_BACKTRACK, searches),
-     NEEDS(MINIMUM), LIST("line search"), AGAIN, IDLE(why_nothing_minimised),
-     SHOWN(10, 9, 0)},
+     NEEDS(MINIMISATION), LIST("line search"), AGAIN,
+     IDLE(why_nothing_minimised), SHOWN(10, 9, 0)},
 
     {SECTION("the run, its window and its files:")},
     {RANGE(WHOLE_NUMBER, "steps", steps, "N",
@@ -268,7 +269,7 @@ const OptionRow option_rows[] = {
      IDLE(why_no_frames)},
     {WHOLE(size, "WxH", "size of the window or of the frames, pixels", "", 0,
            16, 8192),
-     .count = 2, .separator = 'x', IDLE(why_nothing_drawn)},
+     .number_count = 2, .separator = 'x', IDLE(why_nothing_drawn)},
     {SWITCH(fullscreen, "fill the screen; F11 or Esc leaves it"),
      IDLE(why_no_window)},
     {SWITCH(headless, "open no window")},
@@ -338,12 +339,12 @@ int names_count(NameTable names)
     return count;
 }
 
-const IntegratorMethod *options_method(const Options *options)
+const IntegratorMethod *options_get_method(const Options *options)
 {
-    return &integrator_methods[option_name_index(options->integrator)];
+    return &integrator_methods[option_get_name_index(options->integrator)];
 }
 
-double *options_obstacle_point(Options *options, int number)
+double *options_get_obstacle_point(Options *options, int number)
 {
     int ball = number - (int)options->grounds;
     return ball < 0 ? options->ground[number] + 2 : options->ball[ball];
@@ -352,9 +353,9 @@ double *options_obstacle_point(Options *options, int number)
 bool option_is_on(const OptionRow *row, const Options *options)
 {
     bool on = false;
-    if (row->max_times > 0)
+    if (row->max_repetitions > 0)
         return options->number[row->count_slot] > 0;
-    for (int i = 0; i < row->count || i == 0; i++)
+    for (int i = 0; i < row->number_count || i == 0; i++)
         on = on || options->number[row->slot + i] != 0;
     return on;
 }
@@ -362,8 +363,8 @@ bool option_is_on(const OptionRow *row, const Options *options)
 /* Returns the size of all numbers of an option, bytes. */
 static size_t find_numbers_size(const OptionRow *row)
 {
-    int count = row->count ? row->count : 1;
-    int times = row->max_times ? row->max_times : 1;
+    int count = row->number_count ? row->number_count : 1;
+    int times = row->max_repetitions ? row->max_repetitions : 1;
     return (size_t)count * (size_t)times * sizeof(double);
 }
 
@@ -371,7 +372,7 @@ bool option_is_equal(const OptionRow *row, const Options *a, const Options *b)
 {
     const double *of_a = &a->number[row->slot], *of_b = &b->number[row->slot];
     return row->kind == OPTION_NAME
-               ? option_name_index(*of_a) == option_name_index(*of_b)
+               ? option_get_name_index(*of_a) == option_get_name_index(*of_b)
                : memcmp(of_a, of_b, find_numbers_size(row)) == 0;
 }
 
@@ -395,7 +396,7 @@ int options_list_visible_rows(const Options *options,
     for (int place = 1; place < OPTIONS_MAX_ROWS; place++)
         for (const OptionRow *row = option_rows; row->name; row++)
             if (row->display.row_position == place &&
-                (row->needs_any_of & options->scene->parts) &&
+                (row->needs_any_scene_part & options->scene->parts) &&
                 !(row->idle_reason && row->idle_reason(options)) &&
                 (row->kind == OPTION_NAME || row->display.notch_increment > 0 ||
                  options->number[row->slot] > 0))

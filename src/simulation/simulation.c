@@ -61,7 +61,7 @@ void simulation_free(Simulation *simulation)
     *simulation = (Simulation){0};
 }
 
-int simulation_find_point(const Simulation *simulation, double at[2])
+int simulation_find_shown_point(const Simulation *simulation, double at[2])
 {
     const TimeIntegrator *run = &simulation->run[0];
     bool single =
@@ -92,9 +92,9 @@ static Status finish_simulation_step(Simulation *simulation, Status status)
 
 /* Adds the energy that backward Euler gained in a run's step to the ledger.
  * A gain below 1e-8 of all energies is due to rounding and the tolerance. */
-static void book_energy_gain(Simulation *simulation)
+static void record_energy_gain(Simulation *simulation)
 {
-    int run = simulation->step_run;
+    int run = simulation->current_run;
     EnergyLedger *ledger = &simulation->ledger[run];
     const Energies now = simulation_get_energies(simulation, run);
     double kept = now.total - now.work, gained = kept - ledger->last_balance;
@@ -112,8 +112,8 @@ static void book_energy_gain(Simulation *simulation)
 /* Makes the step of each run.  Returns the last status other than OK. */
 Status simulation_advance(Simulation *simulation)
 {
-    while (simulation->step_run < simulation->runs) {
-        TimeIntegrator *run = &simulation->run[simulation->step_run];
+    while (simulation->current_run < simulation->runs) {
+        TimeIntegrator *run = &simulation->run[simulation->current_run];
         Status status = run->status;
         if (status != STATUS_RUNNING)
             status = time_integrator_begin(run);
@@ -124,8 +124,8 @@ Status simulation_advance(Simulation *simulation)
         simulation->bad_status = status ? status : simulation->bad_status;
         if (status_is_failure(status))
             break;
-        book_energy_gain(simulation);
-        simulation->step_run++;
+        record_energy_gain(simulation);
+        simulation->current_run++;
     }
     return finish_simulation_step(simulation, simulation->bad_status);
 }
@@ -137,7 +137,7 @@ Status simulation_begin_step(Simulation *simulation)
         return STATUS_OK;
     if (scene->step)
         return finish_simulation_step(simulation, scene->step(simulation));
-    simulation->step_run = 0;
+    simulation->current_run = 0;
     simulation->bad_status = STATUS_OK;
     for (int r = 0; r < simulation->runs; r++)
         simulation->run[r].status = STATUS_OK;
@@ -152,7 +152,7 @@ Status simulation_step(Simulation *simulation)
     return status;
 }
 
-double simulation_time(const Simulation *simulation)
+double simulation_get_time(const Simulation *simulation)
 {
     if (!(simulation->scene->parts & HAS_TIME))
         return 0;
@@ -169,7 +169,7 @@ ChangeEffect simulation_find_option_effect(const Simulation *simulation,
                                            const OptionRow *row)
 {
     unsigned needs = simulation->scene->parts;
-    bool update = (needs & HAS_START) && row->effect == EFFECT_REPEAT;
+    bool update = (needs & HAS_START) && row->effect == EFFECT_REPEATED_STEP;
     bool other_methods =
         simulation->runs > 1 && row->slot == OPTION_SLOT(integrator);
     if (!(needs & HAS_TIME) ? !update : other_methods)
@@ -188,13 +188,13 @@ static const double STILL = 1e-6, BALANCED = 1e-3, FRAME = 1.0 / 60;
  * For T^2 above 1e10 (smallest mass / curvature of P) p would be inaccurate.
  * A separate Newton object computes p, so that the run is not changed.
  *   l  m, length of the shortest spring */
-static bool forces_balance(const Simulation *simulation, double l)
+static bool forces_are_balanced(const Simulation *simulation, double l)
 {
     const System *system = &simulation->system;
     double lightest = INFINITY;
     for (int i = 0; i < system->nodes; i++)
         lightest = fmin(lightest, system->m[i]);
-    const double stiffest = system_curvature_bound(system);
+    const double stiffest = system_curvature_estimate(system);
     double T2 = stiffest > 0 ? 0.99e10 * lightest / stiffest : 1;
     NewtonSettings settings = {.h = sqrt(T2),
                                .solver = SOLVER_NEWTON,
@@ -226,12 +226,12 @@ bool simulation_is_at_rest(const Simulation *simulation)
     for (int i = 0; i < 2 * system->nodes; i++)
         if (!(fabs(run->v[i]) * fmax(run->h, FRAME) <= STILL * l))
             return false;
-    return forces_balance(simulation, l);
+    return forces_are_balanced(simulation, l);
 }
 
 NewtonCounters simulation_sum_newton_counters(const Simulation *simulation)
 {
-    NewtonCounters sum = simulation->old_counters;
+    NewtonCounters sum = simulation->replaced_counters;
     for (int i = 0; i < simulation->runs; i++)
         if (simulation->run[i].newton)
             newton_counters_add(&simulation->run[i].newton->counters, &sum);
@@ -256,7 +256,7 @@ bool simulation_has_line_search(const Simulation *simulation)
     return simulation_has_projection(simulation) || simulation->descent.scalar;
 }
 
-bool simulation_projects_springs(const Simulation *simulation)
+bool simulation_projects_only_springs(const Simulation *simulation)
 {
     const System *system = &simulation->system;
     return !system_find_term(system, &contact_energy) &&
@@ -267,7 +267,10 @@ bool simulation_projects_springs(const Simulation *simulation)
 /* ---- the fastest small oscillation: M q'' = -H q ------------------------ */
 
 /* Number of iterations of the power method; limit of a mode's coordinates. */
-enum { POWER_ITERATIONS = 1200, MODE_COORDINATES = 2 * SIMULATION_MODE_NODES };
+enum {
+    POWER_ITERATIONS = 1200,
+    MAX_MODE_COORDINATES = 2 * SIMULATION_MAX_MODE_NODES
+};
 
 double simulation_find_fastest_mode(const Simulation *simulation,
                                     const double *x, double *mode)
@@ -276,7 +279,7 @@ double simulation_find_fastest_mode(const Simulation *simulation,
     EvalPoint at = make_eval_point(system, NULL, NULL, x);
     double omega2 = NAN;
     int n = 2 * system->nodes;
-    if (n > MODE_COORDINATES)
+    if (n > MAX_MODE_COORDINATES)
         return NAN;
     /* A vector without symmetry contains every mode. */
     for (int i = 0; i < n; i++)
@@ -287,7 +290,7 @@ double simulation_find_fastest_mode(const Simulation *simulation,
             length2 += mode[i] * mode[i];
         for (int i = 0; i < n; i++)
             mode[i] /= sqrt(length2);
-        double image[MODE_COORDINATES] = {0}; /* M^-1 H mode, 1/s^2 */
+        double image[MAX_MODE_COORDINATES] = {0}; /* M^-1 H mode, 1/s^2 */
         for (const TermKind *kind; (kind = eval_point_next_term(&at));)
             if (kind->hessian)
                 kind->hessian(&at, PROJECTION_NONE, NULL, mode, image);

@@ -16,10 +16,11 @@ enum { MAX_COLUMNS = 7 };
  * has the names of the columns; wanted columns are found by name, others are
  * skipped.  The second wanted column numbers the rows of a step from 0. */
 typedef struct TableReader {
-    const char *option;             /* name of the option that gives the path */
-    const char *path;               /* name of the file */
-    const char *element_name;       /* "node" or "spring" */
-    const char *names[MAX_COLUMNS]; /* names of wanted columns, up to NULL */
+    const char *option_name;  /* name of the option that gives the path */
+    const char *path;         /* name of the file */
+    const char *element_name; /* "node" or "spring" */
+    const char
+        *column_names[MAX_COLUMNS]; /* names of wanted columns, up to NULL */
     int rows;                       /* number of nodes or springs of a run */
     int run;                        /* index of the run that is read */
     FILE *file;
@@ -77,21 +78,21 @@ static void read_column_names(TableReader *reader)
         return;
     }
     snprintf(shown, sizeof shown, "%s", reader->line_text);
-    for (int k = 0; reader->names[k]; k++)
+    for (int k = 0; reader->column_names[k]; k++)
         reader->column_index[k] = -1;
     char *rest = reader->line_text;
     for (char *name; (name = take_next_field(&rest)); reader->columns++) {
         reader->has_panes = reader->has_panes || !strcmp(name, "pane");
-        for (int k = 0; reader->names[k]; k++)
-            if (strcmp(name, reader->names[k]) == 0)
+        for (int k = 0; reader->column_names[k]; k++)
+            if (strcmp(name, reader->column_names[k]) == 0)
                 reader->column_index[k] = reader->columns;
     }
-    for (int k = 0; reader->names[k] && !reader->failure[0]; k++)
+    for (int k = 0; reader->column_names[k] && !reader->failure[0]; k++)
         if (reader->column_index[k] < 0)
             explain(reader,
                     "its first line, '%s', has no column '%s'; --states and "
                     "--springs write such tables",
-                    shown, reader->names[k]);
+                    shown, reader->column_names[k]);
 }
 
 /* Reads the next row.  Returns false at the end, or with a `failure`. */
@@ -104,13 +105,13 @@ static bool read_next_row(TableReader *reader, TableRow row)
     while (reader->line_text[0] == '\0');
     char *rest = reader->line_text, *end;
     for (char *field; (field = take_next_field(&rest)); fields++)
-        for (int k = 0; reader->names[k]; k++) {
+        for (int k = 0; reader->column_names[k]; k++) {
             if (reader->column_index[k] != fields)
                 continue;
             row[k] = strtod(field, &end);
             if (end == field || *end || !isfinite(row[k]))
                 explain(reader, "line %ld: %s is '%.40s', not a number",
-                        reader->line_number, reader->names[k], field);
+                        reader->line_number, reader->column_names[k], field);
         }
     if (fields != reader->columns)
         explain(reader, "line %ld has %d columns, the first line %d%s",
@@ -181,20 +182,21 @@ static Status read_table(TableReader *reader, const Options *options,
     if (reader->file)
         fclose(reader->file);
     if (reader->failure[0])
-        return refuse(message, "--%s '%.60s': %s", reader->option, reader->path,
-                      reader->failure);
+        return refuse(message, "--%s '%.60s': %s", reader->option_name,
+                      reader->path, reader->failure);
     return *row ? STATUS_OK : STATUS_OUT_OF_MEMORY;
 }
 
 Status start_table_read(const Options *options, int run, int nodes, double *x,
                         double *v, Message message)
 {
-    TableReader reader = {.option = "state",
-                          .path = options->state,
-                          .element_name = "node",
-                          .names = {"step", "node", "x", "y", "vx", "vy"},
-                          .rows = nodes,
-                          .run = run};
+    TableReader reader = {
+        .option_name = "state",
+        .path = options->state,
+        .element_name = "node",
+        .column_names = {"step", "node", "x", "y", "vx", "vy"},
+        .rows = nodes,
+        .run = run};
     TableRow *row;
     Status status = read_table(&reader, options, &row, message);
     for (int i = 0; i < nodes && !status; i++) {
@@ -226,14 +228,14 @@ static const char *restore_spring(const Options *options, System *system,
     return NULL;
 }
 
-Status start_springs_read(const Options *options, int run, System *system,
-                          Message message)
+Status start_table_read_springs(const Options *options, int run, System *system,
+                                Message message)
 {
     TableReader reader = {
-        .option = "state-springs",
+        .option_name = "state-springs",
         .path = options->state_springs,
         .element_name = "spring",
-        .names = {"step", "spring", "whole", "plastic", "flowed"},
+        .column_names = {"step", "spring", "whole", "plastic", "flowed"},
         .rows = system->springs,
         .run = run};
     TableRow *row;

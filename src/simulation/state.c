@@ -12,18 +12,18 @@
 typedef struct StateCursor {
     unsigned char *bytes; /* NULL: the pieces are only counted */
     bool is_restoring;    /* the pieces are read from the bytes */
-    size_t used;          /* bytes visited so far */
+    size_t offset;        /* bytes visited so far */
 } StateCursor;
 
 /* Saves, restores or counts a piece of the state. */
 static void transfer_piece(StateCursor *cursor, void *piece, size_t size)
 {
-    unsigned char *at = cursor->bytes ? cursor->bytes + cursor->used : NULL;
+    unsigned char *at = cursor->bytes ? cursor->bytes + cursor->offset : NULL;
     if (at && cursor->is_restoring)
         memcpy(piece, at, size);
     else if (at)
         memcpy(at, piece, size);
-    cursor->used += size;
+    cursor->offset += size;
 }
 
 #define VISIT(piece) transfer_piece(cursor, &(piece), sizeof(piece))
@@ -48,11 +48,11 @@ static void transfer_system(StateCursor *cursor, System *system)
                            sizeof *contact->obstacle);
 }
 
-static void save_or_load_exhibit(StateCursor *cursor, Simulation *simulation)
+static void transfer_exhibit(StateCursor *cursor, Simulation *simulation)
 {
     const Scene *scene = simulation->scene;
     TimeIntegrator *run = &simulation->run[0];
-    bool kinds = simulation->options.layers & LAYER_KINDS;
+    bool kinds = simulation->options.layers & LAYER_SPRING_KINDS;
     if (kinds)
         VISIT(simulation->exhibit.switches);
     if (kinds || scene->step)
@@ -77,7 +77,7 @@ static void transfer_state(StateCursor *cursor, Simulation *simulation)
     VISIT(simulation->status_counts);
     VISIT(simulation->status);
     VISIT(simulation->is_over);
-    save_or_load_exhibit(cursor, simulation);
+    transfer_exhibit(cursor, simulation);
     for (int r = 0; r < simulation->runs; r++) {
         TimeIntegrator *run = &simulation->run[r];
         size_t array = run->x_length * sizeof(double);
@@ -102,7 +102,7 @@ size_t state_save(const Simulation *simulation, void *bytes)
 {
     StateCursor cursor = {bytes, false, 0};
     transfer_state(&cursor, (Simulation *)simulation); /* saving only reads */
-    return cursor.used;
+    return cursor.offset;
 }
 
 void state_restore(const void *bytes, Simulation *simulation)

@@ -7,14 +7,14 @@
 enum { CLAMPS_AFTER_FAILURE = 4 };
 
 /* Shifts to try: 1e-15, 1e-13, ... 1e-5 of the largest diagonal entry.  A shift
- * matters for few eigenvectors, so conjugate gradients need few solves.  They
- * end when r.z is at most ALL_DIGITS times its first value. */
+ * matters for few eigenvectors, so conjugate gradients need few solves.  The
+ * iteration ends when r.z is at most ALL_DIGITS times its first value. */
 enum { SHIFT_TRIES = 6, CG_MAX_SOLVES = 59 };
 static const double ALL_DIGITS = 1e-28;
 
 /* ---- the Hessian and its factor ---- */
 
-void direction_free_matrix(SearchDirection *direction)
+void direction_free_matrix(FactoredHessian *direction)
 {
     cholesky_free(direction->cholesky);
     direction->cholesky = NULL;
@@ -31,7 +31,7 @@ void direction_free_matrix(SearchDirection *direction)
 static Status assemble_hessian(Newton *newton, Projection projection,
                                int *projected)
 {
-    SearchDirection *direction = &newton->direction;
+    FactoredHessian *direction = &newton->factored_hessian;
     const System *system = newton->system;
     CholeskyKind kind =
         projection == PROJECTION_NONE ? CHOLESKY_INDEFINITE : CHOLESKY_DEFINITE;
@@ -41,9 +41,9 @@ static Status assemble_hessian(Newton *newton, Projection projection,
     *projected = 0;
     if (!status &&
         (!direction->cholesky || direction->factor_kind != kind || grown ||
-         direction->analysed_pattern != system->pattern_version)) {
+         direction->analysed_pattern_version != system->pattern_version)) {
         direction_free_matrix(direction);
-        direction->analysed_pattern = system->pattern_version;
+        direction->analysed_pattern_version = system->pattern_version;
         direction->factor_kind = kind;
         status = incremental_potential_create_hessian(system, &direction->A);
         if (!status)
@@ -60,7 +60,7 @@ static Status assemble_hessian(Newton *newton, Projection projection,
 /* Returns the largest diagonal entry of A (slots of the first 2n triplets). */
 static double largest_diagonal(const Newton *newton)
 {
-    const SearchDirection *direction = &newton->direction;
+    const FactoredHessian *direction = &newton->factored_hessian;
     double largest = 0;
     for (int t = 0; t < 2 * newton->system->nodes; t++)
         largest = fmax(largest, direction->A.value[direction->A.slot[t]]);
@@ -73,7 +73,7 @@ static double largest_diagonal(const Newton *newton)
  * NOT_FINITE, OUT_OF_MEMORY. */
 static Status factor_hessian(Newton *newton)
 {
-    SearchDirection *direction = &newton->direction;
+    FactoredHessian *direction = &newton->factored_hessian;
     direction->shift = 0;
     for (int tries = 0;; tries++) {
         newton->counters.factorisations++;
@@ -97,24 +97,26 @@ static Status assemble_and_factor(Newton *newton)
 {
     NewtonRecord *record = &newton->record;
     Projection projection = newton->settings.projection;
-    if (projection == PROJECTION_ON_DEMAND && newton->clamps_left > 0) {
-        newton->clamps_left--;
+    if (projection == PROJECTION_ON_DEMAND &&
+        newton->clamped_iterations_left > 0) {
+        newton->clamped_iterations_left--;
         projection = PROJECTION_CLAMP;
     }
-    Status status = assemble_hessian(newton, projection, &record->projected);
+    Status status =
+        assemble_hessian(newton, projection, &record->projected_blocks);
     if (!status)
         status = factor_hessian(newton);
     record->has_new_factor = true;
-    record->shift = newton->direction.shift;
-    newton->direction.moved_since_factor = 0;
-    if (!status && newton->direction.factor_kind == CHOLESKY_INDEFINITE)
+    record->shift = newton->factored_hessian.shift;
+    newton->factored_hessian.moved_since_factor = 0;
+    if (!status && newton->factored_hessian.factor_kind == CHOLESKY_INDEFINITE)
         record->negative_pivots =
-            cholesky_negative_pivots(newton->direction.cholesky);
-    newton->counters.projected += record->projected;
+            cholesky_negative_pivots(newton->factored_hessian.cholesky);
+    newton->counters.projected_blocks += record->projected_blocks;
     if (projection != PROJECTION_ON_DEMAND ||
         status != STATUS_NOT_POSITIVE_DEFINITE)
         return status;
-    newton->clamps_left = CLAMPS_AFTER_FAILURE;
+    newton->clamped_iterations_left = CLAMPS_AFTER_FAILURE;
     return assemble_and_factor(newton);
 }
 
@@ -123,13 +125,13 @@ static Status assemble_and_factor(Newton *newton)
 static Status apply_inverse_factor(Newton *newton, const double *r, double *z)
 {
     const int *order = newton->system->elimination_order;
-    double *b = newton->direction.b;
+    double *b = newton->factored_hessian.b;
     for (int i = 0; i < newton->system->nodes; i++) {
         int place = order[i];
         b[2 * place] = r[2 * i];
         b[2 * place + 1] = r[2 * i + 1];
     }
-    Status status = cholesky_solve(newton->direction.cholesky, b, b);
+    Status status = cholesky_solve(newton->factored_hessian.cholesky, b, b);
     for (int i = 0; i < newton->system->nodes && !status; i++) {
         int place = order[i];
         z[2 * i] = b[2 * place];
@@ -163,7 +165,7 @@ typedef struct ConjugateGradients {
  * end: r.z is small enough, or the curvature along d is not positive. */
 static bool take_conjugate_step(Newton *newton, ConjugateGradients *state)
 {
-    const SearchDirection *direction = &newton->direction;
+    const FactoredHessian *direction = &newton->factored_hessian;
     int n = 2 * newton->system->nodes;
     double *r = direction->r, *z = direction->z, *q = direction->q,
            *d = direction->d;
@@ -195,9 +197,9 @@ static bool take_conjugate_step(Newton *newton, ConjugateGradients *state)
 static Status solve_with_factor(Newton *newton)
 {
     const Iterate *at = &newton->iterate;
-    const SearchDirection *direction = &newton->direction;
+    const FactoredHessian *direction = &newton->factored_hessian;
     int n = 2 * newton->system->nodes;
-    newton->counters.solves++;
+    newton->counters.linear_solves++;
     Status status = apply_inverse_factor(newton, at->g, at->p);
     for (int i = 0; i < n; i++)
         at->p[i] = -at->p[i];
@@ -225,7 +227,7 @@ static Status solve_with_factor(Newton *newton)
  * Returns OK, NOT_FINITE, SINGULAR. */
 static Status direction_error_bound(Newton *newton, double *error)
 {
-    const SearchDirection *direction = &newton->direction;
+    const FactoredHessian *direction = &newton->factored_hessian;
     const System *system = newton->system;
     const Iterate *at = &newton->iterate;
     double *r = direction->r, *z = direction->z, square = 0;
@@ -268,7 +270,7 @@ static void correct_momentum(Newton *newton)
 static void solve_diagonal(Newton *newton)
 {
     const Iterate *at = &newton->iterate;
-    double *ones = newton->direction.b, *H = newton->direction.q;
+    double *ones = newton->factored_hessian.b, *H = newton->factored_hessian.q;
     int n = 2 * newton->system->nodes;
     for (int i = 0; i < n; i++)
         ones[i] = 1;
@@ -305,7 +307,7 @@ static const double NEARBY = 0.03, CONVERGES = 0.1, REFINED = 0.01;
  * makes p accurate.  Returns false if p diverges or is not downhill. */
 static bool refine_with_last_factor(Newton *newton)
 {
-    const SearchDirection *direction = &newton->direction;
+    const FactoredHessian *direction = &newton->factored_hessian;
     const int n = 2 * newton->system->nodes;
     double *g = newton->iterate.g, *p = newton->iterate.p;
     double *r = direction->r, *z = direction->z, last = INFINITY, size;
@@ -314,7 +316,7 @@ static bool refine_with_last_factor(Newton *newton)
         r[i] = -g[i];
     }
     for (;;) {
-        newton->counters.solves++;
+        newton->counters.linear_solves++;
         if (apply_inverse_factor(newton, r, z) != STATUS_OK)
             return false;
         size = largest_row_sum(n / 2, z);
@@ -325,7 +327,7 @@ static bool refine_with_last_factor(Newton *newton)
         if (size <= REFINED * largest_row_sum(n / 2, p))
             break;
         last = size;
-        newton->record.projected = incremental_potential_apply_hessian(
+        newton->record.projected_blocks = incremental_potential_apply_hessian(
             &newton->iterate, direction->projection, p, direction->q);
         for (int i = 0; i < n; i++)
             r[i] = -g[i] - direction->q[i];
@@ -396,7 +398,7 @@ bool next_direction_is_negligible(Newton *newton)
  * minimisation, nearby, as L L^T and without a shift. */
 static bool factor_is_reusable(const Newton *newton)
 {
-    const SearchDirection *direction = &newton->direction;
+    const FactoredHessian *direction = &newton->factored_hessian;
     return direction->shift == 0 &&
            newton->settings.projection != PROJECTION_NONE &&
            direction->moved_since_factor <=
@@ -414,10 +416,10 @@ static Status solve_with_new_factor(Newton *newton)
     correct_momentum(newton);
     /* The factor is inexact if springs hide the masses by rounding, if A has a
      * shift, or if pivots were replaced. */
-    return find_residual(newton,
-                         !newton->rounding.factor_is_inexact &&
-                             newton->direction.shift == 0 &&
-                             cholesky_is_exact(newton->direction.cholesky));
+    return find_residual(
+        newton, !newton->rounding.factor_is_inexact &&
+                    newton->factored_hessian.shift == 0 &&
+                    cholesky_is_exact(newton->factored_hessian.cholesky));
 }
 
 Status find_direction(Newton *newton)

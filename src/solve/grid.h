@@ -36,11 +36,11 @@ enum { BAND_ROWS = 8 };
 
 /* Layout of a plane: where the number of each node is stored. */
 typedef struct RowLayout {
-    int nodes;      /* number of nodes in a row, and of rows */
-    int count[2];   /* number of even and of odd columns */
-    int odd_offset; /* distance from a row's even columns to its odd ones */
-    int pitch;      /* distance from one row to the next */
-    int plane;      /* length of a plane, with the ghosts */
+    int nodes_per_side;  /* number of nodes in a row, and of rows */
+    int column_count[2]; /* number of even and of odd columns */
+    int odd_offset;   /* distance from a row's even columns to its odd ones */
+    int pitch;        /* distance from one row to the next */
+    int plane_length; /* length of a plane, with the ghosts */
 } RowLayout;
 
 RowLayout lay_out_rows(int nodes);
@@ -53,9 +53,9 @@ static inline int node_index(const RowLayout *rows, int i, int j)
 
 typedef struct Grid {
     RowLayout rows;
-    int segments, bands; /* number of segments a side, of bands of rows */
-    double length_unit, mass_unit,
-        energy_unit; /* grid units per m, kg, J s^2 (unit of E) */
+    int segments, band_count; /* number of segments a side, of bands of rows */
+    double length_scale, mass_scale,
+        energy_scale; /* grid units per m, kg, J s^2 (unit of E) */
     /* Equal rows of masses or springs are stored once.  Node q of row i has the
      * mass m[q + mass_shift[i]], and the springs that start at node q have the
      * index q + spring_shift[i + 1]; spring_shift[0] is for row -1 (ghosts). */
@@ -64,13 +64,14 @@ typedef struct Grid {
     double *l2[SPRING_KINDS]; /* [plane] squared rest length */
     double *m, *inverse_m; /* [plane] mass and 1/mass; inverse_m is 0 at pins */
     double min_mass;       /* smallest mass of a node that moves */
-    double max_stiffness;  /* largest 8 c l2, stiffness of 8 springs at rest */
+    double
+        max_node_stiffness; /* largest 8 c l2, stiffness of 8 springs at rest */
     float *float_c[SPRING_KINDS];  /* [plane] c in single precision */
     float *float_l2[SPRING_KINDS]; /* [plane] l2 in single precision */
     float *float_m;                /* [plane] mass of each node; 0 at pins */
     float *float_x; /* [2 planes] x relative to the middle node */
     double *x, *x_tilde, *u_tilde; /* [2 planes] u_tilde is x_tilde - x_n */
-    double *from_target; /* [2 planes] x - x_tilde = u - u_tilde; 0 at pins */
+    double *target_offset; /* [2 planes] x - x_tilde = u - u_tilde; 0 at pins */
 } Grid;
 
 /* A block of memory for several arrays.  The layout is made twice: first with
@@ -83,14 +84,15 @@ typedef struct ArrayArena {
 /* Returns the next piece of the block; NULL while bytes are counted.  Pieces of
  * one size would all start in the same lines of the cache, so each starts some
  * lines further than the one before. */
-void *memory_take_piece(ArrayArena *memory, size_t bytes);
+void *arena_take_piece(ArrayArena *memory, size_t bytes);
 
-/* Allocates zeroed memory for all pieces that memory_take_piece counted, in
+/* Allocates zeroed memory for all pieces that arena_take_piece counted, in
  * large pages of the system if it has them.  Returns OK or OUT_OF_MEMORY; the
  * caller frees base. */
-Status memory_create(ArrayArena *memory);
+Status arena_allocate(ArrayArena *memory);
 
-/* Sets sizes and places arrays for segments x segments cells; all else is 0. */
+/* Sets sizes and places arrays for segments x segments cells; clears the rest.
+ */
 void grid_lay_out(int segments, ArrayArena *memory, Grid *grid);
 
 /* Returns the power of two that scales a to about 1. */
@@ -136,4 +138,4 @@ double grid_correct_momentum(const Grid *grid);
 void grid_add_step(const Grid *grid, double a, const double *p);
 
 /* Computes float_x from x. */
-void grid_narrow_x(const Grid *grid);
+void grid_update_float_x(const Grid *grid);

@@ -6,15 +6,15 @@
 /* Begins a loop over bands, with a copy of the grid that stays in registers. */
 #define BANDS                                                                  \
     const Grid local = *grid;                                                  \
-    const ptrdiff_t plane = local.rows.plane;                                  \
-    for (int band = 0; band < local.bands; band++)
+    const ptrdiff_t plane = local.rows.plane_length;                           \
+    for (int band = 0; band < local.band_count; band++)
 
 FAST double grid_gradient(const Grid *grid, double *g)
 {
     double total = 0;
     BANDS
     {
-        const double *const ax = local.from_target, *const ay = ax + plane;
+        const double *const ax = local.target_offset, *const ay = ax + plane;
         double *const gx = g, *const gy = gx + plane;
         double sum[LANES] = {0};
         EACH_NODE_OF (local, band) {
@@ -86,7 +86,7 @@ FAST void grid_energy_quartic(const Grid *grid, const double *p,
         quartic[s] = 0;
     BANDS
     {
-        const double *const ax = local.from_target, *const ay = ax + plane;
+        const double *const ax = local.target_offset, *const ay = ax + plane;
         const double *const px = p, *const py = px + plane;
         double sum[4][LANES] = {{0}};
         EACH_NODE_OF (local, band) {
@@ -133,7 +133,7 @@ FAST double grid_make_conjugate(const Grid *grid, const double *g,
         total += sum_lanes(sum);
     }
     double beta = fmax(total / last_slope, 0);
-    EACH_OF (2 * grid->rows.plane)
+    EACH_OF (2 * grid->rows.plane_length)
         p[e] += beta * last_p[e];
     return beta;
 }
@@ -149,8 +149,8 @@ FAST double grid_correct_momentum(const Grid *grid)
                 const ptrdiff_t q = at.first + e;
                 double m = local.m[q + at.mass_shift];
                 sum[0][e] += m;
-                sum[1][e] += m * local.from_target[q];
-                sum[2][e] += m * local.from_target[q + plane];
+                sum[1][e] += m * local.target_offset[q];
+                sum[2][e] += m * local.target_offset[q + plane];
             }
         mass += sum_lanes(sum[0]);
         moment[0] += sum_lanes(sum[1]);
@@ -160,7 +160,7 @@ FAST double grid_correct_momentum(const Grid *grid)
         const double mean = moment[c] / mass;
         BANDS
         {
-            double *const away = local.from_target + c * plane;
+            double *const away = local.target_offset + c * plane;
             double *const x = local.x + c * plane;
             const double *const x_tilde = local.x_tilde + c * plane;
             EACH_RUN_OF (local, band)
@@ -176,20 +176,20 @@ FAST double grid_correct_momentum(const Grid *grid)
 
 FAST void grid_add_step(const Grid *grid, double a, const double *p)
 {
-    double *const away = grid->from_target, *const x = grid->x;
+    double *const away = grid->target_offset, *const x = grid->x;
     const double *const x_tilde = grid->x_tilde;
-    EACH_OF (2 * grid->rows.plane) {
+    EACH_OF (2 * grid->rows.plane_length) {
         away[e] += a * p[e];
         x[e] = x_tilde[e] + away[e];
     }
 }
 
-FAST void grid_narrow_x(const Grid *grid)
+FAST void grid_update_float_x(const Grid *grid)
 {
-    const int n = grid->segments, plane = grid->rows.plane;
+    const int n = grid->segments, plane = grid->rows.plane_length;
     for (int c = 0; c < 2; c++) {
         const double *const x = grid->x + c * plane;
         double middle = x[node_index(&grid->rows, n / 2, n / 2)];
-        narrow_array(x, 1, middle, plane, grid->float_x + c * plane);
+        narrow_array_to_single(x, 1, middle, plane, grid->float_x + c * plane);
     }
 }

@@ -11,7 +11,8 @@
 
 /* Marks a function that is compiled for several widths of registers; at its
  * start the program selects the version for the processor.  All versions give
- * the same bits: they add in one order, and have no fused multiply-add. */
+ * the same bits, since additions have one order and no multiply-add is fused.
+ */
 #ifndef FAST
 #if defined(__x86_64__) && defined(__GLIBC__) && defined(__OPTIMIZE__) &&      \
     !defined(__clang__)
@@ -27,22 +28,24 @@
 /* Nodes of one row, contiguous in memory, with index distances to neighbours,
  * springs and masses.  ptrdiff_t needs no conversion in addresses. */
 typedef struct NodeRun {
-    ptrdiff_t first, end; /* index of the first node, and past the last one */
-    ptrdiff_t next;       /* distance from a node to the next row */
-    ptrdiff_t before, after; /* distances to the columns before and after */
-    ptrdiff_t shift, shift_before; /* spring_shift of this row, row before */
-    ptrdiff_t mass_shift;          /* mass index of a node minus node index */
+    ptrdiff_t first, end;  /* index of the first node, and past the last one */
+    ptrdiff_t to_next_row; /* distance from a node to the next row */
+    ptrdiff_t to_column_before,
+        to_column_after; /* distances to the columns before and after */
+    ptrdiff_t spring_shift,
+        spring_shift_before; /* spring_shift of this row, row before */
+    ptrdiff_t mass_shift;    /* mass index of a node minus node index */
 } NodeRun;
 
-INLINE NodeRun nodes_in_row(const RowLayout *rows, int i, int odd)
+INLINE NodeRun get_node_run(const RowLayout *rows, int i, int odd)
 {
     int first = (i + 1) * rows->pitch + odd * rows->odd_offset;
     int before = odd ? -rows->odd_offset : rows->odd_offset - 1;
     return (NodeRun){.first = first,
-                     .end = first + rows->count[odd],
-                     .next = rows->pitch,
-                     .before = before,
-                     .after = before + 1};
+                     .end = first + rows->column_count[odd],
+                     .to_next_row = rows->pitch,
+                     .to_column_before = before,
+                     .to_column_after = before + 1};
 }
 
 /* EACH_OF is a loop with counter e over independent nodes: no node changes what
@@ -111,8 +114,8 @@ INLINE Floats narrow_to_single(Doubles low, Doubles high)
 
 /* Computes to = factor (from - middle) in single precision.
  *   count  of numbers, a multiple of LANES */
-INLINE void narrow_array(const double *from, double factor, double middle,
-                         int count, float *to)
+INLINE void narrow_array_to_single(const double *from, double factor,
+                                   double middle, int count, float *to)
 {
     for (; count > 0; count -= LANES, from += LANES, to += LANES)
         EACH_FLOATS (LANES)
@@ -125,30 +128,31 @@ INLINE void narrow_array(const double *from, double factor, double middle,
  * index q + to, the spring q + numbers.  ROW_SPRINGS are the 2 springs in the
  * row, CROSS_SPRINGS the other 6, OWN_SPRINGS the 4 that start at the node. */
 #define ROW_SPRINGS(F, at)                                                     \
-    F(UP, (at).after, (at).shift)                                              \
-    F(UP, (at).before, (at).shift + (at).before)
+    F(UP, (at).to_column_after, (at).spring_shift)                             \
+    F(UP, (at).to_column_before, (at).spring_shift + (at).to_column_before)
 #define CROSS_SPRINGS(F, at)                                                   \
-    F(RIGHT, (at).next, (at).shift)                                            \
-    F(RIGHT, -(at).next, (at).shift_before - (at).next)                        \
-    F(DIAGONAL, (at).next + (at).after, (at).shift)                            \
-    F(DIAGONAL, (at).before - (at).next,                                       \
-      (at).shift_before + (at).before - (at).next)                             \
-    F(ANTIDIAGONAL, (at).next + (at).before, (at).shift)                       \
-    F(ANTIDIAGONAL, (at).after - (at).next,                                    \
-      (at).shift_before + (at).after - (at).next)
+    F(RIGHT, (at).to_next_row, (at).spring_shift)                              \
+    F(RIGHT, -(at).to_next_row, (at).spring_shift_before - (at).to_next_row)   \
+    F(DIAGONAL, (at).to_next_row + (at).to_column_after, (at).spring_shift)    \
+    F(DIAGONAL, (at).to_column_before - (at).to_next_row,                      \
+      (at).spring_shift_before + (at).to_column_before - (at).to_next_row)     \
+    F(ANTIDIAGONAL, (at).to_next_row + (at).to_column_before,                  \
+      (at).spring_shift)                                                       \
+    F(ANTIDIAGONAL, (at).to_column_after - (at).to_next_row,                   \
+      (at).spring_shift_before + (at).to_column_after - (at).to_next_row)
 #define ALL_SPRINGS(F, at) ROW_SPRINGS(F, at) CROSS_SPRINGS(F, at)
 #define OWN_SPRINGS(F, at)                                                     \
-    F(RIGHT, (at).next, (at).shift)                                            \
-    F(UP, (at).after, (at).shift)                                              \
-    F(DIAGONAL, (at).next + (at).after, (at).shift)                            \
-    F(ANTIDIAGONAL, (at).next + (at).before, (at).shift)
+    F(RIGHT, (at).to_next_row, (at).spring_shift)                              \
+    F(UP, (at).to_column_after, (at).spring_shift)                             \
+    F(DIAGONAL, (at).to_next_row + (at).to_column_after, (at).spring_shift)    \
+    F(ANTIDIAGONAL, (at).to_next_row + (at).to_column_before, (at).spring_shift)
 
 /* Returns the nodes in even or odd columns of row i, with the row's shifts. */
-INLINE NodeRun grid_nodes(const Grid *grid, int i, int odd)
+INLINE NodeRun grid_get_node_run(const Grid *grid, int i, int odd)
 {
-    NodeRun at = nodes_in_row(&grid->rows, i, odd);
-    at.shift = grid->spring_shift[i + 1];
-    at.shift_before = grid->spring_shift[i];
+    NodeRun at = get_node_run(&grid->rows, i, odd);
+    at.spring_shift = grid->spring_shift[i + 1];
+    at.spring_shift_before = grid->spring_shift[i];
     at.mass_shift = grid->mass_shift[i];
     return at;
 }
@@ -157,10 +161,11 @@ INLINE NodeRun grid_nodes(const Grid *grid, int i, int odd)
  * at.first on; EACH_NODE_OF also loops over their Doubles, with counter `e`. */
 #define EACH_RUN_OF(grid, band)                                                \
     for (int i = (band)*BAND_ROWS;                                             \
-         i < (band)*BAND_ROWS + BAND_ROWS && i < (grid).rows.nodes; i++)       \
+         i < (band)*BAND_ROWS + BAND_ROWS && i < (grid).rows.nodes_per_side;   \
+         i++)                                                                  \
         for (int odd = 0; odd < 2; odd++)                                      \
-            for (NodeRun at = grid_nodes(&(grid), i, odd); at.first < at.end;  \
-                 at.first += LANES)
+            for (NodeRun at = grid_get_node_run(&(grid), i, odd);              \
+                 at.first < at.end; at.first += LANES)
 #define EACH_NODE_OF(grid, band)                                               \
     EACH_RUN_OF (grid, band)                                                   \
         EACH_DOUBLES (NEXT(at, LANES))

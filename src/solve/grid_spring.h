@@ -20,7 +20,7 @@
                          ptrdiff_t to, ptrdiff_t at)                           \
     {                                                                          \
         const __typeof__(*grid->of_x) *x = grid->of_x;                         \
-        const __typeof__(*x) *y = x + grid->rows.plane;                        \
+        const __typeof__(*x) *y = x + grid->rows.plane_length;                 \
         Numbers dx = AT(x, q) - AT(x, q + to), dy = AT(y, q) - AT(y, q + to);  \
         Numbers d2 = dx * dx + dy * dy, c = AT(grid->of_c[kind], q + at);      \
         return (Type){dx, dy, d2, d2 - AT(grid->of_l2[kind], q + at), c};      \
@@ -79,10 +79,10 @@ INLINE void spring_line_polynomial(GridSpring s, Doubles ux, Doubles uy,
 /* ---- a node that moves alone ---- */
 
 /* Sums over a node's springs: gradient of E (GX, GY), unclamped Hessian (HXX,
- * HXY, HYY), c d (CDX, CDY), c (SUM_C), and negative f = c s (NEGATIVE).  The
- * Hessian is SUM_F I + 2 sum of c d d^T; SUM_F is the mass + sum of f. */
-enum { GX, GY, HXX, HXY, HYY, CDX, CDY, SUM_C, NEGATIVE, SUM_COUNT };
-enum { SUM_F = SUM_COUNT }; /* this sum is not stored in NodeSums */
+ * HXY, HYY), c d (CDX, CDY), c (SUM_C), and negative f = c s (SUM_NEGATIVE_F).
+ * The Hessian is SUM_F I + 2 sum of c d d^T; SUM_F is the mass + sum of f. */
+enum { GX, GY, HXX, HXY, HYY, CDX, CDY, SUM_C, SUM_NEGATIVE_F, SUM_COUNT };
+enum { SUM_F = SUM_COUNT }; /* no member of NodeSums */
 
 typedef float NodeSums[SUM_COUNT][LANES];
 
@@ -106,8 +106,8 @@ INLINE void add_spring(FloatSpring s, const Floats w[2],
     sum[GY] += f * wy;
     IN_ORDER(sum[GX], sum[GY]);
     sum[SUM_F] += f;
-    sum[NEGATIVE] += WHERE(f < 0, f);
-    IN_ORDER(sum[SUM_F], sum[NEGATIVE]);
+    sum[SUM_NEGATIVE_F] += WHERE(f < 0, f);
+    IN_ORDER(sum[SUM_F], sum[SUM_NEGATIVE_F]);
     sum[HXX] += fx * s.dx;
     sum[HXY] += fx * s.dy;
     sum[CDX] += fx;

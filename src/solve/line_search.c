@@ -15,10 +15,10 @@ Status line_search_backtrack(EnergyDifference difference, const void *function,
     return STATUS_LINE_SEARCH_LIMIT;
 }
 
-typedef struct SearchContext {
+typedef struct LineSearchContext {
     Newton *newton;
     LineEnergy line;
-} SearchContext;
+} LineSearchContext;
 
 /* Returns E(x + alpha p) - E(x), or 0 without a line search.  NaN: a term does
  * not allow the point x + alpha p, or rounding_confirms_change rejects the
@@ -26,13 +26,13 @@ typedef struct SearchContext {
  * finds that E rises. */
 static double step_energy_difference(const void *function, double alpha)
 {
-    const SearchContext *search = function;
+    const LineSearchContext *search = function;
     Newton *newton = search->newton;
     const Iterate *at = &newton->iterate;
     double *u = newton->u_trial, *x = newton->x_trial;
     bool searches = newton->settings.line_search == LINE_SEARCH_BACKTRACK;
     double change = line_energy_difference(&search->line, alpha);
-    newton->record.change = change;
+    newton->record.energy_change = change;
     if (searches && !(change <= 0))
         return change;
     for (int i = 0; i < 2 * newton->system->nodes; i++) {
@@ -48,7 +48,7 @@ static double step_energy_difference(const void *function, double alpha)
 Status find_step_length(Newton *newton)
 {
     NewtonRecord *record = &newton->record;
-    SearchContext search = {
+    LineSearchContext search = {
         newton, incremental_potential_prepare_line(&newton->iterate)};
     record->alpha = incremental_potential_max_step(&newton->iterate);
     record->slope = search.line.polynomial.q[0];
@@ -58,7 +58,7 @@ Status find_step_length(Newton *newton)
         record->trials = 0;
     if (!status)
         return STATUS_OK;
-    record->change = 0;
+    record->energy_change = 0;
     if (!isfinite(record->slope))
         return STATUS_NOT_FINITE;
     if (is_below_roundoff(newton, record->slope))

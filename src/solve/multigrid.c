@@ -21,9 +21,10 @@ static const double NEARBY = 0.05;
 static const double STALLS = 0.3, PACE = 0.01;
 
 /* If the first sweep of all tiles in a step lowers E by less than USELESS times
- * the last direction's decrease, tiles pause for TILE_PAUSE - 1 iterations. */
+ * the last direction's decrease, tiles pause for TILE_PAUSE_ITERATIONS - 1
+ * iterations. */
 static const double USELESS = 0.005;
-enum { TILE_PAUSE = 5 };
+enum { TILE_PAUSE_ITERATIONS = 5 };
 
 /* Number of iterations after which Newton takes over; most steps need ten. */
 enum { MAX_MG_ITERATIONS = 200 };
@@ -34,7 +35,7 @@ static const double SMALL_CHANGE = 1e-9;
 
 struct Multigrid {
     Grid grid;
-    VCycle cycle;
+    VCycle v_cycle;
     Tiles tiles;
     ArrayArena memory;       /* memory that holds all arrays */
     double *g, *p;           /* [2 planes] grad E and direction at x */
@@ -49,10 +50,10 @@ struct Multigrid {
     long direction_cycles;    /* number of V-cycles that computed p */
     double largest_change;    /* J s^2, most negative change of E in the step */
     Quartic line_E;           /* E(x + alpha p) - E(x), J s^2 */
-    unsigned version;         /* System.version that the grid was made for */
+    unsigned system_version;  /* System.version that the grid was made for */
     double weight;            /* s^2, weight of P that the grid was made for */
-    int tiles_rest_until;     /* iteration before which tiles do not relax */
-    bool has_relaxed;         /* tiles relaxed in the last update */
+    int tiles_pause_until;    /* iteration before which tiles do not relax */
+    bool has_relaxed_tiles;   /* tiles relaxed in the last update */
     bool change_was_hidden;   /* rounding hid the last iteration's change of E,
                                  and p_bound did not fall */
 };
@@ -65,13 +66,14 @@ Status multigrid_create(int segments, Multigrid **multigrid)
     for (int pass = 0; pass < 2 && !status; pass++) {
         double **vectors[] = {&mg->g, &mg->p, &mg->last_g, &mg->last_p};
         if (pass > 0)
-            status = memory_create(&mg->memory);
+            status = arena_allocate(&mg->memory);
         grid_lay_out(segments, &mg->memory, &mg->grid);
-        v_cycle_lay_out(&mg->grid, &mg->memory, &mg->cycle);
+        v_cycle_lay_out(&mg->grid, &mg->memory, &mg->v_cycle);
         tiles_lay_out(&mg->grid, &mg->memory, &mg->tiles);
         for (int i = 0; i < 4; i++)
-            *vectors[i] = memory_take_piece(
-                &mg->memory, 2 * (size_t)mg->grid.rows.plane * sizeof(double));
+            *vectors[i] = arena_take_piece(
+                &mg->memory,
+                2 * (size_t)mg->grid.rows.plane_length * sizeof(double));
     }
     if (status) {
         free(mg);
@@ -132,8 +134,8 @@ static Status multigrid_evaluate_gradient(Multigrid *mg)
 {
     mg->gradient_norm2 = grid_gradient(&mg->grid, mg->g);
     mg->last_p_bound = mg->p_bound;
-    mg->p_bound =
-        sqrt(2 / mg->grid.min_mass * mg->gradient_norm2) / mg->grid.length_unit;
+    mg->p_bound = sqrt(2 / mg->grid.min_mass * mg->gradient_norm2) /
+                  mg->grid.length_scale;
     return isfinite(mg->gradient_norm2) ? STATUS_OK : STATUS_NOT_FINITE;
 }
 
@@ -149,16 +151,17 @@ static Status multigrid_copy_problem(Newton *newton)
     if (status)
         return status;
     Multigrid *mg = newton->multigrid;
-    mg->has_relaxed = mg->change_was_hidden = mg->cycle.is_clamped = false;
+    mg->has_relaxed_tiles = mg->change_was_hidden = mg->v_cycle.is_clamped =
+        false;
     mg->largest_change = mg->p_size = 0;
-    mg->tiles_rest_until = 0;
+    mg->tiles_pause_until = 0;
     incremental_potential_absorb_pulls(at, m, u_tilde);
-    if (mg->weight != at->E.weight || mg->version != system->version) {
+    if (mg->weight != at->E.weight || mg->system_version != system->version) {
         grid_copy_system(&mg->grid, at, m);
-        v_cycle_copy_system(&mg->cycle);
+        v_cycle_copy_system(&mg->v_cycle);
     }
     mg->weight = at->E.weight;
-    mg->version = system->version;
+    mg->system_version = system->version;
     grid_copy_state(&mg->grid, at, u_tilde);
     mg->p_bound = mg->moved_since_setup = INFINITY;
     return multigrid_evaluate_gradient(mg);
@@ -169,9 +172,9 @@ static Status multigrid_copy_problem(Newton *newton)
 /* Chooses the clamped or the exact Hessian for the next directions. */
 static void multigrid_choose_hessian(Multigrid *mg, bool is_clamped)
 {
-    if (mg->cycle.is_clamped != is_clamped)
+    if (mg->v_cycle.is_clamped != is_clamped)
         mg->moved_since_setup = INFINITY;
-    mg->cycle.is_clamped = is_clamped;
+    mg->v_cycle.is_clamped = is_clamped;
 }
 
 /* Computes p = -H^-1 g up to a linear residual, and tests p. */
@@ -179,14 +182,14 @@ static void multigrid_compute_direction(Newton *newton)
 {
     Multigrid *mg = newton->multigrid;
     if (mg->moved_since_setup > NEARBY * newton->rounding.shortest_spring) {
-        mg->cycle.is_set_up = false;
+        mg->v_cycle.has_matrices = false;
         mg->moved_since_setup = 0;
     }
-    const double h = newton->settings.h * mg->grid.length_unit;
+    const double h = newton->settings.h * mg->grid.length_scale;
     const double longest = h * newton->tolerance;
-    const long cycles = mg->cycle.cycles;
+    const long cycles = mg->v_cycle.cycles;
     double largest;
-    if (v_cycle_solve(&mg->cycle, mg->g, mg->gradient_norm2, longest, mg->p,
+    if (v_cycle_solve(&mg->v_cycle, mg->g, mg->gradient_norm2, longest, mg->p,
                       &largest)) {
         double square = grid_linear_residual(&mg->grid, mg->g, mg->p);
         /* `largest` is rounded to single precision; the factor makes it an
@@ -195,8 +198,8 @@ static void multigrid_compute_direction(Newton *newton)
             &mg->grid, largest * (1 + FLT_EPSILON), square, longest);
     }
     newton->record.residual = largest / h;
-    mg->direction_cycles = mg->cycle.cycles - cycles;
-    newton->counters.cycles = mg->cycle.cycles;
+    mg->direction_cycles = mg->v_cycle.cycles - cycles;
+    newton->counters.v_cycles = mg->v_cycle.cycles;
 }
 
 static Status multigrid_find_direction(Newton *newton)
@@ -236,7 +239,7 @@ static void multigrid_compute_line_polynomial(Multigrid *mg)
 {
     grid_energy_quartic(&mg->grid, mg->p, mg->line_E.q);
     for (int i = 0; i < 4; i++)
-        mg->line_E.q[i] /= mg->grid.energy_unit;
+        mg->line_E.q[i] /= mg->grid.energy_scale;
 }
 
 /* Makes p conjugate to the direction before, unless tiles have relaxed since.
@@ -249,7 +252,7 @@ static void multigrid_search_line(Newton *newton, double last_size,
     Multigrid *mg = newton->multigrid;
     NewtonRecord *record = &newton->record;
     double beta = 0;
-    if (record->iteration > 0 && !mg->has_relaxed)
+    if (record->iteration > 0 && !mg->has_relaxed_tiles)
         beta = grid_make_conjugate(&mg->grid, mg->g, mg->last_g, mg->last_p,
                                    last_slope, mg->p);
     mg->p_size = record->residual * newton->settings.h + beta * last_size;
@@ -266,9 +269,9 @@ static Status multigrid_find_step_length(Newton *newton)
     Multigrid *mg = newton->multigrid;
     NewtonRecord *record = &newton->record;
     const double last_size = mg->p_size;
-    const double last_slope = mg->line_E.q[0] * mg->grid.energy_unit;
+    const double last_slope = mg->line_E.q[0] * mg->grid.energy_scale;
     multigrid_search_line(newton, last_size, last_slope);
-    if (!(record->alpha > 0) && !mg->cycle.is_clamped) {
+    if (!(record->alpha > 0) && !mg->v_cycle.is_clamped) {
         multigrid_choose_hessian(mg, true);
         multigrid_compute_direction(newton);
         multigrid_search_line(newton, last_size, last_slope);
@@ -277,7 +280,7 @@ static Status multigrid_find_step_length(Newton *newton)
         return STATUS_NOT_FINITE;
     if (!(record->alpha > 0))
         return STATUS_LINE_SEARCH_LIMIT;
-    record->change = quartic_value(&mg->line_E, record->alpha);
+    record->energy_change = quartic_value(&mg->line_E, record->alpha);
     return STATUS_OK;
 }
 
@@ -290,7 +293,7 @@ static Status multigrid_update_iterate(Newton *newton)
 {
     Multigrid *mg = newton->multigrid;
     NewtonRecord *record = &newton->record;
-    const double unit = mg->grid.energy_unit;
+    const double unit = mg->grid.energy_scale;
     const int tiles = mg->tiles.rows * mg->tiles.columns;
     double *g = mg->g, *p = mg->p;
     grid_add_step(&mg->grid, record->alpha, p);
@@ -300,22 +303,24 @@ static Status multigrid_update_iterate(Newton *newton)
         return STATUS_OK;
     const bool is_poor = mg->p_bound > STALLS * mg->last_p_bound &&
                          record->residual > SMALL_P * newton->tolerance;
-    const bool is_first = mg->tiles_rest_until == 0; /* no earlier poor p */
+    const bool is_first = mg->tiles_pause_until == 0; /* no earlier poor p */
     multigrid_choose_hessian(
         mg, (is_poor && !is_first) ||
-                (mg->cycle.is_clamped && mg->direction_cycles > 1));
-    mg->has_relaxed = is_poor && record->iteration >= mg->tiles_rest_until;
-    if (mg->has_relaxed) {
-        const double change = record->change * unit;
+                (mg->v_cycle.is_clamped && mg->direction_cycles > 1));
+    mg->has_relaxed_tiles =
+        is_poor && record->iteration >= mg->tiles_pause_until;
+    if (mg->has_relaxed_tiles) {
+        const double change = record->energy_change * unit;
         double first = tiles_relax(&mg->tiles, PACE * change / tiles, p);
         if (is_first)
-            mg->tiles_rest_until =
-                record->iteration + (first > USELESS * change ? TILE_PAUSE : 1);
+            mg->tiles_pause_until =
+                record->iteration +
+                (first > USELESS * change ? TILE_PAUSE_ITERATIONS : 1);
         multigrid_compute_line_polynomial(mg);
         double alpha = minimise_quartic(&mg->line_E, &(int){0});
         if (alpha > 0) { /* alpha is 0 after an overflow of floats */
             grid_add_step(&mg->grid, alpha, p);
-            record->change += quartic_value(&mg->line_E, alpha);
+            record->energy_change += quartic_value(&mg->line_E, alpha);
             mg->moved_since_setup = INFINITY;
         }
     }
@@ -335,8 +340,9 @@ static Status multigrid_test_iterate(Newton *newton, Status status)
     NewtonRecord *record = &newton->record;
     if (!mg)
         return status;
-    mg->largest_change = fmin(mg->largest_change, record->change);
-    bool small = fabs(record->change) <= SMALL_CHANGE * -mg->largest_change;
+    mg->largest_change = fmin(mg->largest_change, record->energy_change);
+    bool small =
+        fabs(record->energy_change) <= SMALL_CHANGE * -mg->largest_change;
     bool last = record->iteration + 1 >= newton_iteration_limit(newton);
     bool stuck = status != STATUS_OK || record->iteration >= MAX_MG_ITERATIONS;
     bool next_passes =
@@ -345,8 +351,8 @@ static Status multigrid_test_iterate(Newton *newton, Status status)
     bool is_tiny = mg->p_bound <= negligible_direction_size(newton);
     bool ends = newton->passes_test || (!stuck && (next_passes || is_tiny));
     if (ends && system_falls_freely(newton->system))
-        record->change +=
-            grid_correct_momentum(&mg->grid) / mg->grid.energy_unit;
+        record->energy_change +=
+            grid_correct_momentum(&mg->grid) / mg->grid.energy_scale;
     /* Only these cases need the iterate in newton->iterate. */
     if (ends || stuck || small || last || newton->settings.observer) {
         swap_iterates(newton);
@@ -354,7 +360,7 @@ static Status multigrid_test_iterate(Newton *newton, Status status)
     }
     const double turned =
         ends && newton->rounding.is_stiff ? turn_free_body(newton) : 0;
-    record->change += turned;
+    record->energy_change += turned;
     /* p_bound was computed before the body was turned, and is not valid if the
      * turn may move a node by more than half of tolerance times h. */
     bool overturns = !newton->passes_test &&
@@ -364,11 +370,11 @@ static Status multigrid_test_iterate(Newton *newton, Status status)
         return STATUS_OK;
     stuck = stuck || overturns;
     bool hidden = small && !(mg->p_bound < mg->last_p_bound) &&
-                  is_below_roundoff(newton, record->change);
+                  is_below_roundoff(newton, record->energy_change);
     if (stuck || (hidden && mg->change_was_hidden)) {
         newton->active_solver = SOLVER_NEWTON;
         newton->rounding.E = NAN;
-        newton->counters.handed_to_newton++;
+        newton->counters.newton_takeovers++;
     }
     mg->change_was_hidden = hidden;
     return last ? STATUS_ITERATION_LIMIT : STATUS_RUNNING;

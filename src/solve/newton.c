@@ -21,10 +21,10 @@ void newton_start(Newton *newton, const double *x_n, const double *u,
     newton->tolerance = tolerance;
     newton->status = STATUS_RUNNING;
     newton->record =
-        (NewtonRecord){.step_number = newton->step, .iteration = -1};
+        (NewtonRecord){.step_number = newton->step_number, .iteration = -1};
     newton->has_gradient = false;
-    newton->direction.moved_since_factor = INFINITY; /* no factor yet */
-    newton->clamps_left = 0;
+    newton->factored_hessian.moved_since_factor = INFINITY; /* no factor yet */
+    newton->clamped_iterations_left = 0;
     newton->change_sum = newton->change_abs_sum = 0;
     rounding_prepare(newton);
     newton->active_solver =
@@ -39,11 +39,11 @@ static Status update_iterate(Newton *newton)
         return STATUS_NOT_FINITE;
     if (newton->settings.line_search != LINE_SEARCH_NONE &&
         !energy_is_within_limit(newton, newton->u_trial, newton->x_trial)) {
-        newton->record.alpha = newton->record.change = 0;
+        newton->record.alpha = newton->record.energy_change = 0;
         return STATUS_ROUNDING_LIMIT;
     }
     swap_iterates(newton);
-    newton->direction.moved_since_factor +=
+    newton->factored_hessian.moved_since_factor +=
         newton->record.alpha * newton->record.residual * newton->settings.h;
     newton->rounding.E = newton->rounding.E_trial;
     newton->has_gradient = false;
@@ -60,7 +60,7 @@ static Status test_iterate(Newton *newton, Status status)
 {
     bool hidden = status == STATUS_ROUNDING_LIMIT;
     if (hidden || status == STATUS_OK)
-        newton->record.change += turn_free_body(newton);
+        newton->record.energy_change += turn_free_body(newton);
     if (newton->passes_test && (status == STATUS_OK || hidden))
         status = STATUS_OK;
     else if (status == STATUS_OK && next_direction_is_negligible(newton))
@@ -78,10 +78,10 @@ static Status test_iterate(Newton *newton, Status status)
     return status;
 }
 
-/* Adds the change of E in this minimisation to total_change: the sum of the
- * updates' changes, each exact along its line, or, if E was so high in between
- * that the sum has lost more digits, E at the end - E at the start. */
-static void book_energy_change(Newton *newton)
+/* Adds the change of E in this minimisation to total_energy_change: the sum of
+ * the updates' changes, each exact along its line, or, if E was so high in
+ * between that the sum has lost more digits, E at the end - E at the start. */
+static void add_energy_change(Newton *newton)
 {
     const Iterate *at = &newton->iterate;
     const double first = newton->rounding.start_energy;
@@ -91,8 +91,8 @@ static void book_energy_change(Newton *newton)
         if (newton->change_abs_sum > fabs(first) + fabs(last))
             change = last - first;
     }
-    newton->total_change += change;
-    newton->counters.indefinite_ends +=
+    newton->total_energy_change += change;
+    newton->counters.indefinite_convergences +=
         newton->status == STATUS_OK && newton->record.negative_pivots > 0;
 }
 
@@ -121,7 +121,7 @@ Status newton_minimise(Newton *newton)
                                          ? &multigrid_phases
                                          : &newton_phases;
         double start = clock_now();
-        *record = (NewtonRecord){.step_number = newton->step,
+        *record = (NewtonRecord){.step_number = newton->step_number,
                                  .iteration = record->iteration + 1,
                                  .solver = newton->active_solver};
 
@@ -134,20 +134,20 @@ Status newton_minimise(Newton *newton)
 
         /* Update x */
         if (status == STATUS_OK)
-            status = phases->update(newton);
+            status = phases->update_iterate(newton);
 
         /* Decide whether the loop ends; find_direction has tested p */
         record->status = newton->status =
             phases->test_convergence(newton, status);
 
-        newton->change_sum += record->change;
-        newton->change_abs_sum += fabs(record->change);
+        newton->change_sum += record->energy_change;
+        newton->change_abs_sum += fabs(record->energy_change);
         record->seconds = clock_now() - start;
         pauses = newton->settings.observer &&
                  !newton->settings.observer(newton->settings.user_data, record);
     }
     if (newton->status != STATUS_RUNNING)
-        book_energy_change(newton);
+        add_energy_change(newton);
     return newton->status;
 }
 
@@ -156,7 +156,7 @@ Status newton_create(const System *system, const NewtonSettings *settings,
 {
     *newton = (Newton){.settings = *settings, .system = system};
     size_t size = 2 * (size_t)system->nodes;
-    SearchDirection *direction = &newton->direction;
+    FactoredHessian *direction = &newton->factored_hessian;
     double *next = newton->memory = calloc(12 * size, sizeof *next);
     double **array[] = {
         &newton->iterate.u, &newton->iterate.x, &newton->iterate.g,
@@ -172,7 +172,7 @@ void newton_free(Newton *newton)
 {
     if (!newton)
         return;
-    direction_free_matrix(&newton->direction);
+    direction_free_matrix(&newton->factored_hessian);
     multigrid_free(newton->multigrid);
     free(newton->memory);
     *newton = (Newton){0};

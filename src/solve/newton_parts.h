@@ -19,7 +19,7 @@ typedef struct NewtonPhases {
     Status (*find_step_length)(Newton *newton);
     /* Adds alpha p to the iterate (u and x); multigrid may also relax tiles.
      * Returns OK, NOT_FINITE, ROUNDING_LIMIT. */
-    Status (*update)(Newton *newton);
+    Status (*update_iterate)(Newton *newton);
     /* Turns a free body (turn_free_body), and decides whether the loop ends.
      *   status  in, result of the phases before
      * Returns RUNNING, OK, or how the minimisation failed. */
@@ -40,7 +40,7 @@ static inline void swap_iterates(Newton *newton)
 /* ---- direction.c: gradient, Hessian, search direction (slide: search_dir) */
 
 /* Frees the Hessian and its factor.  The next factorisation makes new ones. */
-void direction_free_matrix(SearchDirection *direction);
+void direction_free_matrix(FactoredHessian *direction);
 
 Status find_direction(Newton *newton);
 

@@ -5,7 +5,7 @@
 #include <math.h>
 
 /* After this many iterations without a smaller residual rounding is tested. */
-enum { STAGNANT_ITERATIONS = 20 };
+enum { MIN_STAGNANT_ITERATIONS = 20 };
 
 /* Without a line search updates may go round in circles.  After this many
  * iterations without a smaller residual the loop ends.  (Of 1100 steps with
@@ -41,7 +41,7 @@ void rounding_prepare(Newton *newton)
         for (int s = 0; s < system->springs; s++)
             l2 = fmin(l2, system->l2[s]);
         rounding->shortest_spring = sqrt(l2);
-        rounding->max_curvature = system_curvature_bound(system);
+        rounding->max_curvature = system_curvature_estimate(system);
     }
     rounding->best_residual = INFINITY;
     rounding->stagnant_iterations = 0;
@@ -71,7 +71,8 @@ bool is_below_roundoff(const Newton *newton, double change)
 static double sample_coordinate_rounding(Newton *newton, const double *u,
                                          const double *x, double E)
 {
-    double *near_u = newton->direction.r, *near_x = newton->direction.b;
+    double *near_u = newton->factored_hessian.r,
+           *near_x = newton->factored_hessian.b;
     for (int i = 0; i < 2 * newton->system->nodes; i++) {
         double part = 16 * (fmod(0.6180339887 * (i + 1), 1) - 0.5);
         near_u[i] = u[i] * (1 + part * DBL_EPSILON);
@@ -95,7 +96,7 @@ bool rounding_confirms_change(Newton *newton)
     if (isnan(rounding->E))
         rounding->E = incremental_potential_value(&at->E, at->u, at->x);
     double E = rounding->E_trial = incremental_potential_value(&at->E, u, x);
-    double above = E - rounding->E - newton->record.change;
+    double above = E - rounding->E - newton->record.energy_change;
     double agreed = AGREED * (rounding->E + E);
     if (above <= agreed)
         return true;
@@ -121,8 +122,8 @@ Status rounding_test_stagnation(Newton *newton)
         return STATUS_RUNNING;
     }
     rounding->stagnant_iterations++;
-    if (rounding->stagnant_iterations >= STAGNANT_ITERATIONS &&
-        is_below_roundoff(newton, newton->record.change))
+    if (rounding->stagnant_iterations >= MIN_STAGNANT_ITERATIONS &&
+        is_below_roundoff(newton, newton->record.energy_change))
         return STATUS_ROUNDING_LIMIT;
     return rounding->stagnant_iterations >= MAX_CIRCLING_ITERATIONS &&
                    newton->settings.line_search == LINE_SEARCH_NONE

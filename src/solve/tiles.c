@@ -33,17 +33,17 @@ enum { MAX_TILE_ROUNDS = 10000 };
 void tiles_lay_out(const Grid *grid, ArrayArena *memory, Tiles *tiles)
 {
     int high = grid->segments / TILE_ROWS + 1;
-    int wide = (grid->rows.count[0] + LANES - 1) / LANES;
+    int wide = (grid->rows.column_count[0] + LANES - 1) / LANES;
     size_t count = (size_t)(high * wide + LANES - 1) / LANES * LANES;
     *tiles = (Tiles){.grid = grid, .rows = high, .columns = wide};
-    tiles->activity =
-        memory_take_piece(memory, count * sizeof *tiles->activity);
+    tiles->activity = arena_take_piece(memory, count * sizeof *tiles->activity);
     tiles->last_change =
-        memory_take_piece(memory, count * sizeof *tiles->last_change);
-    tiles->active = memory_take_piece(memory, count * sizeof *tiles->active);
-    size_t both = 2 * (size_t)grid->rows.plane * sizeof(float);
-    tiles->u = memory_take_piece(memory, both);
-    tiles->start_g = memory_take_piece(memory, both);
+        arena_take_piece(memory, count * sizeof *tiles->last_change);
+    tiles->active_tiles =
+        arena_take_piece(memory, count * sizeof *tiles->active_tiles);
+    size_t both = 2 * (size_t)grid->rows.plane_length * sizeof(float);
+    tiles->u = arena_take_piece(memory, both);
+    tiles->start_g = arena_take_piece(memory, both);
 }
 
 /* Tries three step lengths a, which change E by a q[0] + ... + a^4 q[3].
@@ -68,7 +68,7 @@ INLINE void compute_spring_sums(const Tiles *tiles, NodeRun at,
                                 bool has_tiny_moves, NodeSums of)
 {
     const Grid *grid = tiles->grid;
-    const ptrdiff_t plane = grid->rows.plane;
+    const ptrdiff_t plane = grid->rows.plane_length;
     const float *const ux = tiles->u, *const uy = ux + plane;
     EACH_FLOATS (NEXT(at, LANES)) {
         const ptrdiff_t q = at.first + e;
@@ -95,14 +95,14 @@ INLINE void relax_nodes(const Tiles *tiles, NodeRun at, bool has_tiny_moves,
                         double *sum)
 {
     const Grid *grid = tiles->grid;
-    const ptrdiff_t plane = grid->rows.plane;
+    const ptrdiff_t plane = grid->rows.plane_length;
     float *const x = grid->float_x, *const y = x + plane;
     float *const ux = tiles->u, *const uy = ux + plane;
     NodeSums of;
     compute_spring_sums(tiles, at, has_tiny_moves, of);
     EACH_OF (NEXT(at, LANES)) {
         const ptrdiff_t q = at.first + e;
-        float gx = of[GX][e], gy = of[GY][e], negative = of[NEGATIVE][e];
+        float gx = of[GX][e], gy = of[GY][e], negative = of[SUM_NEGATIVE_F][e];
         float A = of[HXX][e], B = of[HXY][e], C = of[HYY][e], trace = A + C;
         bool good = (trace > 0) & (A * C - B * B > DEFINITE * trace * trace);
         float a = good ? A : A - negative, d = good ? C : C - negative;
@@ -132,9 +132,9 @@ INLINE double relax_tile(const Tiles *tiles, int tile, bool has_tiny_moves)
     double sum[LANES] = {0};
     for (int colour = 0; colour < 4; colour++)
         for (int i = top + colour / 2; i < top + TILE_ROWS; i += 2) {
-            if (i >= grid.rows.nodes)
+            if (i >= grid.rows.nodes_per_side)
                 break;
-            NodeRun at = grid_nodes(&grid, i, colour % 2);
+            NodeRun at = grid_get_node_run(&grid, i, colour % 2);
             at.first += column * LANES;
             if (at.first < at.end)
                 relax_nodes(tiles, at, has_tiny_moves, sum);
@@ -156,16 +156,16 @@ FAST static double sweep_tiles(Tiles *tiles, double activity, int *visits)
         for (int i = colour / 2; i < high; i += 2)
             for (int j = colour % 2; j < wide; j += 2)
                 if (tiles->activity[i * wide + j] <= activity)
-                    tiles->active[count++] = i * wide + j;
+                    tiles->active_tiles[count++] = i * wide + j;
         for (int t = 0; t < count; t++) {
             /* relax_tile is compiled for each value of the flag: faster. */
-            int tile = tiles->active[t];
+            int tile = tiles->active_tiles[t];
             tiles->last_change[tile] = tiles->has_tiny_moves
                                            ? relax_tile(tiles, tile, true)
                                            : relax_tile(tiles, tile, false);
         }
         for (int t = 0; t < count; t++) { /* neighbours become active */
-            int tile = tiles->active[t], i = tile / wide, j = tile % wide;
+            int tile = tiles->active_tiles[t], i = tile / wide, j = tile % wide;
             for (int a = i > 0 ? i - 1 : 0; a <= i + 1 && a < high; a++)
                 for (int b = j > 0 ? j - 1 : 0; b <= j + 1 && b < wide; b++)
                     tiles->activity[a * wide + b] +=
@@ -184,14 +184,14 @@ FAST static double sweep_tiles(Tiles *tiles, double activity, int *visits)
 INLINE void begin_relaxation(const Tiles *tiles, double *g)
 {
     const Grid *grid = tiles->grid;
-    const ptrdiff_t plane = grid->rows.plane;
+    const ptrdiff_t plane = grid->rows.plane_length;
     float *const start_g = tiles->start_g;
-    grid_narrow_x(grid);
+    grid_update_float_x(grid);
     memset(tiles->u, 0, 2 * (size_t)plane * sizeof(float));
     if (tiles->has_tiny_moves)
         grid_gradient(grid, g);
-    narrow_array(tiles->has_tiny_moves ? g : grid->from_target, 1, 0, 2 * plane,
-                 start_g);
+    narrow_array_to_single(tiles->has_tiny_moves ? g : grid->target_offset, 1,
+                           0, 2 * plane, start_g);
     for (int c = 0; c < 2 && !tiles->has_tiny_moves; c++)
         EACH_OF (plane)
             start_g[c * plane + e] *= grid->float_m[e];
@@ -217,7 +217,7 @@ FAST double tiles_relax(Tiles *tiles, double pace, double *p)
     int count = tiles->rows * tiles->columns, visits;
     double float_x_error = tiles->grid->segments * FLT_EPSILON;
     tiles->has_tiny_moves =
-        pace > -tiles->grid->max_stiffness * float_x_error * float_x_error;
+        pace > -tiles->grid->max_node_stiffness * float_x_error * float_x_error;
     begin_relaxation(tiles, p);
     for (int t = 0; t < count; t++)
         tiles->activity[t] = 0;
@@ -233,7 +233,7 @@ FAST double tiles_relax(Tiles *tiles, double pace, double *p)
         sweeps += visits;
         pays = lowered < fmin(pace, WORTH * change / sweeps) * visits;
     }
-    EACH_OF (2 * tiles->grid->rows.plane)
+    EACH_OF (2 * tiles->grid->rows.plane_length)
         p[e] = (double)tiles->u[e];
     return first_change;
 }

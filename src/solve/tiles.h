@@ -23,7 +23,7 @@ typedef struct Tiles {
     int rows, columns;   /* number of rows and of columns of tiles */
     double *activity;    /* [tiles] change of E that a sweep may bring, < 0 */
     double *last_change; /* [tiles] change of E by the tile's last sweep */
-    int *active;         /* [tiles] indices of the tiles that are swept next */
+    int *active_tiles;   /* [tiles] indices of the tiles that are swept next */
     bool has_tiny_moves; /* nodes move by less than the rounding of
                             Grid.float_x, which then stays unchanged */
     float *u;            /* [2 planes] displacements since the start */

@@ -54,7 +54,8 @@ double turn_free_body(Newton *newton)
     if (!(change < 0))
         return 0;
     double sine = across / both, cosine_less_1 = change / both;
-    double *new_u = newton->direction.r, *new_x = newton->direction.b;
+    double *new_u = newton->factored_hessian.r,
+           *new_x = newton->factored_hessian.b;
     for (int i = 0; i < size; i++) {
         int other = i ^ 1;
         double arm = x[i] - centre[i % 2], side = x[other] - centre[other % 2];
@@ -66,7 +67,7 @@ double turn_free_body(Newton *newton)
     memcpy(u, new_u, (size_t)size * sizeof *u);
     memcpy(x, new_x, (size_t)size * sizeof *x);
     newton->has_gradient = false;
-    newton->direction.moved_since_factor = INFINITY;
+    newton->factored_hessian.moved_since_factor = INFINITY;
     newton->rounding.E = NAN;
     return change;
 }

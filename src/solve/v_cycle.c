@@ -8,31 +8,31 @@
 #include "solve/grid_spring.h"
 
 /* Largest number of nodes along a side of the coarsest level. */
-enum { COARSEST_NODES = 3 };
+enum { COARSEST_SIDE_NODES = 3 };
 
 void v_cycle_lay_out(const Grid *grid, ArrayArena *memory, VCycle *cycle)
 {
     Level *level = cycle->level;
     *cycle = (VCycle){.grid = grid};
-    for (int nodes = grid->rows.nodes, more = 1; more; level++) {
-        more = nodes > COARSEST_NODES;
+    for (int nodes = grid->rows.nodes_per_side, more = 1; more; level++) {
+        more = nodes > COARSEST_SIDE_NODES;
         level->rows = lay_out_rows(nodes);
         nodes = nodes / 2 + 1;
-        size_t bytes = (size_t)level->rows.plane * sizeof(float);
+        size_t bytes = (size_t)level->rows.plane_length * sizeof(float);
         for (int i = 0; i < 3 * SPRING_KINDS; i++)
-            level->K[i / 3][i % 3] = memory_take_piece(memory, bytes);
+            level->K[i / 3][i % 3] = arena_take_piece(memory, bytes);
         for (int i = 0; i < 3; i++)
-            level->D[i] = memory_take_piece(memory, bytes);
+            level->D[i] = arena_take_piece(memory, bytes);
         level->m = level == cycle->level ? grid->float_m
-                                         : memory_take_piece(memory, bytes);
+                                         : arena_take_piece(memory, bytes);
         float **vectors[] = {&level->x, &level->b, &level->w};
         for (int i = 0; i < 3; i++)
-            *vectors[i] = memory_take_piece(memory, 2 * bytes);
+            *vectors[i] = arena_take_piece(memory, 2 * bytes);
     }
-    size_t bytes = 2 * (size_t)grid->rows.plane * sizeof(float);
+    size_t bytes = 2 * (size_t)grid->rows.plane_length * sizeof(float);
     float **vectors[] = {&cycle->p, &cycle->d, &cycle->Ad};
     for (int i = 0; i < 3; i++)
-        *vectors[i] = memory_take_piece(memory, bytes);
+        *vectors[i] = arena_take_piece(memory, bytes);
 }
 
 /* ---- loops in stages ----
@@ -48,9 +48,9 @@ INLINE bool row_exists(int rows, int i)
 
 /* Number of a level's rows.  If a coarser level exists, a row outside of the
  * grid makes an even number odd: the last row is then a coarse row. */
-INLINE int rows_to_coarsen(const Level *level)
+INLINE int count_rows_to_coarsen(const Level *level)
 {
-    int nodes = level->rows.nodes;
+    int nodes = level->rows.nodes_per_side;
     return level->coarse ? nodes | 1 : nodes;
 }
 
@@ -62,7 +62,7 @@ INLINE void compute_tensor_row(const VCycle *cycle, int i, bool is_clamped)
     const Grid grid = *cycle->grid;
     const Level level = cycle->level[0];
     for (int odd = 0; odd < 2; odd++)
-        for (NodeRun at = grid_nodes(&grid, i, odd); at.first < at.end;
+        for (NodeRun at = grid_get_node_run(&grid, i, odd); at.first < at.end;
              at.first += LANES) {
 #define ADD(kind, to, numbers)                                                 \
     EACH_FLOATS (NEXT(at, LANES)) {                                            \
@@ -83,7 +83,7 @@ INLINE void invert_diagonal_row(const Level *of, int i)
 {
     const Level level = *of;
     for (int odd = 0; odd < 2; odd++)
-        for (NodeRun at = nodes_in_row(&level.rows, i, odd); at.first < at.end;
+        for (NodeRun at = get_node_run(&level.rows, i, odd); at.first < at.end;
              at.first += LANES)
             EACH_OF (NEXT(at, LANES)) {
                 const ptrdiff_t q = at.first + e;
@@ -128,7 +128,7 @@ INLINE void split_even_odd(const RowLayout *rows, int I, int first,
 INLINE void coarsen_row(const Level *level, const Level *coarse, int I)
 {
     const RowLayout fine = level->rows, rows = coarse->rows;
-    for (int first = 0; first < rows.nodes; first += LANES)
+    for (int first = 0; first < rows.nodes_per_side; first += LANES)
         for (int t = 0; t < 3; t++) {
             float line[LANES];
 #define MEAN(kind, sum)                                                        \
@@ -155,7 +155,7 @@ INLINE void restrict_row(const RowLayout *finer, const RowLayout *coarse, int I,
                          const float *from, float *to)
 {
     const RowLayout fine = *finer;
-    for (int first = 0; first < coarse->nodes; first += LANES) {
+    for (int first = 0; first < coarse->nodes_per_side; first += LANES) {
         float line[LANES];
         FINER(from);
         EACH_OF (LANES)
@@ -171,14 +171,14 @@ INLINE void restrict_row(const RowLayout *finer, const RowLayout *coarse, int I,
 INLINE void compute_matrix_rows(const VCycle *cycle, const Level *level, int i)
 {
     for (int row = i; row < i + 2; row++)
-        if (row_exists(level->rows.nodes, row)) {
+        if (row_exists(level->rows.nodes_per_side, row)) {
             if (level == cycle->level && cycle->is_clamped)
                 compute_tensor_row(cycle, row, true);
             else if (level == cycle->level)
                 compute_tensor_row(cycle, row, false);
             invert_diagonal_row(level, row);
         }
-    if (level->coarse && row_exists(rows_to_coarsen(level), i))
+    if (level->coarse && row_exists(count_rows_to_coarsen(level), i))
         coarsen_row(level, level->coarse, i / 2);
 }
 
@@ -187,13 +187,14 @@ void v_cycle_copy_system(VCycle *cycle)
     const Grid *grid = cycle->grid;
     double m = grid->min_mass;
     Level *l = cycle->level;
-    for (; l->rows.nodes > COARSEST_NODES && grid->max_stiffness > m;
+    for (; l->rows.nodes_per_side > COARSEST_SIDE_NODES &&
+           grid->max_node_stiffness > m;
          l++, m *= 4) {
         const Level *coarse = l->coarse = l + 1;
-        int last = l->rows.nodes - 1;
-        for (int I = 0; I < coarse->rows.nodes; I++) {
+        int last = l->rows.nodes_per_side - 1;
+        for (int I = 0; I < coarse->rows.nodes_per_side; I++) {
             restrict_row(&l->rows, &coarse->rows, I, l->m, coarse->m);
-            for (int J = 0; J < coarse->rows.nodes; J++) {
+            for (int J = 0; J < coarse->rows.nodes_per_side; J++) {
                 int i = 2 * I < last ? 2 * I : last;
                 int j = 2 * J < last ? 2 * J : last;
                 if (l->m[node_index(&l->rows, i, j)] == 0)
@@ -223,16 +224,16 @@ INLINE void sweep_row(const Level *of, int i, int colour, PassKind result,
                       float *xb, float *xw)
 {
     const Level level = *of;
-    const ptrdiff_t plane = level.rows.plane;
+    const ptrdiff_t plane = level.rows.plane_length;
     const bool from_0 = result == PASS_FIRST || result == PASS_RESIDUAL;
     const bool along = !from_0 || (colour % 2 != 0) == (result == PASS_FIRST);
     const bool across = !from_0 || (colour / 2 != 0) == (result == PASS_FIRST);
     float *const x = level.x, *const y = x + plane;
     float *const wx = level.w, *const wy = wx + plane;
     const float *const bx = level.b, *const by = bx + plane;
-    if (!row_exists(level.rows.nodes, i))
+    if (!row_exists(level.rows.nodes_per_side, i))
         return;
-    for (NodeRun at = nodes_in_row(&level.rows, i, colour % 2);
+    for (NodeRun at = get_node_run(&level.rows, i, colour % 2);
          at.first < at.end; at.first += LANES)
         EACH_FLOATS (NEXT(at, LANES)) {
             const ptrdiff_t q = at.first + e;
@@ -294,7 +295,7 @@ INLINE void prolong_row(const Level *level, const RowLayout *coarse, int i,
     const int odd_offset = coarse->odd_offset, at = node_index(&fine, i, 0);
     float *const even = to + at, *const odd = even + fine.odd_offset;
     const float *const D = level->D[0] + at, *const odd_D = D + fine.odd_offset;
-    for (int first = 0; 2 * first < fine.count[0]; first += LANES / 2)
+    for (int first = 0; 2 * first < fine.column_count[0]; first += LANES / 2)
         EACH_OF (AT_MOST(LANES / 2, fine.odd_offset / 2 - first)) {
             const int J = first + e;
             float here = 0.5f * (a[J] + z[J]);
@@ -312,9 +313,9 @@ INLINE void prolong_row(const Level *level, const RowLayout *coarse, int i,
  * come before odd rows, and in each row even columns before odd columns. */
 FAST static void descend_level(const VCycle *cycle, const Level *l)
 {
-    const int rows = rows_to_coarsen(l);
+    const int rows = count_rows_to_coarsen(l);
     for (int i = 0; i < rows + 4; i += 2) {
-        if (!cycle->is_set_up)
+        if (!cycle->has_matrices)
             compute_matrix_rows(cycle, l, i);
         sweep_row(l, i, 0, PASS_FIRST, NULL, NULL);
         sweep_row(l, i, 1, PASS_FIRST, NULL, NULL);
@@ -326,8 +327,8 @@ FAST static void descend_level(const VCycle *cycle, const Level *l)
         sweep_row(l, i - 2, 1, PASS_RESIDUAL, NULL, NULL);
         for (int c = 0; c < 2 && l->coarse && row_exists(rows, i - 4); c++)
             restrict_row(&l->rows, &l->coarse->rows, i / 2 - 2,
-                         l->w + c * l->rows.plane,
-                         l->coarse->b + c * l->coarse->rows.plane);
+                         l->w + c * l->rows.plane_length,
+                         l->coarse->b + c * l->coarse->rows.plane_length);
     }
 }
 
@@ -335,13 +336,13 @@ FAST static void descend_level(const VCycle *cycle, const Level *l)
  * the opposite order. */
 FAST static void ascend_level(const Level *l)
 {
-    const int nodes = l->rows.nodes;
+    const int nodes = l->rows.nodes_per_side;
     for (int i = 0; i < nodes + 2; i += 2) {
         for (int row = i; l->coarse && row < i + 2 && row < nodes; row++)
             for (int c = 0; c < 2; c++)
                 prolong_row(l, &l->coarse->rows, row,
-                            l->coarse->x + c * l->coarse->rows.plane,
-                            l->x + c * l->rows.plane);
+                            l->coarse->x + c * l->coarse->rows.plane_length,
+                            l->x + c * l->rows.plane_length);
         sweep_row(l, i - 1, 3, PASS_SMOOTH, NULL, NULL);
         sweep_row(l, i - 1, 2, PASS_SMOOTH, NULL, NULL);
         sweep_row(l, i - 2, 1, PASS_SMOOTH, NULL, NULL);
@@ -363,7 +364,7 @@ static void run_v_cycle(const VCycle *cycle, const Level *level)
 FAST static void multiply_by_level_matrix(const Level *level, double *sums)
 {
     sums[0] = sums[1] = 0;
-    for (int i = 0; i < level->rows.nodes; i++) {
+    for (int i = 0; i < level->rows.nodes_per_side; i++) {
         float xb[LANES] = {0}, xw[LANES] = {0};
         double row[2] = {0, 0};
         sweep_row(level, i, 0, PASS_PRODUCT, xb, xw);
@@ -388,10 +389,10 @@ FAST static double advance_conjugate_gradients(const VCycle *of, float alpha,
     const VCycle cycle = *of;
     const Grid grid = *cycle.grid;
     const Level level = cycle.level[0];
-    const ptrdiff_t plane = grid.rows.plane;
+    const ptrdiff_t plane = grid.rows.plane_length;
     double total = 0;
     float square[LANES];
-    for (int band = 0; band < grid.bands; band++) {
+    for (int band = 0; band < grid.band_count; band++) {
         double sum[LANES] = {0};
         EACH_RUN_OF (grid, band) {
             EACH_OF (NEXT(at, LANES)) {
@@ -461,18 +462,18 @@ FAST bool v_cycle_solve(VCycle *cycle, const double *g, double square,
                         double longest, double *p, double *largest)
 {
     const Grid *grid = cycle->grid;
-    const int plane = grid->rows.plane, numbers = 2 * plane;
+    const int plane = grid->rows.plane_length, numbers = 2 * plane;
     const double unit = power_of_two_scale(sqrt(square * grid->min_mass));
     const float *found = cycle->level->x;
     double last = 0, alpha = 1;
     bool passes = false;
-    if (!cycle->is_set_up)
-        grid_narrow_x(grid);
-    narrow_array(g, -unit, 0, numbers, cycle->level->b);
+    if (!cycle->has_matrices)
+        grid_update_float_x(grid);
+    narrow_array_to_single(g, -unit, 0, numbers, cycle->level->b);
     for (int i = 0; i < MAX_CYCLES && !passes; i++) {
         double sums[2];
         run_v_cycle(cycle, cycle->level);
-        cycle->is_set_up = true;
+        cycle->has_matrices = true;
         cycle->cycles++;
         if (i == 0) {
             *largest = find_largest_node_norm(found, plane) / unit;
@@ -481,7 +482,7 @@ FAST bool v_cycle_solve(VCycle *cycle, const double *g, double square,
                 if (*largest > SMALL_P * longest || bound <= FAR * longest)
                     break;
                 cycle->is_clamped = true;
-                cycle->is_set_up = false;
+                cycle->has_matrices = false;
                 return v_cycle_solve(cycle, g, square, longest, p, largest);
             }
             found = cycle->p;

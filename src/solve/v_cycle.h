@@ -43,8 +43,8 @@ typedef struct VCycle {
     Level level[MAX_LEVELS]; /* the finest level first */
     float *p, *d, *Ad;       /* [2 planes] p, d, A d of conjugate gradients */
     bool is_clamped;         /* negative eigenvalues of the tensors become 0 */
-    bool is_set_up; /* has its matrices; false: the next cycle makes them */
-    long cycles;    /* number of V-cycles so far */
+    bool has_matrices; /* has its matrices; false: the next cycle makes them */
+    long cycles;       /* number of V-cycles so far */
 } VCycle;
 
 void v_cycle_lay_out(const Grid *grid, ArrayArena *memory, VCycle *cycle);

@@ -33,7 +33,8 @@ enum { MAX_HAND_HALVINGS = 6, MAX_HAND_PARTS = 8 };
 static bool obstacle_moves(const Contact *contact, int k)
 {
     const double *v = contact->obstacle[k].v;
-    bool stopped = contact->hand.is_blocked && k == contact->hand.obstacle;
+    bool stopped =
+        contact->hand.is_blocked && k == contact->hand.obstacle_index;
     return !stopped && (v[0] != 0 || v[1] != 0);
 }
 
@@ -43,9 +44,9 @@ bool prescribed_begin_step(TimeIntegrator *run)
     bool any = run->system->pin_v != NULL;
     run->moved_fraction = 0;
     run->remaining_fraction = 1;
-    run->parts_made = 0;
+    run->motion_parts_made = 0;
     run->is_blocked = false;
-    run->updates_before = run->newton ? run->newton->counters.updates : 0;
+    run->updates_before_step = run->newton ? run->newton->counters.updates : 0;
     for (int k = 0; contact && k < contact->obstacle_count; k++) {
         Obstacle *obstacle = &contact->obstacle[k];
         const ObstacleMotion *motion = &obstacle->motion;
@@ -117,7 +118,8 @@ static bool try_prescribed_motion(TimeIntegrator *run, double part)
     double *u = run->new_x, *x = run->new_v, way = part * run->h;
     double *before = run->newton->x_trial, *p = run->newton->u_trial;
     for (int i = 0; i < 2 * system->nodes; i++) {
-        u[i] = p[i] = run->parts_made == 0 ? 0 : run->newton->iterate.u[i];
+        u[i] = p[i] =
+            run->motion_parts_made == 0 ? 0 : run->newton->iterate.u[i];
         before[i] = x_n[i] + u[i];
         if (system->pin_v && system->pinned[i / 2])
             u[i] += way * system->pin_v[i];
@@ -146,7 +148,8 @@ static bool try_prescribed_motion(TimeIntegrator *run, double part)
 static double make_longest_motion(TimeIntegrator *run, double part,
                                   int halvings, int parts)
 {
-    for (int i = 0; i < halvings && run->parts_made < parts; i++, part /= 2)
+    for (int i = 0; i < halvings && run->motion_parts_made < parts;
+         i++, part /= 2)
         if (try_prescribed_motion(run, part))
             return part;
     return 0;
@@ -157,11 +160,12 @@ void prescribed_begin_part(TimeIntegrator *run)
     Contact *contact = get_contact(run->system);
     double part = 0;
     if (contact && contact->hand.is_held &&
-        obstacle_moves(contact, contact->hand.obstacle)) {
-        part = make_longest_motion(
-            run,
-            fmin(run->remaining_fraction, push_max_fraction(contact, run->h)),
-            MAX_HAND_HALVINGS, MAX_HAND_PARTS);
+        obstacle_moves(contact, contact->hand.obstacle_index)) {
+        part =
+            make_longest_motion(run,
+                                fmin(run->remaining_fraction,
+                                     push_max_step_fraction(contact, run->h)),
+                                MAX_HAND_HALVINGS, MAX_HAND_PARTS);
         contact->hand.is_blocked = part == 0;
         contact->hand.moving_fraction = run->moved_fraction;
     }
@@ -177,7 +181,7 @@ void prescribed_begin_part(TimeIntegrator *run)
     else
         run->moved_fraction += part;
     run->remaining_fraction = part == 0 ? 0 : run->remaining_fraction - part;
-    run->parts_made++;
+    run->motion_parts_made++;
     bool guess = run->remaining_fraction > 0;
     double tolerance = run->newton->settings.tolerance;
     newton_start(run->newton, run->x, run->new_x, run->weight,
@@ -188,7 +192,7 @@ void prescribed_begin_part(TimeIntegrator *run)
 static void report_motion_end(const Newton *newton, Status status)
 {
     const NewtonSettings *settings = &newton->settings;
-    const NewtonRecord end = {.step_number = newton->step,
+    const NewtonRecord end = {.step_number = newton->step_number,
                               .iteration = -1,
                               .residual = newton->record.residual,
                               .residual_kind = newton->record.residual_kind,
@@ -201,7 +205,7 @@ static void report_motion_end(const Newton *newton, Status status)
 bool prescribed_end_part(TimeIntegrator *run, Status *status)
 {
     const Newton *newton = run->newton;
-    long updates = newton->counters.updates - run->updates_before;
+    long updates = newton->counters.updates - run->updates_before_step;
     if (status_is_failure(*status))
         return false;
     if (run->is_blocked && !*status)
@@ -240,10 +244,10 @@ double prescribed_compute_work(const TimeIntegrator *run)
     if (at.term)
         for (ElementIterator walk = elements_begin(&at, NULL, 0);
              elements_next(&walk);) {
-            int k = walk.element.partner;
+            int k = walk.element.partner_index;
             const double *v = contact->obstacle[k].v, *n = walk.element.n;
             bool stopped =
-                contact->hand.is_blocked && k == contact->hand.obstacle;
+                contact->hand.is_blocked && k == contact->hand.obstacle_index;
             sum += (stopped ? contact->hand.moving_fraction
                             : run->moved_fraction) *
                    contact_normal_force(&contact->barrier, walk.element.s) *

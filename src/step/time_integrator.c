@@ -127,7 +127,7 @@ static void begin_stage(TimeIntegrator *run)
     if (system_has_gravity(system))
         for (size_t i = 0; i < run->x_length; i++)
             newton->u_tilde[i] += run->weight * system->gravity[i % 2];
-    newton->step = run->steps + 1;
+    newton->step_number = run->steps + 1;
     if (run->is_driven)
         prescribed_begin_part(run);
     else
@@ -164,7 +164,7 @@ Status time_integrator_begin(TimeIntegrator *run)
     run->unconverged_status = STATUS_OK;
     run->stage = 0;
     if (run->newton)
-        run->newton->total_change = 0;
+        run->newton->total_energy_change = 0;
     run->is_driven = prescribed_begin_step(run);
     Status status = begin_term_steps(run);
     if (status)

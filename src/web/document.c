@@ -100,11 +100,12 @@ static void write_page_texts(Writer *to, const FrameContent *content)
     write_text_lines(to, values, "ask", page->question);
     if (content->lecture.hides_answer) {
         double at[2];
-        print(to, "asks\t%s\t%d\n",
-              page_wants_click(page) ? "place"
-              : page->answer         ? "number"
-                                     : "words",
-              simulation_find_point(active_pane(content)->simulation, at));
+        print(
+            to, "asks\t%s\t%d\n",
+            page_wants_click(page) ? "place"
+            : page->answer         ? "number"
+                                   : "words",
+            simulation_find_shown_point(active_pane(content)->simulation, at));
     } else {
         write_text_lines(to, values, "look", content->lecture.answer_text);
         write_text_lines(to, values, "try", page->try);
@@ -113,7 +114,7 @@ static void write_page_texts(Writer *to, const FrameContent *content)
     write_text_lines(to, values, "notes", page->notes);
     for (int i = 0; page->code[i]; i++)
         print(to, "code\t%d\t%s\n",
-              strstr(page->code[i], lecture_find_highlight(content)) != NULL,
+              strstr(page->code[i], lecture_find_lit_code(content)) != NULL,
               page->code[i]);
 }
 
@@ -129,7 +130,8 @@ static void write_algorithm_lines(Writer *to, const FrameContent *content,
             continue;
         const ShownRow now = listing_make_row(pane, row);
         print(to, "row\t%d\t%d\t%d\t%d\t%s\t%s\n", card, now.is_highlighted,
-              now.is_struck, row->is_indented, now.text.text, now.value.text);
+              now.is_crossed_out, row->is_indented, now.text.text,
+              now.value.text);
     }
 }
 
@@ -143,7 +145,7 @@ static void write_energies(Writer *to, const Simulation *simulation)
 }
 
 /* Writes the values of the graphs `budget` and `residual` for a description. */
-static void write_live_values(Writer *to, const Pane *pane, const char *name)
+static void write_graph_values(Writer *to, const Pane *pane, const char *name)
 {
     const NewtonTrace *trace = pane->shown_trace;
     if (strcmp(name, "budget") == 0) {
@@ -192,7 +194,7 @@ static void write_document_card(Writer *to, const FrameContent *content,
     const Pane *pane = active_pane(content);
     const LecturePage *page = content->lecture.page;
     bool covered = content->cards.covered_cards >> index & 1;
-    bool graph = !covered && card->draw && !card->has_no_curves;
+    bool graph = !covered && card->draw && !card->is_text_only;
     bool star =
         page && page->main_card && strcmp(page->main_card, card->name) == 0;
     bool closed = content->cards.closed_cards >> index & 1;
@@ -203,7 +205,7 @@ static void write_document_card(Writer *to, const FrameContent *content,
     if (graph) {
         print(to, "card\t%d\t%s\t%s\t%d\t%s\t%s", index, card->name,
               star ? "star" : "graph", closed, title.text, title.text);
-        write_live_values(to, pane, card->name);
+        write_graph_values(to, pane, card->name);
         print(to, "\n");
         for (int i = 0;
              card->make_legend_row && card->make_legend_row(content, i, &row);
@@ -244,19 +246,19 @@ static bool text_asks_to_change(const char *text, const OptionRow *row)
     return false;
 }
 
-static void write_settings(Writer *to, const Player *player)
+static void write_options(Writer *to, const Player *player)
 {
     const FrameContent *content = &player->screen.frame.content;
     const LecturePage *page =
         content->lecture.hides_answer ? NULL : content->lecture.page;
     const OptionRow *row[OPTIONS_MAX_ROWS];
-    const Options now = player_shown_options(player);
+    const Options now = player_get_shown_options(player);
     int count = player_list_options(player, true, row);
     for (int i = 0; i < count; i++) {
         char value[COMMAND_TEXT_SIZE], unit[16];
         const char *idle = player_find_idle_reason(player, row[i]);
         bool shown = false;
-        for (int k = 0; k < player->screen.frame.options; k++)
+        for (int k = 0; k < player->screen.frame.option_count; k++)
             shown = shown || player->screen.frame.option[k] == row[i];
         option_write_short(row[i], &now, value, sizeof value);
         option_write_unit(row[i], unit, sizeof unit);
@@ -297,9 +299,9 @@ static void describe_shown_body(Writer *to, const Pane *pane)
         print(to, " Masses: %d, springs: %d, %s m wide and %s m high.", nodes,
               simulation->system.springs, format_number(box[2] - box[0]).text,
               format_number(box[3] - box[1]).text);
-    } else if (simulation_find_point(simulation, at) == 1)
+    } else if (simulation_find_shown_point(simulation, at) == 1)
         print(to, " The point is at %s.", format_digits(at[0], 4).text);
-    else if (simulation_find_point(simulation, at) == 2)
+    else if (simulation_find_shown_point(simulation, at) == 2)
         print(to, " The point is at (%s, %s).", format_digits(at[0], 4).text,
               format_digits(at[1], 4).text);
 }
@@ -308,7 +310,7 @@ static void describe_shown_body(Writer *to, const Pane *pane)
 static void write_picture_fields(Writer *to, const Player *player)
 {
     const FrameContent *content = &player->screen.frame.content;
-    const Simulation *simulation = player_simulation(player);
+    const Simulation *simulation = player_get_simulation(player);
     const LiveValues *values = &active_pane(content)->values;
     print(to, "picture\t");
     for (int p = 0; p < content->panes; p++) {
@@ -337,16 +339,17 @@ static void describe_last_step(Writer *to, const Player *player)
 {
     const FrameContent *content = &player->screen.frame.content;
     const NewtonTrace *trace = active_pane(content)->shown_trace;
-    const StepOutcome *outcome = &player_active_pane(player)->outcome;
-    const char *turn = player_simulation(player)->scene->step_name;
-    print(to, "event\t%s %ld", turn ? turn : "step", content->time_line.step);
+    const StepOutcome *outcome = &player_get_active_pane(player)->outcome;
+    const char *turn = player_get_simulation(player)->scene->step_name;
+    print(to, "event\t%s %ld", turn ? turn : "step",
+          content->time_line.shown_step);
     if (trace && trace->at_line != LINE_NONE &&
         content->title_bar.sentence[0]) {
         print(to, ": %s", content->title_bar.sentence);
     } else if (outcome->updates > 0) {
         print(to, ": %d update%s, %s %s by %s", outcome->updates,
               outcome->updates > 1 ? "s" : "",
-              player_simulation(player)->scene->step ? "f" : "E",
+              player_get_simulation(player)->scene->step ? "f" : "E",
               outcome->energy_change > 0 ? "rose" : "fell",
               format_number(fabs(outcome->energy_change)).text);
     }
@@ -361,7 +364,7 @@ void document_write(const Player *player, char *text)
     Writer writer = {.text = text}, *to = &writer;
     text[0] = '\0';
     const char *name =
-        page ? page->name : player_simulation(player)->scene->name;
+        page ? page->name : player_get_simulation(player)->scene->name;
     print(to, "page\t%d\t%d\t%s\n", page ? (int)(page - lecture_pages) + 1 : 0,
           lecture_count_pages(), name);
     print(to, "topic\t%s\nsentence\t%s\n",
@@ -371,7 +374,7 @@ void document_write(const Player *player, char *text)
           content->title_bar.method, content->title_bar.state);
     print(to, "told\t%d\t%s\n", content->title_bar.is_warning,
           content->title_bar.message);
-    print(to, "step\t%ld\t%ld\t%d\n", content->time_line.step,
+    print(to, "step\t%ld\t%ld\t%d\n", content->time_line.shown_step,
           content->time_line.steps, content->time_line.is_paused);
     if (page)
         write_page_texts(to, content);
@@ -382,11 +385,11 @@ void document_write(const Player *player, char *text)
                   content->lecture.guesses);
         print(to, "\n");
     }
-    for (int i = 0; i < picture->count && content->sheet.cells == 0; i++)
+    for (int i = 0; i < picture->card_count && content->sheet.cells == 0; i++)
         if (!(content->cards.hidden_cards >> i & 1) &&
             strcmp(picture->cards[i]->name, "page") != 0)
             write_document_card(to, content, i, picture->cards[i]);
-    write_settings(to, player);
+    write_options(to, player);
     write_handles_and_switches(to, active_pane(content)->simulation);
     write_picture_fields(to, player);
     describe_last_step(to, player);
@@ -400,7 +403,7 @@ void document_write_contents(char *text)
         print(to, "pages\t--lecture+%s\t%s\n", page->name, page->topic);
     for (const Scene *scene = scenes; scene->name && !scene->is_hidden; scene++)
         print(to, "scenes\t%s\t%s: %s\n", scene->name, scene->name,
-              scene->sentence);
+              scene->description);
     for (int kind = 1; kind < COMMAND_KINDS; kind++)
         if (command_rows[kind].keys && command_rows[kind].help)
             print(to, "keys\t%s\t%s\n", command_rows[kind].keys,

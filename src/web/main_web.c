@@ -13,7 +13,7 @@
 #include "simulation/scene.h"
 #include "web/document.h"
 
-enum { MOST_WORDS = 512, MOST_TEXT = 1 << 15 };
+enum { MAX_COMMAND_WORDS = 512, MAX_COMMAND_LINE_BYTES = 1 << 15 };
 
 /* Limit in bytes for states of past steps, since a tab may have little memory.
  * A state that was dropped is computed again when its step is shown. */
@@ -23,24 +23,25 @@ static const size_t PAST_ROOM = 8 << 20;
  * A new session replaces the shown session if its command line is right. */
 typedef struct Session {
     Player player;
-    char text[MOST_TEXT];
-    char *word[MOST_WORDS + 1]; /* words in `text`; NULL ends the list */
+    char text[MAX_COMMAND_LINE_BYTES];
+    char *word[MAX_COMMAND_WORDS + 1]; /* words in `text`; NULL ends the list */
 } Session;
 
 static volatile sig_atomic_t never = 0;
 static Session sessions[2];
 static Session *session = &sessions[0]; /* session that the page shows */
-static bool plays;                      /* the page shows a session */
+static bool has_session;                /* the page shows a session */
 
 /* Begins a session with a command line, one word in each line.  Returns
  * EXIT_NONE, or the exit code if no session begins. */
 EMSCRIPTEN_KEEPALIVE int web_begin_session(const char *words)
 {
-    Session *next = &sessions[plays && session == &sessions[0]];
+    Session *next = &sessions[has_session && session == &sessions[0]];
     int count = 1;
     snprintf(next->text, sizeof next->text, "elasto\n%s", words);
     next->word[0] = strtok(next->text, "\n");
-    while (count < MOST_WORDS && (next->word[count] = strtok(NULL, "\n")))
+    while (count < MAX_COMMAND_WORDS &&
+           (next->word[count] = strtok(NULL, "\n")))
         count++;
     next->word[count] = NULL;
     int code =
@@ -49,11 +50,11 @@ EMSCRIPTEN_KEEPALIVE int web_begin_session(const char *words)
         player_free(&next->player);
         return code;
     }
-    if (plays)
+    if (has_session)
         player_free(&session->player);
     session = next;
     session->player.past.max_bytes = PAST_ROOM;
-    plays = true;
+    has_session = true;
     return code;
 }
 
@@ -64,12 +65,12 @@ EMSCRIPTEN_KEEPALIVE int web_begin_session(const char *words)
  * is valid until the next call. */
 EMSCRIPTEN_KEEPALIVE const char *web_get_address(void)
 {
-    static char words[MOST_TEXT];
+    static char words[MAX_COMMAND_LINE_BYTES];
     Player *player = &session->player;
     const Options *given = &player->setup.options[0];
     Options now[OPTIONS_MAX_PANES], base[OPTIONS_MAX_PANES];
     words[0] = '\0';
-    if (!plays)
+    if (!has_session)
         return words;
     int panes = player_copy_options(player, now);
     bool same = now->page == given->page && now->scene == given->scene;
@@ -100,7 +101,7 @@ EMSCRIPTEN_KEEPALIVE const char *web_get_address(void)
 EMSCRIPTEN_KEEPALIVE const char *web_get_document(void)
 {
     static char text[DOCUMENT_SIZE];
-    if (plays)
+    if (has_session)
         document_write(&session->player, text);
     return text;
 }
@@ -118,7 +119,7 @@ EMSCRIPTEN_KEEPALIVE const char *web_get_colour(const char *name)
 {
     static char text[8];
     snprintf(text, sizeof text, "#%06x",
-             document_darken(colour_find_name(name, strlen(name))));
+             document_darken(colour_find_by_name(name, strlen(name))));
     return text;
 }
 
@@ -128,19 +129,20 @@ EMSCRIPTEN_KEEPALIVE void web_draw_card(int card, int width, int height)
 {
     static Paper paper;
     Player *player = &session->player;
-    const Picture *picture = picture_of_scene(player_simulation(player)->scene);
-    if (card >= picture->count || !picture->cards[card]->draw)
+    const Picture *picture =
+        picture_of_scene(player_get_simulation(player)->scene);
+    if (card >= picture->card_count || !picture->cards[card]->draw)
         return;
     canvas_free(&paper.canvas);
     paper.text = player->screen.paper.text;
-    if (plays && !canvas_create(width, height, &paper.canvas)) {
+    if (has_session && !canvas_create(width, height, &paper.canvas)) {
         frame_draw_card(&paper, &player->screen.frame.content, card);
         page_show_card(&paper.canvas, card);
     }
 }
 
 /* Obeys the commands in the queue, or shows why they were refused. */
-static void obey_or_refuse(Player *player, Status status)
+static void obey_queued_commands(Player *player, Status status)
 {
     status = status ? status : player_obey_queue(player, false);
     player_show_refusal(player, status);
@@ -151,19 +153,19 @@ static void obey_or_refuse(Player *player, Status status)
 EMSCRIPTEN_KEEPALIVE void web_obey_lines(const char *lines)
 {
     Player *player = &session->player;
-    if (!plays)
+    if (!has_session)
         return;
-    player->commands.gesture = player->hands.mouse.gesture =
-        ++player->commands.gestures;
-    obey_or_refuse(player, player_enqueue_lines(player, lines));
+    player->commands.gesture = player->hands.mouse.input_gesture =
+        ++player->commands.gesture_count;
+    obey_queued_commands(player, player_enqueue_lines(player, lines));
 }
 
 /* Judges a guess at the question of the page and shows the answer. */
 EMSCRIPTEN_KEEPALIVE void web_answer_question(const char *guess)
 {
     Player *player = &session->player;
-    if (plays && player_hides_answer(player))
-        obey_or_refuse(player, player_reveal_answer(player, guess));
+    if (has_session && player_hides_answer(player))
+        obey_queued_commands(player, player_reveal_answer(player, guess));
 }
 
 /* ---- the printed lecture ------------------------------------------------- */
@@ -184,8 +186,8 @@ EMSCRIPTEN_KEEPALIVE void web_print_page(int page, int width, int height)
         player_free(player);
     /* Switches from the window's session to the printed session, or back. */
     if (prints != (page >= 0)) {
-        played = prints ? played : plays;
-        plays = prints ? played : true;
+        played = prints ? played : has_session;
+        has_session = prints ? played : true;
         prints = !prints;
         session = other;
     }
@@ -236,7 +238,7 @@ EMSCRIPTEN_KEEPALIVE int web_make_frame(void)
     Player *player = &session->player;
     double begin = clock_now();
     Status status = STATUS_OK;
-    if (!plays)
+    if (!has_session)
         return -1;
     do
         status = player_make_frame(player);
@@ -246,6 +248,6 @@ EMSCRIPTEN_KEEPALIVE int web_make_frame(void)
         return player_is_idle(player) ? INT_MAX : player_find_wait_time(player);
     program_end(player, status);
     player_free(player);
-    plays = false;
+    has_session = false;
     return -1;
 }

@@ -15,7 +15,7 @@ typedef union Event {
         int format;
         long data[5];
     } client;
-    long room[24];
+    long padding[24];
 } Event;
 
 Display *XOpenDisplay(const char *name);

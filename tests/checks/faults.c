@@ -62,7 +62,7 @@ int rename(const char *from, const char *to)
 }
 
 /* Writes the number of counted calls to FAULT_FILE. */
-static void fault_report(void)
+static void fault_write_call_count(void)
 {
     const char *name = getenv("FAULT_FILE");
     fault_kind = NULL;
@@ -76,15 +76,15 @@ static void fault_report(void)
 static void fault_begin(void)
 {
     const char *at = getenv("FAULT_AT");
-    atexit(fault_report);
+    atexit(fault_write_call_count);
     fault_at = at ? strtol(at, NULL, 10) : 0;
     fault_kind = getenv("FAULT");
 }
 
 typedef int Main(int, char **, char **);
-typedef int Start(Main *, int, char **, void (*)(void), void (*)(void),
-                  void (*)(void), void *);
-Start __libc_start_main;
+typedef int StartMain(Main *, int, char **, void (*)(void), void (*)(void),
+                      void (*)(void), void *);
+StartMain __libc_start_main;
 static Main *real_main;
 
 static int fault_main(int argc, char **argv, char **environment)

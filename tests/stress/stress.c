@@ -36,8 +36,9 @@ static void begin_case(const char *what)
 static void print_tally(const char *name, const VerdictTally *tally)
 {
     printf("%-22s %7ld %9ld %8ld %5ld %9ld %7ld\n", name, tally->cases,
-           tally->steps[VERDICT_CONVERGED], tally->steps[VERDICT_REPORTED],
-           tally->wrong_cases, tally->judged_residuals, tally->undecided);
+           tally->steps_by_verdict[VERDICT_CONVERGED],
+           tally->steps_by_verdict[VERDICT_REPORTED], tally->wrong_cases,
+           tally->judged_residuals, tally->undecided);
     fflush(stdout);
 }
 
@@ -49,7 +50,7 @@ static void add_tally(const VerdictTally *tally, VerdictTally *sum)
     sum->judged_residuals += tally->judged_residuals;
     sum->undecided += tally->undecided;
     for (int i = 0; i < VERDICT_COUNT; i++)
-        sum->steps[i] += tally->steps[i];
+        sum->steps_by_verdict[i] += tally->steps_by_verdict[i];
     for (int i = 0; i < STATUS_COUNT; i++)
         sum->steps_by_status[i] += tally->steps_by_status[i];
 }
@@ -62,7 +63,7 @@ static void run_named_cases(bool quick, VerdictTally *sum)
         if (quick && row->is_slow)
             continue;
         begin_case(row->name);
-        if (!row->run(&tally, reason)) {
+        if (!row->run_case(&tally, reason)) {
             tally.wrong_cases += tally.wrong_cases == 0;
             printf("%s: %s\n", row->name, reason);
         }
@@ -77,7 +78,7 @@ static void run_named_cases(bool quick, VerdictTally *sum)
 static const struct {
     const char *name, *kinds;
     long scene_count;
-    int steps;
+    int step_count;
     double least_converged_share;
 } families[] = {{"squares, shaken", "s", 20000, 2, 0.5},
                 {"contact", "cccctbww", 20000, 10, 0.999},
@@ -94,10 +95,10 @@ static void run_random_families(uint64_t seed, bool quick, VerdictTally *sum)
         long count = families[i].scene_count / (quick ? 10 : 1);
         begin_case(families[i].name);
         if (!stress_run_scenes(families[i].kinds, seed, count,
-                               families[i].steps, &tally, reason))
+                               families[i].step_count, &tally, reason))
             printf("%s: %s\n", stress_line, reason);
-        double good = (double)tally.steps[VERDICT_CONVERGED];
-        double all = good + (double)(tally.steps[VERDICT_REPORTED] -
+        double good = (double)tally.steps_by_verdict[VERDICT_CONVERGED];
+        double all = good + (double)(tally.steps_by_verdict[VERDICT_REPORTED] -
                                      tally.steps_by_status[STATUS_BLOCKED]);
         if (!(good >= families[i].least_converged_share * all)) {
             printf("only %g of %g steps converged\n", good, all);
@@ -126,10 +127,10 @@ static int run_command_line(const char *line)
 static void run_envelope(Solver solver, VerdictTally *sum)
 {
     static const double stretch[] = {1e-6, 1e-3, 0.1, 0.5, 1.4, 10, 1e3, 1e6};
-    enum { H = 25, K = 22, STRETCHES = sizeof stretch / sizeof *stretch };
+    enum { H = 25, K = 22, STRETCH_COUNT = sizeof stretch / sizeof *stretch };
     int cells = 0, converged = 0, idle = 0;
     VerdictTally tally = {0};
-    for (int i = 0; i < STRETCHES * K * H; i++) {
+    for (int i = 0; i < STRETCH_COUNT * K * H; i++) {
         char line[160], reason[512];
         long before = tally.updates;
         double s = stretch[i / (K * H)];

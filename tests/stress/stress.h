@@ -21,8 +21,8 @@ long double exact_energy(const StepPotential *potential, const double *u);
 
 /* Estimates the rounding error of E at x_n + u, J s^2: the sum of the errors
  * that rounding causes in E and in its derivative along `direction`. */
-long double energy_noise(const StepPotential *potential, const double *u,
-                         const double *direction);
+long double estimate_energy_noise(const StepPotential *potential,
+                                  const double *u, const double *direction);
 
 typedef enum TestVerdict {
     TEST_PASSED,
@@ -32,8 +32,8 @@ typedef enum TestVerdict {
 
 /* Tests whether the residual at u is below the tolerance, m/s: conjugate
  * gradients with clamped blocks compute the direction without a matrix. */
-TestVerdict test_large_residual(const IncrementalPotential *E, const double *u,
-                                double h, double tolerance);
+TestVerdict test_large_square(const IncrementalPotential *E, const double *u,
+                              double h, double tolerance);
 
 /* ---- judging steps (stress_watch.c) ------------------------------------ */
 
@@ -48,7 +48,7 @@ typedef enum Verdict {
  * rounding leaves undecided, and steps by verdict and by status. */
 typedef struct VerdictTally {
     long cases, wrong_cases, updates, judged_residuals, undecided;
-    long steps[VERDICT_COUNT], steps_by_status[STATUS_COUNT];
+    long steps_by_verdict[VERDICT_COUNT], steps_by_status[STATUS_COUNT];
 } VerdictTally;
 
 /* Watches one run: no node is behind a wall and no cell turned over, no update
@@ -64,13 +64,13 @@ typedef struct RunWatch {
     double *workspace;    /* [2n] */
     long double start_energy; /* J s^2, E at u = 0 */
     long double energy;       /* J s^2, E at u */
-    int updates;              /* updates of the present minimisation so far */
+    int update_count;         /* updates of the present minimisation so far */
     double tolerance;         /* tolerance at the start of the step, m/s */
-    long crossings;     /* number of crossing edges at the start of the step */
-    bool is_wrong;      /* the present step has failed a test */
-    bool has_flat_cell; /* a cell was flat when E was last computed */
-    char reason[512];   /* first failed test of the step, in words */
-    Status status;      /* status of the last step */
+    long crossing_count; /* number of crossing edges at the start of the step */
+    bool is_wrong;       /* the present step has failed a test */
+    bool has_flat_cell;  /* a cell was flat when E was last computed */
+    char reason[512];    /* first failed test of the step, in words */
+    Status status;       /* status of the last step */
 } RunWatch;
 
 /* Starts to watch a run, whose address must not change and whose observer of
@@ -124,7 +124,7 @@ typedef struct StressCase {
     const char *name;
     bool is_slow; /* only in `make stress` */
     /* Runs the case; returns false and a reason [512] if a test fails. */
-    bool (*run)(VerdictTally *tally, char *reason);
+    bool (*run_case)(VerdictTally *tally, char *reason);
 } StressCase;
 
 extern const StressCase stress_cases[]; /* ends with a NULL name */

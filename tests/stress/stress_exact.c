@@ -12,8 +12,8 @@
 #include <string.h>
 
 /* Returns E at x_n + u, not rounded, with its derivative along `direction`. */
-static Jet evaluate_step(const StepPotential *potential, const double *u,
-                         const double *direction, Random *jitter)
+static Jet evaluate_step_energy(const StepPotential *potential, const double *u,
+                                const double *direction, Random *jitter)
 {
     const IncrementalPotential *E = &potential->E;
     EvalPoint at = make_eval_point(E->system, E->x_n, u, NULL);
@@ -28,18 +28,18 @@ static Jet evaluate_step(const StepPotential *potential, const double *u,
 
 long double exact_energy(const StepPotential *potential, const double *u)
 {
-    return evaluate_step(potential, u, NULL, NULL).f;
+    return evaluate_step_energy(potential, u, NULL, NULL).f;
 }
 
-long double energy_noise(const StepPotential *potential, const double *u,
-                         const double *direction)
+long double estimate_energy_noise(const StepPotential *potential,
+                                  const double *u, const double *direction)
 {
     const IncrementalPotential *E = &potential->E;
     Random jitter = {1};
-    Jet exact = evaluate_step(potential, u, direction, NULL);
+    Jet exact = evaluate_step_energy(potential, u, direction, NULL);
     Real sum = LDBL_EPSILON * fabsl(exact.f);
     for (int round = 0; round < 3; round++) {
-        Jet rounded = evaluate_step(potential, u, direction, &jitter);
+        Jet rounded = evaluate_step_energy(potential, u, direction, &jitter);
         sum += fabsl(rounded.f - exact.f) + fabsl(rounded.p - exact.p);
     }
     for (int i = 0; i < 2 * E->system->nodes; i++)
@@ -60,14 +60,15 @@ static const Real judge_margin = 1e-6L;
 typedef struct HessianBlocks {
     Real *g, *entry;
     int (*node)[3], *node_counts;
-    int count, entries, capacity; /* blocks; entries; allocated blocks */
+    int block_count, entry_count,
+        capacity; /* blocks; entries; allocated blocks */
 } HessianBlocks;
 
 static void store_block(void *blocks, const EnergyPart *block)
 {
     HessianBlocks *to = blocks;
-    int n = 2 * block->count;
-    if (to->count == to->capacity) {
+    int n = 2 * block->node_count;
+    if (to->block_count == to->capacity) {
         size_t capacity = (size_t)(to->capacity = 2 * to->capacity + 1024);
         to->entry = realloc(to->entry, 36 * capacity * sizeof *to->entry);
         to->node = realloc(to->node, capacity * sizeof *to->node);
@@ -75,16 +76,16 @@ static void store_block(void *blocks, const EnergyPart *block)
             realloc(to->node_counts, capacity * sizeof *to->node_counts);
         CHECK(to->entry && to->node && to->node_counts);
     }
-    to->node_counts[to->count] = block->count;
-    memcpy(to->node[to->count++], block->node, sizeof block->node);
-    memcpy(to->entry + to->entries, block->H,
+    to->node_counts[to->block_count] = block->node_count;
+    memcpy(to->node[to->block_count++], block->node, sizeof block->node);
+    memcpy(to->entry + to->entry_count, block->H,
            (size_t)(n * n) * sizeof *block->H);
-    to->entries += n * n;
+    to->entry_count += n * n;
     for (int i = 0; i < n; i++)
         to->g[2 * block->node[i / 2] + i % 2] += block->g[i];
 }
 
-static void clear_pinned(const System *system, Real *vector)
+static void clear_pinned_entries(const System *system, Real *vector)
 {
     for (int i = 0; i < 2 * system->nodes; i++)
         vector[i] = system->pinned[i / 2] ? 0 : vector[i];
@@ -96,18 +97,18 @@ static void multiply_hessian(const System *system, const HessianBlocks *blocks,
 {
     const Real *entry = blocks->entry;
     memset(y, 0, 2 * (size_t)system->nodes * sizeof *y);
-    for (int b = 0; b < blocks->count; b++) {
+    for (int b = 0; b < blocks->block_count; b++) {
         const int *node = blocks->node[b];
         int n = 2 * blocks->node_counts[b];
         for (int i = 0; i < n * n; i++)
             y[2 * node[i / n / 2] + i / n % 2] +=
                 *entry++ * d[2 * node[i % n / 2] + i % n % 2];
     }
-    clear_pinned(system, y);
+    clear_pinned_entries(system, y);
 }
 
 /* Returns the largest |p_x| + |p_y| of all nodes. */
-static Real find_longest_step(int size, const Real *p)
+static Real find_max_node_norm(int size, const Real *p)
 {
     Real largest = 0;
     for (int i = 0; i < size; i += 2)
@@ -137,7 +138,7 @@ static TestVerdict decide_test(const System *system, Real h, Real tolerance,
             lightest = fminl(lightest, system->m[i]);
     Real now = squared_norm_by_inverse_mass(system, r), last = INFINITY;
     for (int k = 0; k < MAX_JUDGE_ITERATIONS; k++) {
-        Real away = find_longest_step(size, p) / h - tolerance, bend = 0;
+        Real away = find_max_node_norm(size, p) / h - tolerance, bend = 0;
         Real error = sqrtl(2 / lightest) / h * sqrtl(now);
         if (away + error <= judge_margin * tolerance)
             return TEST_PASSED;
@@ -158,8 +159,8 @@ static TestVerdict decide_test(const System *system, Real h, Real tolerance,
     return TEST_UNDECIDED;
 }
 
-TestVerdict test_large_residual(const IncrementalPotential *E, const double *u,
-                                double h, double tolerance)
+TestVerdict test_large_square(const IncrementalPotential *E, const double *u,
+                              double h, double tolerance)
 {
     size_t size = 2 * (size_t)E->system->nodes;
     Real *r = calloc(4 * size, sizeof *r);
@@ -168,7 +169,7 @@ TestVerdict test_large_residual(const IncrementalPotential *E, const double *u,
     visit_blocks(E, u, 1, store_block, &blocks);
     for (size_t i = 0; i < size; i++)
         r[i] = -r[i];
-    clear_pinned(E->system, r);
+    clear_pinned_entries(E->system, r);
     TestVerdict verdict = decide_test(E->system, h, tolerance, &blocks,
                                       r + size, r, r + 2 * size, r + 3 * size);
     free(blocks.entry);

@@ -17,7 +17,7 @@
 #include <string.h>
 
 /* Factor of the allowed rounding error, for sums of many terms */
-enum { SUM_ROUNDINGS = 16 };
+enum { SUM_ERROR_FACTOR = 16 };
 
 /* Energy, J s^2, above which overflow is near and NOT_FINITE is right */
 static const long double HUGE_ENERGY = 1e280L;
@@ -30,7 +30,7 @@ enum { MAX_DENSE_UNKNOWNS = 400 };
 
 /* Factor of the noise of exact_residual for shaken squares, whose coordinates
  * and forces have very different sizes */
-enum { SHAKEN_FACTOR = 4 };
+enum { SHAKEN_NOISE_FACTOR = 4 };
 
 /* Relative error of a direction from a factor that rounding.c accepts */
 #define DIGITS_OF_DIRECTION 1e-5
@@ -82,7 +82,7 @@ static void judge_large_square(RunWatch *watch, const double *u,
     const NewtonSettings *settings = &watch->run->newton->settings;
     if (settings->projection != PROJECTION_CLAMP)
         return;
-    TestVerdict verdict = test_large_residual(&E, u, settings->h, tolerance);
+    TestVerdict verdict = test_large_square(&E, u, settings->h, tolerance);
     watch->tally->judged_residuals++;
     watch->tally->undecided += verdict == TEST_UNDECIDED;
     if (verdict == TEST_FAILED)
@@ -119,7 +119,7 @@ static bool residual_passes(const RunWatch *watch, const double *u,
                                 lifts[settings->projection] - k, noise);
         *least = fmin(*least, residual);
         if (noise && watch->only_springs)
-            *noise *= SHAKEN_FACTOR;
+            *noise *= SHAKEN_NOISE_FACTOR;
         if (residual <= limit + (noise ? *noise : 0))
             return true;
     }
@@ -187,10 +187,10 @@ static bool energy_rises(RunWatch *watch, const double *from, const double *to,
         return false;
     for (int i = 0; i < count_unknowns(watch); i++)
         watch->workspace[i] = to[i] - from[i];
-    Real allowed =
-        SUM_ROUNDINGS * (DBL_EPSILON * scale +
-                         energy_noise(&potential, from, watch->workspace) +
-                         energy_noise(&potential, to, watch->workspace));
+    Real allowed = SUM_ERROR_FACTOR *
+                   (DBL_EPSILON * scale +
+                    estimate_energy_noise(&potential, from, watch->workspace) +
+                    estimate_energy_noise(&potential, to, watch->workspace));
     return !(rise <= allowed) &&
            !(wide_exact_rise(&potential.E, from, to, potential.motion_time) <=
              allowed);
@@ -206,10 +206,10 @@ static void begin_minimisation(RunWatch *watch)
     for (int i = 0; i < n; i++)
         watch->u[i] = watch->run->is_driven ? watch->run->new_x[i] : 0;
     if (!system_find_term(watch->run->system, &cell_energy))
-        watch->crossings = edge_crossings(watch->run->system, watch->x_n);
+        watch->crossing_count = edge_crossings(watch->run->system, watch->x_n);
     StepPotential potential = get_step_potential(watch);
     watch->start_energy = watch->energy = exact_energy(&potential, watch->u);
-    watch->updates = 0;
+    watch->update_count = 0;
 }
 
 /* Tests that E at this iterate is not above E at the last one. Iterates with a
@@ -270,9 +270,9 @@ static void check_gaps_and_areas(RunWatch *watch, const double *x)
 static void check_crossings(RunWatch *watch, const double *x)
 {
     long crossings = edge_crossings(watch->run->system, x);
-    if (crossings > watch->crossings)
+    if (crossings > watch->crossing_count)
         mark_wrong(watch, "%ld edges cross, %ld did", crossings,
-                   watch->crossings);
+                   watch->crossing_count);
 }
 
 /* Tests an iterate: the observer of Newton's method. */
@@ -285,15 +285,16 @@ static bool check_iterate(void *user, const NewtonRecord *record)
     if (record->iteration == 0)
         begin_minimisation(watch);
     check_crossings(watch, newton->iterate.x);
-    if (record->iteration != watch->updates)
+    if (record->iteration != watch->update_count)
         mark_wrong(watch, "record %d after %d updates", record->iteration,
-                   watch->updates);
-    watch->updates++;
-    if (watch->updates > newton->settings.max_iterations)
-        mark_wrong(watch, "%d iterations, more than allowed", watch->updates);
+                   watch->update_count);
+    watch->update_count++;
+    if (watch->update_count > newton->settings.max_iterations)
+        mark_wrong(watch, "%d iterations, more than allowed",
+                   watch->update_count);
     for (int i = 0; i < count_unknowns(watch); i++)
         if (!isfinite(newton->iterate.u[i]) || !isfinite(newton->iterate.x[i]))
-            mark_wrong(watch, "iterate %d is not finite", watch->updates);
+            mark_wrong(watch, "iterate %d is not finite", watch->update_count);
     if (newton->settings.line_search != LINE_SEARCH_NONE)
         check_descent(watch, newton->iterate.u, "in an iteration");
     check_failure_reason(watch, record);
@@ -439,11 +440,11 @@ static void check_step_momentum(RunWatch *watch, int pin)
         turn += (i % 2 ? 1 : -1) * m[i / 2] * arm * change;
         arms = fmaxl(arms, fabsl(arm));
         unsure += m[i / 2] * fabsl(change) * DBL_EPSILON * fabs(run->x[i ^ 1]);
-        noise += m[i / 2] * SUM_ROUNDINGS * DBL_EPSILON *
+        noise += m[i / 2] * SUM_ERROR_FACTOR * DBL_EPSILON *
                  (fabs(run->v[i]) + fabs(watch->v[i]) +
                   (fabs(run->x[i]) + fabs(watch->x[i])) / run->h);
     }
-    bool projected = run->newton->record.projected != 0;
+    bool projected = run->newton->record.projected_blocks != 0;
     for (int s = 0; s < run->system->springs; s++)
         projected =
             projected || (run->newton->active_solver == SOLVER_MULTIGRID &&
@@ -483,7 +484,7 @@ Verdict make_judged_step(RunWatch *watch)
     memcpy(watch->x, run->x, bytes);
     memcpy(watch->v, run->v, bytes);
     watch->is_wrong = false;
-    watch->updates = 0;
+    watch->update_count = 0;
     watch->tolerance = run->newton ? run->newton->settings.tolerance : 0;
     Status status = watch->status = time_integrator_step(run);
     if ((int)status < 0 || status >= STATUS_COUNT || status == STATUS_RUNNING)
@@ -495,7 +496,7 @@ Verdict make_judged_step(RunWatch *watch)
     Verdict verdict = watch->is_wrong ? VERDICT_WRONG
                       : status        ? VERDICT_REPORTED
                                       : VERDICT_CONVERGED;
-    watch->tally->steps[verdict]++;
+    watch->tally->steps_by_verdict[verdict]++;
     watch->tally->steps_by_status[status]++;
     return verdict;
 }

@@ -29,8 +29,7 @@ static inline Canvas read_png(const char *name)
     return canvas;
 }
 
-/* Returns the largest difference of a colour channel of two pixels. */
-static inline int pixel_distance(Colour a, Colour b)
+static inline int find_colour_difference(Colour a, Colour b)
 {
     int largest = 0;
     for (int shift = 0; shift < 24; shift += 8) {
@@ -45,14 +44,14 @@ static inline int pixel_distance(Colour a, Colour b)
 static inline void mask_words(const Canvas *words, const Canvas *plain,
                               unsigned char *mask)
 {
-    enum { BESIDE_WORDS = 24, ABOVE_WORDS = 4 };
+    enum { WORD_MARGIN_X = 24, WORD_MARGIN_Y = 4 };
     memset(mask, 0, SIDE * SIDE);
     for (int j = 0; j < SIDE; j++)
         for (int i = 0; i < SIDE; i++) {
             if (words->pixels[SIDE * j + i] == plain->pixels[SIDE * j + i])
                 continue;
-            for (int b = j - ABOVE_WORDS; b <= j + ABOVE_WORDS; b++)
-                for (int a = i - BESIDE_WORDS; a <= i + BESIDE_WORDS; a++)
+            for (int b = j - WORD_MARGIN_Y; b <= j + WORD_MARGIN_Y; b++)
+                for (int a = i - WORD_MARGIN_X; a <= i + WORD_MARGIN_X; a++)
                     if (a >= 0 && b >= 0 && a < SIDE && b < SIDE)
                         mask[SIDE * b + a] = 1;
         }
@@ -91,7 +90,8 @@ static inline int count_differing_pixels(const char *file, Canvas frame[2])
     mask_words(&frame[0], &frame[1], mask);
     for (int i = 0; i < SIDE * SIDE; i++)
         if (!mask[i]) {
-            far += pixel_distance(frame[0].pixels[i], reference.pixels[i]) > 4;
+            far += find_colour_difference(frame[0].pixels[i],
+                                          reference.pixels[i]) > 4;
             compared++;
         }
     CHECK(compared > SIDE * SIDE / 2);

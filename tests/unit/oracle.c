@@ -53,7 +53,7 @@ static Real add_jitter(Probe *probe, Real x)
 }
 
 /* Returns coordinate c of x or, with of_u, of the step u that leads to x. */
-static Jet coordinate(Probe *probe, int c, bool of_u)
+static Jet get_coordinate(Probe *probe, int c, bool of_u)
 {
     const EvalPoint *at = probe->at;
     Real x = of_u ? at->u[c] : at->x ? at->x[c] : (Real)at->x_n[c] + at->u[c];
@@ -65,8 +65,8 @@ static Jet coordinate(Probe *probe, int c, bool of_u)
 
 static Jet node_offset(Probe *probe, int i, int j, int axis, bool of_u)
 {
-    return jet_add(coordinate(probe, 2 * i + axis, of_u), -1,
-                   coordinate(probe, 2 * j + axis, of_u));
+    return jet_add(get_coordinate(probe, 2 * i + axis, of_u), -1,
+                   get_coordinate(probe, 2 * j + axis, of_u));
 }
 
 Real exact_strain(const System *system, const double *x, int s)
@@ -106,7 +106,7 @@ static void add_spring_energy(Probe *probe, Jet *sum, const void *data, int s)
     if (flow) {
         kappa = flow->kappa[s];
         hard = 1 - add_jitter(probe, 1 / (1 + (Real)flow->hardening));
-        Real yield = flow->yield_strain + flow->hardening * (Real)kappa;
+        Real yield = flow->initial_yield_strain + flow->hardening * (Real)kappa;
         held = fminl(held, yield);
         over = fabsl(e) - held;
         flows = fabsl(e) - yield > find_flow_limit_error(probe, E.f);
@@ -130,15 +130,15 @@ static void add_barrier(Probe *probe, Jet *sum, Real c, Jet s)
 }
 
 /* Returns the gap of contact.h divided by d_hat, and the gap's direction n. */
-static Jet scaled_gap(Probe *probe, const Contact *contact, int i, int k,
-                      Real n[2])
+static Jet find_scaled_gap(Probe *probe, const Contact *contact, int i, int k,
+                           Real n[2])
 {
     const Obstacle *it = &contact->obstacle[k];
     Jet d[2], s = {0};
     for (int axis = 0; axis < 2; axis++) {
         d[axis] = it->node >= 0 ? node_offset(probe, i, it->node, axis, false)
-                                : coordinate(probe, 2 * i + axis, false);
-        Real o = it->o[axis] - probe->rewind * it->v[axis];
+                                : get_coordinate(probe, 2 * i + axis, false);
+        Real o = it->o[axis] - probe->rewind_time * it->v[axis];
         d[axis].f -= it->node >= 0 ? 0 : add_jitter(probe, o);
         n[axis] = it->n[axis];
     }
@@ -152,14 +152,14 @@ static Jet scaled_gap(Probe *probe, const Contact *contact, int i, int k,
         s = jet_add((Jet){0}, n[0], d[0]);
         s = jet_add(s, n[1], d[1]);
     }
-    if (contact->free_ball >= 0 &&
-        contact->obstacle[contact->free_ball].node == i)
-        s.f -= contact->obstacle[contact->free_ball].radius;
+    if (contact->free_ball_index >= 0 &&
+        contact->obstacle[contact->free_ball_index].node == i)
+        s.f -= contact->obstacle[contact->free_ball_index].radius;
     return jet_add((Jet){0}, 1 / (Real)contact->barrier.d_hat, s);
 }
 
 /* Returns f0(y): friction.h. */
-static Jet friction_law(Jet y, Real e)
+static Jet evaluate_friction_law(Jet y, Real e)
 {
     Real a = fabsl(y.f) / e, sign = copysignl(1, y.f);
     return a < 1 ? jet_chain(y, y.f * y.f / e * (1 - a / 3), sign * a * (2 - a),
@@ -177,11 +177,12 @@ static void add_wall_friction(Probe *probe, Jet *sum, const Contact *contact,
     if (!term || !probe->at->u || !(it->friction > 0))
         return;
     EvalPoint start = *probe->at;
-    Probe before = {
-        .at = &start, .jitter = probe->jitter, .rewind = probe->motion_time};
+    Probe before = {.at = &start,
+                    .jitter = probe->jitter,
+                    .rewind_time = probe->motion_time};
     Real n[2], e = ((const Friction *)term->data)->slip_speed * probe->h;
     start.x = start.x_n;
-    Real s = scaled_gap(&before, contact, i, k, n).f;
+    Real s = find_scaled_gap(&before, contact, i, k, n).f;
     if (!(s < 1))
         return;
     Jet y = {.f = -probe->h * (n[0] * add_jitter(probe, it->v[1]) -
@@ -189,11 +190,11 @@ static void add_wall_friction(Probe *probe, Jet *sum, const Contact *contact,
     for (int axis = 0; axis < 2; axis++)
         y = jet_add(y, axis ? n[0] : -n[1],
                     it->node >= 0 ? node_offset(probe, i, it->node, axis, true)
-                                  : coordinate(probe, 2 * i + axis, true));
+                                  : get_coordinate(probe, 2 * i + axis, true));
     add_part(probe, sum,
              it->friction * contact->barrier.c / contact->barrier.d_hat *
                  -(logl(s) + 1 - 1 / s),
-             friction_law(y, e));
+             evaluate_friction_law(y, e));
 }
 
 /* Adds c f(d/d_hat) of node i and obstacle k: contact.h. */
@@ -202,7 +203,7 @@ static void add_wall_barrier(Probe *probe, Jet *sum, const Contact *contact,
 {
     Real n[2];
     add_barrier(probe, sum, contact->barrier.c,
-                scaled_gap(probe, contact, i, k, n));
+                find_scaled_gap(probe, contact, i, k, n));
 }
 
 static void add_wall_contact(Probe *probe, Jet *sum, const void *data, int i)
@@ -218,9 +219,10 @@ static void add_wall_contact(Probe *probe, Jet *sum, const void *data, int i)
 /* Boundary of the bodies, as in boundary.h. Spring [i][k] begins at node i and
  * leads, for k = 0 to 3, up, right, up right and down right. */
 typedef struct Outline {
-    int edges, points, *point, (*edge)[2]; /* counts; nodes of points, edges */
-    unsigned char (*is_whole)[4];          /* [n] 1: the spring is unbroken */
-    unsigned char (*triangle_count)[4];    /* [n] triangles at a spring */
+    int edge_count, point_count, *point_node,
+        (*edge_nodes)[2];               /* counts; nodes of points, edges */
+    unsigned char (*is_whole)[4];       /* [n] 1: the spring is unbroken */
+    unsigned char (*triangle_count)[4]; /* [n] triangles at a spring */
     unsigned char *role; /* [n] flags IN_A_TRIANGLE, ON_AN_EDGE */
     double *x;           /* [2n] m, positions rounded to doubles */
 } Outline;
@@ -259,12 +261,12 @@ static Outline find_outline(const System *system)
     if (!get_self_contact(system))
         return (Outline){0};
     const SquareMesh *shape = &get_self_contact(system)->boundary.mesh;
-    int n = system->nodes, high = shape->rows + 1, wide = shape->segments + 1;
+    int n = system->nodes, high = shape->rows + 1, wide = shape->columns + 1;
     bytes = realloc(bytes, (size_t)n * (25 + 9 * sizeof(int)));
     CHECK(bytes != NULL);
-    Outline it = {.x = bytes, .point = (int *)(bytes + 2 * n)};
-    it.edge = (int(*)[2])(it.point + n);
-    it.is_whole = (unsigned char(*)[4])(it.edge + 4 * n);
+    Outline it = {.x = bytes, .point_node = (int *)(bytes + 2 * n)};
+    it.edge_nodes = (int(*)[2])(it.point_node + n);
+    it.is_whole = (unsigned char(*)[4])(it.edge_nodes + 4 * n);
     it.triangle_count = it.is_whole + n;
     it.role = (unsigned char *)(it.triangle_count + n);
     memset(it.is_whole, 0, 9 * (size_t)n);
@@ -283,7 +285,7 @@ static Outline find_outline(const System *system)
     for (int i = 0; i < 4 * n; i++)
         if (it.triangle_count[i / 4][i % 4] == 1) {
             const int way[4] = {1, high, high + 1, high - 1};
-            int *edge = it.edge[it.edges++];
+            int *edge = it.edge_nodes[it.edge_count++];
             edge[0] = i / 4;
             edge[1] = i / 4 + way[i % 4];
             it.role[edge[0]] |= ON_AN_EDGE;
@@ -291,14 +293,14 @@ static Outline find_outline(const System *system)
         }
     for (int i = 0; i < n; i++)
         if (it.role[i] != IN_A_TRIANGLE)
-            it.point[it.points++] = i;
+            it.point_node[it.point_count++] = i;
     return it;
 }
 
 /* Returns d^2/d_hat^2 of point p and an edge. r: position of the nearest point
  * along the edge, 0 to 1; n: unit vector from there to p */
-static Jet point_edge_gap(Probe *probe, const SelfContact *self, int p,
-                          const int end[2], Real *r, Real n[2])
+static Jet find_point_edge_gap(Probe *probe, const SelfContact *self, int p,
+                               const int end[2], Real *r, Real n[2])
 {
     Jet d[2], e[2], q[2], length2, along, d2;
     for (int axis = 0; axis < 2; axis++) {
@@ -336,21 +338,21 @@ static void add_self_friction(Probe *probe, Jet *sum, const SelfContact *self,
     Probe before = {.at = &start, .h = probe->h, .jitter = probe->jitter};
     Real n[2], r, e = ((const Friction *)term->data)->slip_speed * probe->h;
     start.x = start.x_n;
-    Real S = point_edge_gap(&before, self, p, end, &r, n).f;
+    Real S = find_point_edge_gap(&before, self, p, end, &r, n).f;
     Jet y = {0};
     if (!(S < 1))
         return;
     for (int axis = 0; axis < 2; axis++) {
         Real t = axis ? n[0] : -n[1];
-        y = jet_add(y, t, coordinate(probe, 2 * p + axis, true));
+        y = jet_add(y, t, get_coordinate(probe, 2 * p + axis, true));
         y = jet_add(y, -t * (1 - r),
-                    coordinate(probe, 2 * end[0] + axis, true));
-        y = jet_add(y, -t * r, coordinate(probe, 2 * end[1] + axis, true));
+                    get_coordinate(probe, 2 * end[0] + axis, true));
+        y = jet_add(y, -t * r, get_coordinate(probe, 2 * end[1] + axis, true));
     }
     add_part(probe, sum,
              self->friction * self->c / self->d_hat * 2 * sqrtl(S) *
                  -(logl(S) + 1 - 1 / S),
-             friction_law(y, e));
+             evaluate_friction_law(y, e));
 }
 
 /* Returns true if a point is further than `most` from an edge, as most points
@@ -371,15 +373,15 @@ static void add_self_contact(Probe *probe, Jet *sum, const void *data, int i)
 {
     const SelfContact *self = get_self_contact(probe->at->system);
     const Outline *outline = probe->outline;
-    const int p = outline->point[i % outline->points];
-    const int *end = outline->edge[i / outline->points];
+    const int p = outline->point_node[i % outline->point_count];
+    const int *end = outline->edge_nodes[i / outline->point_count];
     const double *x = data == self ? outline->x : probe->at->x_n;
     Real n[2], r;
     if (p == end[0] || p == end[1] || is_far(x, p, end, 1.001 * self->d_hat))
         return;
     if (data == self)
         add_barrier(probe, sum, self->c,
-                    point_edge_gap(probe, self, p, end, &r, n));
+                    find_point_edge_gap(probe, self, p, end, &r, n));
     else
         add_self_friction(probe, sum, self, p, end);
 }
@@ -440,7 +442,7 @@ static void add_triangle_energy(Probe *probe, Jet *sum, const void *data, int t)
 static void add_pull_energy(Probe *probe, Jet *sum, const void *data, int c)
 {
     const NodePull *pull = data;
-    Jet d = coordinate(probe, c, false);
+    Jet d = get_coordinate(probe, c, false);
     d.f -= pull->target[c % 2];
     if (pull->node == c / 2)
         add_part(probe, sum, (Real)pull->k / 2, jet_mul(d, d));
@@ -471,7 +473,7 @@ static int count_parts(const Probe *probe, PartKind parts, const void *data)
     case PART_TRIANGLE:
         return ((const Triangles *)data)->count;
     default:
-        return probe->outline->edges * probe->outline->points;
+        return probe->outline->edge_count * probe->outline->point_count;
     }
 }
 
@@ -516,12 +518,12 @@ static void fill_frame_of_pair(Probe *probe, PartFrame *frame, int i)
 {
     const SelfContact *self = get_self_contact(probe->at->system);
     const Outline *outline = probe->outline;
-    const int p = outline->point[i % outline->points];
-    const int *end = outline->edge[i / outline->points];
+    const int p = outline->point_node[i % outline->point_count];
+    const int *end = outline->edge_nodes[i / outline->point_count];
     Real n[2], r;
     if (p == end[0] || p == end[1] || is_far(outline->x, p, end, self->d_hat))
         return;
-    point_edge_gap(probe, self, p, end, &r, n);
+    find_point_edge_gap(probe, self, p, end, &r, n);
     *frame = (PartFrame){.n = 2, .node = {p, end[0], end[1]}};
     for (int c = 0; c < 2; c++) {
         Real t = c ? n[0] : -n[1];
@@ -573,7 +575,6 @@ static const struct {
                 {&self_contact_energy, PART_EDGE_PAIR, add_self_contact},
                 {&self_friction_energy, PART_EDGE_PAIR, add_self_contact}};
 
-/* Returns the row of a term in `formulas`, or -1. */
 static int find_formula_row(const TermKind *kind)
 {
     int row = (int)(sizeof formulas / sizeof *formulas) - 1;
@@ -631,7 +632,7 @@ static Outline find_outline_at_point(const Probe *probe)
     Outline outline = find_outline(probe->at->system);
     plain.jitter = NULL;
     for (int c = 0; outline.x && c < 2 * probe->at->system->nodes; c++)
-        outline.x[c] = (double)coordinate(&plain, c, false).f;
+        outline.x[c] = (double)get_coordinate(&plain, c, false).f;
     return outline;
 }
 
@@ -662,7 +663,7 @@ Jet oracle_step_energy(Probe *probe, const double *u_tilde)
     Probe still = *probe;
     still.jitter = NULL;
     for (int c = 0; c < 2 * system->nodes; c++) {
-        Jet away = coordinate(&still, c, true);
+        Jet away = get_coordinate(&still, c, true);
         away.f -= u_tilde[c];
         add_part(probe, &sum, system->m[c / 2] / (Real)2, jet_mul(away, away));
     }
@@ -694,8 +695,9 @@ static int find_part_nodes(const Probe *probe, PartKind parts, const void *data,
         node[0] = i % system->nodes;
         node[1] = get_contact(system)->obstacle[i / system->nodes].node;
     } else if (parts == PART_EDGE_PAIR) {
-        node[0] = outline->point[i % outline->points];
-        memcpy(node + 1, outline->edge[i / outline->points], 2 * sizeof *node);
+        node[0] = outline->point_node[i % outline->point_count];
+        memcpy(node + 1, outline->edge_nodes[i / outline->point_count],
+               2 * sizeof *node);
     }
     int count = parts == PART_SPRING       ? 2
                 : parts == PART_COORDINATE ? 1
@@ -706,24 +708,26 @@ static int find_part_nodes(const Probe *probe, PartKind parts, const void *data,
     return count;
 }
 
-/* Raises each negative eigenvalue of a block by `lifts` times its amount. */
+/* Raises each negative eigenvalue of a block by `lift_factor` times its amount.
+ */
 static void clamp_block(const Probe *probe, int row, const void *data, int part,
-                        int lifts, double *p, double *q, EnergyPart *block)
+                        int lift_factor, double *p, double *q,
+                        EnergyPart *block)
 {
     PartFrame frame;
     Real lift[4], rows[4][6];
-    int size = 2 * block->count;
+    int size = 2 * block->node_count;
     int n = find_clamping(probe, row, data, part, p, q, &frame, lift, rows);
     for (int i = 0; i < size * size; i++)
         for (int k = 0; k < n; k++)
-            block->H[i] += lifts * probe->at->weight * lift[k] *
+            block->H[i] += lift_factor * probe->at->weight * lift[k] *
                            rows[k][i / size] * rows[k][i % size];
 }
 
 /* Computes the block of a part, if it has energy. p, q [2n] all 0 */
 static bool evaluate_energy_part(Probe *probe, int row, const void *data,
-                                 int part, int lifts, double *p, double *q,
-                                 EnergyPart *block)
+                                 int part, int lift_factor, double *p,
+                                 double *q, EnergyPart *block)
 {
     long booked = probe->part_count;
     Real w = probe->at->weight;
@@ -732,9 +736,9 @@ static bool evaluate_energy_part(Probe *probe, int row, const void *data,
     formulas[row].add_energy(probe, &W, data, part);
     if (probe->part_count == booked)
         return false;
-    block->count = find_part_nodes(probe, formulas[row].part_kind, data, part,
-                                   block->node);
-    int n = 2 * block->count;
+    block->node_count = find_part_nodes(probe, formulas[row].part_kind, data,
+                                        part, block->node);
+    int n = 2 * block->node_count;
     for (int i = 0; i < n * n; i++) {
         double *along = &p[2 * block->node[i / n / 2] + i / n % 2];
         double *across = &q[2 * block->node[i % n / 2] + i % n % 2];
@@ -745,14 +749,14 @@ static bool evaluate_energy_part(Probe *probe, int row, const void *data,
         block->H[i] = w * W.pq;
         block->g[i / n] = w * W.p;
     }
-    if (lifts && formulas[row].kind->rank != RANK_FRICTION)
-        clamp_block(probe, row, data, part, lifts, p, q, block);
+    if (lift_factor && formulas[row].kind->rank != RANK_FRICTION)
+        clamp_block(probe, row, data, part, lift_factor, p, q, block);
     return true;
 }
 
 /* Passes the inertia of each node and then all parts of all terms to `take`. */
 static void visit_parts(const Probe *there, const double *u,
-                        const double *u_tilde, int lifts,
+                        const double *u_tilde, int lift_factor,
                         void (*take)(void *to, const EnergyPart *block),
                         void *to)
 {
@@ -768,7 +772,7 @@ static void visit_parts(const Probe *there, const double *u,
     probe.outline = &outline;
     for (int i = 0; i < system->nodes; i++) {
         Real m = system->m[i];
-        block = (EnergyPart){.count = 1, .node = {i}, .H = {m, 0, 0, m}};
+        block = (EnergyPart){.node_count = 1, .node = {i}, .H = {m, 0, 0, m}};
         for (int c = 0; c < 2; c++)
             block.g[c] = m * ((Real)u[2 * i + c] - u_tilde[2 * i + c]);
         take(to, &block);
@@ -779,19 +783,21 @@ static void visit_parts(const Probe *there, const double *u,
         int count =
             row < 0 ? 0 : count_parts(&probe, formulas[row].part_kind, data);
         for (int i = 0; i < count; i++)
-            if (evaluate_energy_part(&probe, row, data, i, lifts, p, q, &block))
+            if (evaluate_energy_part(&probe, row, data, i, lift_factor, p, q,
+                                     &block))
                 take(to, &block);
     }
     free(p);
 }
 
-void visit_blocks(const IncrementalPotential *E, const double *u, int lifts,
+void visit_blocks(const IncrementalPotential *E, const double *u,
+                  int lift_factor,
                   void (*take)(void *to, const EnergyPart *block), void *to)
 {
     EvalPoint at = make_eval_point(E->system, E->x_n, u, NULL);
     at.weight = E->weight;
     const Probe probe = {.at = &at, .h = sqrtl(E->weight)};
-    visit_parts(&probe, u, E->u_tilde, lifts, take, to);
+    visit_parts(&probe, u, E->u_tilde, lift_factor, take, to);
 }
 
 /* The system of a Newton update: gradient g [2n], the sum of the absolute
@@ -799,13 +805,13 @@ void visit_blocks(const IncrementalPotential *E, const double *u, int lifts,
 typedef struct DenseSystem {
     const System *system;
     Real *g, *abs_sum, *H;
-    int n, lifts;
+    int n, lift_factor;
 } DenseSystem;
 
 static void add_block(void *assembly, const EnergyPart *block)
 {
     const DenseSystem *to = assembly;
-    int n = 2 * block->count;
+    int n = 2 * block->node_count;
     for (int i = 0; i < n; i++) {
         int r = 2 * block->node[i / 2] + i % 2;
         to->g[r] += block->g[i];
@@ -825,7 +831,7 @@ static void assemble_system(const Probe *probe, const double *u,
     memset(to->g, 0, n * sizeof *to->g);
     memset(to->abs_sum, 0, n * sizeof *to->abs_sum);
     memset(to->H, 0, n * n * sizeof *to->H);
-    visit_parts(probe, u, u_tilde, to->lifts, add_block, (void *)to);
+    visit_parts(probe, u, u_tilde, to->lift_factor, add_block, (void *)to);
     for (size_t r = 0; r < n; r++) {
         if (!system->pinned[r / 2])
             continue;
@@ -836,7 +842,8 @@ static void assemble_system(const Probe *probe, const double *u,
 }
 
 void exact_derivatives(const IncrementalPotential *E, const double *u,
-                       const double *x, double h, int lifts, Real *g, Real *H)
+                       const double *x, double h, int lift_factor, Real *g,
+                       Real *H)
 {
     size_t n = 2 * (size_t)E->system->nodes;
     Real *size = calloc(n, sizeof *size);
@@ -844,21 +851,21 @@ void exact_derivatives(const IncrementalPotential *E, const double *u,
     EvalPoint at = make_eval_point(E->system, E->x_n, u, x);
     at.weight = E->weight;
     const Probe probe = {.at = &at, .h = h};
-    const DenseSystem to = {E->system, g, size, H, (int)n, lifts};
+    const DenseSystem to = {E->system, g, size, H, (int)n, lift_factor};
     assemble_system(&probe, u, E->u_tilde, &to);
     free(size);
 }
 
 /* Factors H = L D L^T without pivoting; L D replaces H on and below the
- * diagonal. In a projected H (lifts > 0) a pivot below the mass is a rounding
- * error; the mass replaces it. Returns false if a pivot is 0. */
+ * diagonal. In a projected H (lift_factor > 0) a pivot below the mass is a
+ * rounding error; the mass replaces it. Returns false if a pivot is 0. */
 static bool factor_densely(const DenseSystem *of)
 {
     int n = of->n;
     Real *H = of->H;
     for (int c = 0; c < n; c++) {
         Real m = of->system->pinned[c / 2] ? 0 : of->system->m[c / 2];
-        if (of->lifts && H[n * c + c] < m)
+        if (of->lift_factor && H[n * c + c] < m)
             H[n * c + c] = m;
         if (!(fabsl(H[n * c + c]) > 0))
             return false;
@@ -944,8 +951,9 @@ static Real find_perturbed_residual(const Probe *probe, const double *u,
 /* Returns the exact residual for one flow_side of Probe. */
 static double find_residual_on_flow_side(const IncrementalPotential *E,
                                          const double *u, const double *x,
-                                         double h, double moved, int lifts,
-                                         int side, double *noise)
+                                         double h, double moved,
+                                         int lift_factor, int side,
+                                         double *noise)
 {
     size_t n = 2 * (size_t)E->system->nodes;
     double *place = calloc(2 * n, sizeof *place);
@@ -958,7 +966,8 @@ static double find_residual_on_flow_side(const IncrementalPotential *E,
                          .h = sqrtl(E->weight),
                          .motion_time = moved,
                          .flow_side = side};
-    const DenseSystem to = {E->system, g, g + n, g + 2 * n, (int)n, lifts};
+    const DenseSystem to = {E->system, g,      g + n,
+                            g + 2 * n, (int)n, lift_factor};
     assemble_system(&probe, u, E->u_tilde, &to);
     Real most = solve_densely(&to);
     for (int round = 0; noise && round < ERROR_SAMPLES; round++)
@@ -975,14 +984,14 @@ static double find_residual_on_flow_side(const IncrementalPotential *E,
 /* Springs that have just flowed may be evaluated on either side of their limit:
  * returns the smaller residual. */
 double exact_residual(const IncrementalPotential *E, const double *u,
-                      const double *x, double h, double moved, int lifts,
+                      const double *x, double h, double moved, int lift_factor,
                       double *noise)
 {
     bool flows = system_find_term(E->system, &plastic_energy) != NULL;
     double least = INFINITY, blur;
     for (int side = flows ? -1 : 0; side <= flows; side++) {
         double residual = find_residual_on_flow_side(
-            E, u, x, h, moved, lifts, side, noise ? &blur : NULL);
+            E, u, x, h, moved, lift_factor, side, noise ? &blur : NULL);
         if (noise && (residual <= least || side <= 0))
             *noise = blur;
         least = fmin(least, residual);
@@ -1016,7 +1025,7 @@ void exact_eigenvectors(int n, Real *a, Real *v)
 
 /* ---- boundaries that must not cross ------------------------------------- */
 
-static Real twice_area(const double *x, int a, int b, int c)
+static Real find_twice_area(const double *x, int a, int b, int c)
 {
     const double *o = x + 2 * a, *p = x + 2 * b, *q = x + 2 * c;
     return ((Real)p[0] - o[0]) * ((Real)q[1] - o[1]) -
@@ -1027,14 +1036,14 @@ long edge_crossings(const System *system, const double *x)
 {
     Outline outline = find_outline(system);
     long count = 0;
-    for (int k = 0; k < outline.edges; k++)
+    for (int k = 0; k < outline.edge_count; k++)
         for (int l = 0; l < k; l++) {
-            const int *e = outline.edge[k], *f = outline.edge[l];
-            count += twice_area(x, e[0], e[1], f[0]) *
-                             twice_area(x, e[0], e[1], f[1]) <
+            const int *e = outline.edge_nodes[k], *f = outline.edge_nodes[l];
+            count += find_twice_area(x, e[0], e[1], f[0]) *
+                             find_twice_area(x, e[0], e[1], f[1]) <
                          0 &&
-                     twice_area(x, f[0], f[1], e[0]) *
-                             twice_area(x, f[0], f[1], e[1]) <
+                     find_twice_area(x, f[0], f[1], e[0]) *
+                             find_twice_area(x, f[0], f[1], e[1]) <
                          0;
         }
     return count;
@@ -1049,7 +1058,7 @@ double exact_gap(const System *system, const double *x, int node, int obstacle)
     Probe probe = {.at = &at};
     Real n[2];
     return (double)(contact->barrier.d_hat *
-                    scaled_gap(&probe, contact, node, obstacle, n).f);
+                    find_scaled_gap(&probe, contact, node, obstacle, n).f);
 }
 
 double find_smallest_gap(const System *system, const double *x)
@@ -1076,9 +1085,9 @@ double smallest_area_ratio(const System *system, const double *x)
             smallest = fmin(smallest, (double)J.f);
     for (int t = 0; solid && t < solid->triangles.count; t++) {
         const int *node = solid->triangles.node[t];
-        smallest =
-            fmin(smallest, (double)(twice_area(x, node[0], node[1], node[2]) /
-                                    (2 * solid->triangles.rest_area)));
+        smallest = fmin(smallest,
+                        (double)(find_twice_area(x, node[0], node[1], node[2]) /
+                                 (2 * solid->triangles.rest_area)));
     }
     return smallest;
 }

@@ -41,7 +41,6 @@ static void grid_matrix_free(GridMatrix *matrix)
     triplets_free(&matrix->triplets);
 }
 
-/* Returns the entry (row, column), row >= column. */
 static double *find_entry_value(GridMatrix *matrix, int row, int column)
 {
     for (int s = matrix->A.column_start[column];; s++)
@@ -87,7 +86,7 @@ typedef enum MatrixDamage {
     NEGATE_ONE,  /* one entry of the diagonal changes its sign */
     NEGATE_HALF, /* half of the diagonal changes its sign */
     EMPTY_ROW,   /* row and column 7; b is not 0 there */
-    EMPTY_ALL,
+    EMPTY_MATRIX,
     SMALL_PIVOT, /* [[1e-17, 1], [1, 1]] in the corner of a regular matrix */
     NOT_FINITE,
     ALL_TINY /* diagonal 1e-310, whose inverse is infinite */
@@ -104,7 +103,7 @@ static void damage_matrix(GridMatrix *matrix, MatrixDamage how, int trial)
             if (r == c && ((how == NEGATE_ONE && c == trial) ||
                            (how == NEGATE_HALF && c % 2 == trial % 2)))
                 *value = -*value;
-            if (how == EMPTY_ALL || (how == EMPTY_ROW && (r == 7 || c == 7)))
+            if (how == EMPTY_MATRIX || (how == EMPTY_ROW && (r == 7 || c == 7)))
                 *value = 0;
             if (how == SMALL_PIVOT && c == 0 && r < 2)
                 *value = r == 0 ? 1e-17 : 1;
@@ -133,7 +132,7 @@ TEST(matrices_are_solved_or_refused)
         {SMALL_PIVOT, CHOLESKY_INDEFINITE, STATUS_OK, STATUS_OK, 1e-14},
         {NEGATE_ONE, CHOLESKY_DEFINITE, STATUS_NOT_POSITIVE_DEFINITE, 0, 0},
         {EMPTY_ROW, CHOLESKY_DEFINITE, STATUS_NOT_POSITIVE_DEFINITE, 0, 0},
-        {EMPTY_ALL, CHOLESKY_DEFINITE, STATUS_NOT_POSITIVE_DEFINITE, 0, 0},
+        {EMPTY_MATRIX, CHOLESKY_DEFINITE, STATUS_NOT_POSITIVE_DEFINITE, 0, 0},
         {EMPTY_ROW, CHOLESKY_INDEFINITE, STATUS_OK, STATUS_SINGULAR, 0},
         {NOT_FINITE, CHOLESKY_DEFINITE, STATUS_NOT_FINITE, 0, 0},
         {NOT_FINITE, CHOLESKY_INDEFINITE, STATUS_NOT_FINITE, 0, 0},
@@ -269,7 +268,7 @@ static double find_ulp_error(double got, long double exact)
 }
 
 /* Checks the error bound of mathematics.h, 1.5 units in the last place. */
-static void check_function_digits(double x, double z)
+static void check_function_errors(double x, double z)
 {
     CHECK_AT_MOST(find_ulp_error(math_log(x), logl(x)), 1.5);
     CHECK_AT_MOST(find_ulp_error(math_log1p(z), log1pl(z)), 1.5);
@@ -285,16 +284,16 @@ TEST(functions_are_right_to_the_last_place)
     const int count = sizeof edges / sizeof *edges;
     Random random = {81};
     for (int i = 0; i < count * count; i++)
-        check_function_digits(edges[i / count], edges[i % count]);
+        check_function_errors(edges[i / count], edges[i % count]);
     for (int i = 0; i < 300000; i++) {
         double x = i % 3 == 0   ? random_logarithmic(&random, 1e-300, 1e300)
                    : i % 3 == 1 ? random_uniform(&random, 0.5, 2)
                                 : 1 + random_uniform(&random, -1e-6, 1e-6);
         double z = i % 2 ? random_uniform(&random, -0.999, 3)
                          : random_logarithmic(&random, 1e-20, 1e20);
-        check_function_digits(x, i % 4 == 2 && z < 0.5 ? -z : z);
+        check_function_errors(x, i % 4 == 2 && z < 0.5 ? -z : z);
         if (i % 5 == 0)
-            check_function_digits(x, x * random_uniform(&random, -2, 2));
+            check_function_errors(x, x * random_uniform(&random, -2, 2));
     }
 }
 

@@ -14,7 +14,6 @@ static void write_document(void)
     document_write(&player, text);
 }
 
-/* Counts the lines that begin with a word. */
 static int count_lines(const char *word)
 {
     size_t length = strlen(word);
@@ -29,7 +28,7 @@ static void check_document_lines(void)
 {
     static const struct {
         const char *word;
-        int fields; /* number of fields; 0: depends on the columns */
+        int field_count; /* number of fields; 0: depends on the columns */
     } words[] = {
         {"page", 3},  {"topic", 1},  {"sentence", 1}, {"time", 1},
         {"told", 2},  {"step", 3},   {"text", 3},     {"formula", 3},
@@ -54,10 +53,10 @@ static void check_document_lines(void)
             depth += (*at == '{') - (*at == '}');
             assert_true(depth >= 0 || strncmp(line, "code", 4) == 0);
         }
-        if (words[row].fields == 0)
+        if (words[row].field_count == 0)
             assert_in_range(fields, 3, 2 + CARD_COLUMNS);
         else
-            assert_int_equal(fields, words[row].fields);
+            assert_int_equal(fields, words[row].field_count);
         assert_true(depth == 0 || strncmp(line, "code", 4) == 0);
     }
 }

@@ -11,7 +11,7 @@
 
 #include "play/recording.h"
 
-enum { WIDTH = 61, HEIGHT = 47, SIDE = 20, FRAMES = 8 };
+enum { WIDTH = 61, HEIGHT = 47, SIDE = 20, FRAME_COUNT = 8 };
 
 static char folder[] = "/tmp/elasto-film-XXXXXX";
 
@@ -28,7 +28,7 @@ static const struct FilmRow {
     {"-film.mp4", "yuv420p", 60, 12, WIDTH + 1, HEIGHT + 1},
     {"film%03d.webm", "yuv420p", 60, 12, WIDTH + 1, HEIGHT + 1},
 };
-enum { ROWS = sizeof rows / sizeof *rows };
+enum { FILM_ROW_COUNT = sizeof rows / sizeof *rows };
 
 /* Returns a pixel of a block that moves and changes its colour, on white. */
 static uint32_t film_pixel(int frame, int x, int y)
@@ -58,7 +58,7 @@ static void make_film(const char *name, int frames)
             canvas.pixels[k] = film_pixel(i, k % WIDTH, k / WIDTH);
         CHECK_OK(film_add_frame(&film, &canvas, i == 4 ? 2 : 1));
     }
-    CHECK(film.frames == frames);
+    CHECK(film.frame_count == frames);
     CHECK(access(name, F_OK) != 0); /* the file appears when complete */
     CHECK_OK(film_close(&film, KEEP_FILE));
     canvas_free(&canvas);
@@ -135,17 +135,17 @@ static void check_frames(const struct FilmRow *row, const uint8_t *bytes,
 
 TEST(films_show_what_was_drawn)
 {
-    static uint8_t bytes[3 * (WIDTH + 1) * (HEIGHT + 1) * (FRAMES + 1)];
-    for (int i = 0; i < ROWS + 1; i++) {
-        const struct FilmRow *row = &rows[i % ROWS];
-        int count = i < ROWS ? FRAMES : 1;
+    static uint8_t bytes[3 * (WIDTH + 1) * (HEIGHT + 1) * (FRAME_COUNT + 1)];
+    for (int i = 0; i < FILM_ROW_COUNT + 1; i++) {
+        const struct FilmRow *row = &rows[i % FILM_ROW_COUNT];
+        int count = i < FILM_ROW_COUNT ? FRAME_COUNT : 1;
         make_film(row->name, count);
-        int frames =
-            read_film(row->name, row->width, row->height, bytes, FRAMES + 1);
+        int frames = read_film(row->name, row->width, row->height, bytes,
+                               FRAME_COUNT + 1);
         assert_int_equal(frames, count);
         check_format(row);
         check_frames(row, bytes, frames);
-        if (frames == FRAMES) /* a film of one frame has no rate */
+        if (frames == FRAME_COUNT) /* a film of one frame has no rate */
             CHECK(fabs(find_frame_rate(row->name, frames) / row->frame_rate -
                        1) < 1e-2);
         CHECK(unlink(row->name) == 0);

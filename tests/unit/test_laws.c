@@ -56,7 +56,6 @@ static void put_mass_on_wall(const double n[2], double friction,
             friction_configure(&masses, &friction_energy, true, slip_speed));
 }
 
-/* Creates the run of the masses, by backward Euler from x and v. */
 static void begin_free_masses(double h, const double *x, const double *v)
 {
     const NewtonSettings settings = {
@@ -66,7 +65,6 @@ static void begin_free_masses(double h, const double *x, const double *v)
                                     x, v, &run));
 }
 
-/* Returns the energy that the first dissipating term has booked, J. */
 static double get_booked_loss(void)
 {
     return masses.losses[0].energy;
@@ -140,7 +138,8 @@ TEST(a_hand_pushes_with_a_bounded_speed)
     step_masses();
     CHECK(wall->o[0] == 1 && run.external_work == work);
     *wall = (Obstacle){.kind = OBSTACLE_BALL, .radius = 0.2, .v = {0, 40}};
-    CHECK_NEAR(push_max_fraction(get_contact(&masses), h) * h * 40, 0.1, 1e-15);
+    CHECK_NEAR(push_max_step_fraction(get_contact(&masses), h) * h * 40, 0.1,
+               1e-15);
 }
 
 /* A pushed wall stops 0.3 d_hat in front of a pinned mass. In front of a free
@@ -393,7 +392,7 @@ TEST(a_fast_ceiling_comes_in_parts)
         .phase_count = 2, .phase_end = {0.01, 10}, .v = {{0, -50}, {0, -60}}};
     make_steps(scene, 1);
     CHECK_NEAR(ceiling->o[1], 0.51 - 0.5, 1e-12);
-    CHECK(it->parts_made > 1);
+    CHECK(it->motion_parts_made > 1);
     CHECK_NEAR(it->moved_fraction, 1, 1e-15);
     CHECK_STATUS(simulation_step(scene), STATUS_BLOCKED);
     CHECK(ceiling->o[1] > -0.51 && it->moved_fraction < 1);
@@ -430,23 +429,23 @@ TEST(a_moving_wall_never_gives_back_what_is_dissipated)
 }
 
 /* A method of the table with one of its solvers */
-typedef struct MethodCase {
+typedef struct MethodVariant {
     const IntegratorMethod *method;
     Solver solver;
-} MethodCase;
+} MethodVariant;
 
-static bool find_next_variant(MethodCase *variant)
+static bool find_next_method_variant(MethodVariant *variant)
 {
     if (!variant->method)
         variant->method = integrator_methods;
     else if (variant->method->stages > 0 && variant->solver + 1 < SOLVER_COUNT)
         variant->solver++;
     else
-        *variant = (MethodCase){.method = variant->method + 1};
+        *variant = (MethodVariant){.method = variant->method + 1};
     return variant->method->name != NULL;
 }
 
-static Simulation *start_variant(const MethodCase *variant, const char *line)
+static Simulation *start_variant(const MethodVariant *variant, const char *line)
 {
     return simulate("%s --integrator %s --solver %s", line,
                     variant->method->name, get_solver_name(variant->solver));
@@ -457,7 +456,7 @@ static Simulation *start_variant(const MethodCase *variant, const char *line)
 /* Duration of the runs, s; nodes move by about a tenth of the side */
 static const double TIME = 0.064;
 
-static Simulation *start_moving_square(const MethodCase *variant, int steps)
+static Simulation *start_moving_square(const MethodVariant *variant, int steps)
 {
     char line[120];
     Random random = {90};
@@ -476,7 +475,8 @@ static Simulation *start_moving_square(const MethodCase *variant, int steps)
 TEST(methods_have_the_order_of_their_table)
 {
     enum { STEPS = 16384 };
-    const MethodCase verlet = {integrator_find_method("verlet"), SOLVER_NEWTON};
+    const MethodVariant verlet = {integrator_find_method("verlet"),
+                                  SOLVER_NEWTON};
     const TimeIntegrator *start = &start_moving_square(&verlet, STEPS)->run[0];
     Simulation *far = make_steps(start_moving_square(&verlet, STEPS), STEPS);
     Simulation *near =
@@ -485,7 +485,7 @@ TEST(methods_have_the_order_of_their_table)
     for (int i = 1; i < 2 * 9; i += 2)
         fallen += (far->run[0].x[i] - start->x[i] - TIME * start->v[i]) / 9;
     CHECK_NEAR(fallen, -9.81 / 2 * TIME * TIME, 1e-12);
-    for (MethodCase variant = {0}; find_next_variant(&variant);) {
+    for (MethodVariant variant = {0}; find_next_method_variant(&variant);) {
         int order = variant.method->order;
         int steps = order == 1 ? 2048 : 256;
         double last = 0;
@@ -554,7 +554,7 @@ static void check_momentum(Simulation *square, double angular)
  * tolerance of Newton's method. */
 TEST(momentum_is_kept)
 {
-    for (MethodCase variant = {0}; find_next_variant(&variant);) {
+    for (MethodVariant variant = {0}; find_next_method_variant(&variant);) {
         bool midpoint = strcmp(variant.method->name, "midpoint") == 0;
         bool symplectic = strcmp(variant.method->name, "verlet") == 0 ||
                           strcmp(variant.method->name, "symplectic-euler") == 0;

@@ -10,7 +10,7 @@
 static const int sizes[][2] = {{1280, 800},  {900, 900},  {1366, 768},
                                {3840, 2160}, {400, 300},  {200, 200},
                                {1, 1},       {300, 4000}, {4000, 200}};
-enum { WINDOW_SIZES = sizeof sizes / sizeof *sizes };
+enum { WINDOW_SIZE_COUNT = sizeof sizes / sizeof *sizes };
 enum {
     LISTING_CARD = 1,
     LINE_CARD,
@@ -23,7 +23,6 @@ enum {
 static Simulation simulation;
 static FrameContent content;
 
-/* Shows the square with five open cards, nine settings and nine chips. */
 static void fill_content(void)
 {
     frame_create(&simulation, &content);
@@ -70,21 +69,22 @@ static void check_chips(const Layout *l, int wished)
     int out = 0;
     if (l->chip_row.width <= 0 || l->chip_row.height <= 0)
         return;
-    CHECK(l->chips == wished && l->chip[wished - 1].width > 0);
-    for (int i = 0; i < l->chips; i++) {
+    CHECK(l->chip_count == wished && l->chip[wished - 1].width > 0);
+    for (int i = 0; i < l->chip_count; i++) {
         out += l->chip[i].width <= 0;
-        if (i > 0 && i < l->chips - 1 && l->chip[i - 1].width <= 0)
+        if (i > 0 && i < l->chip_count - 1 && l->chip[i - 1].width <= 0)
             CHECK(l->chip[i].width <= 0); /* no chip after a left-out chip */
     }
     CHECK(out == l->chips_left_out);
-    CHECK(check_boxes(l->chip, l->chips, l->chip_row) == l->chips - out);
+    CHECK(check_boxes(l->chip, l->chip_count, l->chip_row) ==
+          l->chip_count - out);
 }
 
 /* Zones tile the window without overlap, and contain their parts. */
 TEST(zones_tile_every_size)
 {
     fill_content();
-    for (int s = 0; s < WINDOW_SIZES; s++)
+    for (int s = 0; s < WINDOW_SIZE_COUNT; s++)
         for (content.panes = 1; content.panes <= LAYOUT_MAX_PANES;
              content.panes++) {
             Layout l = layout_create(&content, sizes[s][0], sizes[s][1]);
@@ -96,15 +96,16 @@ TEST(zones_tile_every_size)
                 area += (long)zones[i].width * zones[i].height;
             check_boxes(zones, 6, window);
             CHECK(area == (long)l.width * l.height);
-            CHECK(l.panes == content.panes);
+            CHECK(l.pane_count == content.panes);
             if (l.width >= 200)
-                CHECK(check_boxes(l.pane, l.panes, l.stage) == l.panes);
-            CHECK(check_boxes(l.card, l.cards, l.column) ==
-                  (l.cards ? SHOWN_CARDS : 0));
-            CHECK(check_boxes(l.setting, l.settings, l.settings_row) ==
-                  l.settings);
+                CHECK(check_boxes(l.pane, l.pane_count, l.stage) ==
+                      l.pane_count);
+            CHECK(check_boxes(l.card, l.card_count, l.column) ==
+                  (l.card_count ? SHOWN_CARDS : 0));
+            CHECK(check_boxes(l.setting, l.setting_count, l.settings_row) ==
+                  l.setting_count);
             check_chips(&l, content.chips.count);
-            CHECK(box_is_inside(l.bars, window));
+            CHECK(box_is_inside(l.step_bars, window));
         }
 }
 
@@ -124,7 +125,8 @@ TEST(a_click_hits_the_part_that_is_drawn_there)
     content.cards.closed_cards |= 1 << LISTING_CARD;
     Layout l = layout_create(&content, 1280, 800);
     const Box *const lists[] = {l.pane, l.card, l.setting, l.chip};
-    const int counts[] = {l.panes, l.cards, l.settings, l.chips};
+    const int counts[] = {l.pane_count, l.card_count, l.setting_count,
+                          l.chip_count};
     const WindowZone zones[] = {ZONE_STAGE, ZONE_CARD, ZONE_SETTING, ZONE_CHIP};
     for (int k = 0; k < 4; k++)
         for (int i = 0; i < counts[k]; i++) {
@@ -224,7 +226,8 @@ TEST(markup_has_its_widths)
 
 /* Appends measures of a formula's picture to a line: ink in red, green and
  * blue, centre of the ink (pixels), and extent of the formula. */
-static void add_drawing(const TextStyle *like, const char *markup, char *line)
+static void append_formula_measures(const TextStyle *like, const char *markup,
+                                    char *line)
 {
     double ink[3] = {0}, at[2] = {0};
     Text *boxes = (Text *)line; /* dummy: boxes instead of a font */
@@ -261,8 +264,8 @@ TEST(formulas_are_drawn_as_before)
         const char *bar = strrchr(was[i], '|');
         const char *markup = bar ? bar + 2 : was[i];
         is[0] = '\0';
-        add_drawing(&style, markup, is);
-        add_drawing(&small, markup, is);
+        append_formula_measures(&style, markup, is);
+        append_formula_measures(&small, markup, is);
         append(is, sizeof is, "%s", markup);
         if (getenv("PICTURES"))
             fprintf(file, "%s\n", is);

@@ -19,7 +19,7 @@ TEST(nodes_and_springs_are_the_slides)
         int row = n + 1, s = 0;
         square_mesh_order_nodes(&mesh, order);
         square_mesh_list_springs(&mesh, springs);
-        CHECK(mesh.nodes == row * row && mesh.segments == n);
+        CHECK(mesh.nodes == row * row && mesh.columns == n);
         CHECK(mesh.springs == 2 * n * row + 2 * n * n);
         memset(seen, 0, sizeof seen);
         for (int node = 0; node < mesh.nodes; node++) {
@@ -47,7 +47,6 @@ TEST(nodes_and_springs_are_the_slides)
     }
 }
 
-/* Returns true if a spring joins nodes a and b, in any order. */
 static bool spring_joins(const int e[2], int a, int b)
 {
     return (e[0] == a && e[1] == b) || (e[0] == b && e[1] == a);
@@ -80,7 +79,7 @@ TEST(cells_triangles_and_outline_are_those_of_the_springs)
               spring_joins(e + 2 * spring[5], node[1], node[3]));
     }
     double twice = 0;
-    for (int k = 0; k < mesh.outline_edges; k++) {
+    for (int k = 0; k < mesh.outline_edge_count; k++) {
         square_mesh_get_outline_edge(&mesh, k, node);
         int i = node[0], j = node[1];
         const double *a = x + 2 * i, *b = x + 2 * j;
@@ -93,7 +92,7 @@ TEST(cells_triangles_and_outline_are_those_of_the_springs)
                   (a[1] == 0.75 ? MESH_TOP : 0));
         twice += a[0] * b[1] - a[1] * b[0];
     }
-    CHECK(mesh.outline_edges == 32 && twice == BODIES * 2 * 2.5 * 1.5);
+    CHECK(mesh.outline_edge_count == 32 && twice == BODIES * 2 * 2.5 * 1.5);
     twice = 0;
     for (int c = 0; c < mesh.cells; c++) /* patches of at most 2 x 2 cells */
         if (square_mesh_get_patch(&mesh, c, 2, node)) {
@@ -143,7 +142,7 @@ TEST(the_words_of_pin_name_their_nodes)
 {
     static const struct {
         int columns, rows;
-        const char *text, *pinned;
+        const char *text, *pinned_flags;
     } cases[] = {
         {2, 2, "top-corners", "001000001"}, {2, 2, "top", "001001001"},
         {2, 2, "bottom", "100100100"},      {2, 2, "left", "111000000"},
@@ -158,8 +157,8 @@ TEST(the_words_of_pin_name_their_nodes)
         const SquareMesh shape =
             square_mesh_create(cases[i].columns, cases[i].rows, 1, 1);
         CHECK(!pins_parse(cases[i].text, &shape, pinned));
-        for (int node = 0; cases[i].pinned[node]; node++)
-            CHECK(pinned[node] == (cases[i].pinned[node] == '1'));
+        for (int node = 0; cases[i].pinned_flags[node]; node++)
+            CHECK(pinned[node] == (cases[i].pinned_flags[node] == '1'));
     }
 }
 

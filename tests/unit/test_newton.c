@@ -10,7 +10,7 @@
 #include "solve/newton_parts.h"
 
 /* Squares have up to 4 segments, most have 3 */
-enum { MAX_UNKNOWNS = 2 * 25, UNKNOWNS = 2 * 16 };
+enum { MAX_UNKNOWNS = 2 * 25, USUAL_UNKNOWNS = 2 * 16 };
 
 /* The last record of a minimisation, and the iterate from which its p starts */
 typedef struct LastRecord {
@@ -119,7 +119,7 @@ TEST(a_maximum_is_counted_without_projection)
 {
     static const struct {
         double m0, m1;
-        bool is_maximum;
+        bool is_indefinite;
     } rows[] = {{0.1, 1e6, true}, {1e6, 0.1, true},  {2.2, 4.2, true},
                 {3.9, 3.9, true}, {4.1, 4.1, false}, {2.1, 1e6, false}};
     const double x[4] = {0};
@@ -127,7 +127,7 @@ TEST(a_maximum_is_counted_without_projection)
         create_spring_pair(rows[i].m0, rows[i].m1, 1);
         create_newton_for_pair(1, 1e-3, PROJECTION_NONE);
         CHECK_OK(minimise_pair(x, 1));
-        CHECK(newton.counters.indefinite_ends == rows[i].is_maximum);
+        CHECK(newton.counters.indefinite_convergences == rows[i].is_indefinite);
     }
 }
 
@@ -138,7 +138,7 @@ TEST(a_maximum_is_counted_without_projection)
 TEST(nearly_singular_steps_end_or_say_why_not)
 {
     static const struct {
-        double k, side_pull;
+        double k, sideways_pull;
         Projection projection;
         Status end_status;
     } rows[] = {
@@ -152,7 +152,7 @@ TEST(nearly_singular_steps_end_or_say_why_not)
         create_spring_pair(1, 1, rows[i].k);
         pair.pinned[0] = 1;
         create_newton_for_pair(1, 1e-6, rows[i].projection);
-        newton.u_tilde[3] = rows[i].side_pull;
+        newton.u_tilde[3] = rows[i].sideways_pull;
         CHECK_STATUS(minimise_pair(x, 1), rows[i].end_status);
         CHECK(at->u[0] == 0 && at->u[1] == 0);
         if (rows[i].end_status == STATUS_LINE_SEARCH_LIMIT)
@@ -188,14 +188,14 @@ TEST(tiny_masses_keep_their_velocity)
         simulate_observed(store_shift, &shift, "--segments 3 --stiffness 1e30");
     TimeIntegrator *run = &simulation->run[0];
     double start = system_potential(&simulation->system, run->x);
-    for (int i = 0; i < UNKNOWNS; i++)
+    for (int i = 0; i < USUAL_UNKNOWNS; i++)
         run->v[i] = i % 2 ? 2 : 1;
     make_steps(simulation, 1);
     CHECK(shift > 0);
     CHECK_AT_MOST(shift, 1e-10 * 16e-6 * 1e30);
     double mean[2] = {0, 0};
-    for (int i = 0; i < UNKNOWNS; i++)
-        mean[i % 2] += run->v[i] / (UNKNOWNS / 2);
+    for (int i = 0; i < USUAL_UNKNOWNS; i++)
+        mean[i % 2] += run->v[i] / (USUAL_UNKNOWNS / 2);
     CHECK_NEAR(mean[0], 1, 1e-12); /* rounding of 16 terms of up to 100 m/s */
     CHECK_NEAR(mean[1], 2, 1e-12);
     CHECK_AT_MOST(system_potential(&simulation->system, run->x), 1e-6 * start);
@@ -245,13 +245,13 @@ TEST(energy_never_rises_without_masses)
 /* A made-up E along p: alphas up to max_alpha do not raise it */
 typedef struct FakeLine {
     double max_alpha, low_value, high_value;
-    int calls;
+    int call_count;
 } FakeLine;
 
 static double fake_line_difference(const void *function, double alpha)
 {
     FakeLine *line = *(FakeLine *const *)function;
-    line->calls++;
+    line->call_count++;
     return alpha <= line->max_alpha ? line->low_value : line->high_value;
 }
 
@@ -277,7 +277,7 @@ TEST(backtracking_takes_the_first_that_is_not_higher)
                                            &alpha, &trials),
                      rows[i].alpha > 0 ? STATUS_OK : STATUS_LINE_SEARCH_LIMIT);
         CHECK(alpha == rows[i].alpha);
-        CHECK(trials == rows[i].trials && line.calls == trials);
+        CHECK(trials == rows[i].trials && line.call_count == trials);
     }
 }
 

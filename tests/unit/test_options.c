@@ -42,7 +42,7 @@ TEST(numbers_have_ranges)
             CHECK(row->kind == OPTION_TEXT || row->kind == OPTION_PAGE ||
                   other->kind == OPTION_TEXT || other->kind == OPTION_PAGE ||
                   !row->name[0] || !other->name[0] || row->slot != other->slot);
-        if (!(row->high > row->low) || row->count)
+        if (!(row->high > row->low) || row->number_count)
             continue;
         numbers++;
         for (int end = 0; end < 2; end++) {
@@ -183,7 +183,7 @@ TEST(texts_become_one_line)
     char line[16];
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         snprintf(line, sizeof line, "%s", rows[i][0]);
-        replace_line_breaks(line);
+        replace_control_characters(line);
         assert_string_equal(line, rows[i][1]);
     }
 }
@@ -221,7 +221,7 @@ TEST(help_fits_a_terminal)
     }
     for (const Scene *scene = scenes; scene->name; scene++) {
         snprintf(line, sizeof line, " %-15s  %s\n", scene->name,
-                 scene->sentence);
+                 scene->description);
         CHECK(strstr(help, line) != NULL);
         sscanf(strstr(help, line) - 2, "%39s", word);
         CHECK_OK(options_parse(2, argv, false, &options, MESSAGE(message)));

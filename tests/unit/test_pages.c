@@ -33,7 +33,7 @@ TEST(the_fastest_motion_limits_h)
     double limit = frame_find_number(&content, "h limit");
     for (int i = 0; i < 2; i++) {
         char line[80];
-        double mode[2 * SIMULATION_MODE_NODES];
+        double mode[2 * SIMULATION_MAX_MODE_NODES];
         snprintf(line, sizeof line, "--timestep %.17g",
                  limit * (i ? 1.02 : 0.98));
         Simulation *simulation = open_page("explicit", line);
@@ -155,8 +155,8 @@ TEST(the_race_measures_errors)
     enum { VERLET_RUN = 1 }; /* index of Verlet's run with h = 8 ms */
     const Race *race = run_race("");
     for (int i = 0; i < RACE_METHODS; i++) {
-        const RacePoint *point =
-            &race->point[(RACE_STEP_SIZES - 1) * RACE_METHODS + i];
+        const RaceResult *point =
+            &race->result[(RACE_STEP_SIZES - 1) * RACE_METHODS + i];
         /* Errors below 1e-8 come from the tolerance, not from h. */
         while (point->error < 1e-8)
             point -= RACE_METHODS;
@@ -164,15 +164,15 @@ TEST(the_race_measures_errors)
         CHECK_NEAR((point - RACE_METHODS)->error / point->error, factor[i],
                    0.25 * factor[i]);
     }
-    CHECK(!race->point[VERLET_RUN].is_stable);
-    CHECK(race->point[RACE_METHODS + VERLET_RUN].is_stable);
+    CHECK(!race->result[VERLET_RUN].is_stable);
+    CHECK(race->result[RACE_METHODS + VERLET_RUN].is_stable);
     race = run_race("--stiffness 1e9 --stretch 1");
-    for (int i = 0; i < race->count; i++) {
-        const RacePoint *point = &race->point[i];
+    for (int i = 0; i < race->run_count; i++) {
+        const RaceResult *point = &race->result[i];
         CHECK(point->method->stages > 0 ? point->error < 0.01
                                         : !(point->error < 1e9));
     }
-    CHECK_NEAR(race->point[0].h, RACE_TIME / 8, 1e-15);
+    CHECK_NEAR(race->result[0].h, RACE_TIME / 8, 1e-15);
 }
 
 /* ---- code and questions -------------------------------------------------- */
@@ -186,7 +186,7 @@ TEST(pages_show_their_code)
         snprintf(names, sizeof names, "%s", page->functions);
         name = strtok_r(rest, ",", &rest);
         for (const char *const *line = page->code; *line; line++) {
-            lit += strstr(*line, page->lit_code) != NULL;
+            lit += strstr(*line, page->highlight_text) != NULL;
             CHECK(!strstr(*line, "FAIL(")); /* listings omit error messages */
             ends += (*line)[0] == '}';
             if (name && ends == functions && strstr(*line, name)) {
@@ -197,12 +197,11 @@ TEST(pages_show_their_code)
         if (name || functions == 0 || ends != functions)
             fail_msg("page %s: no %s in %s", page->name, name, page->file);
         if (lit < 1 || lit > 5)
-            fail_msg("page %s: '%s' is in %d lines", page->name, page->lit_code,
-                     lit);
+            fail_msg("page %s: '%s' is in %d lines", page->name,
+                     page->highlight_text, lit);
     }
 }
 
-/* Each page with a question has an answer. */
 TEST(questions_have_answers)
 {
     for (const LecturePage *page = lecture_pages; page->name; page++) {
@@ -222,11 +221,12 @@ enum { MAX_WORDS = 512 };
 /* Findings in a frame: heights of the smallest letters, pixels; numbers of
  * ellipses, of cut texts, of overlapping words, of points outside their axes */
 static struct {
-    int min_letter, min_code_letter, ellipsis_count, cut_text_count, overlaps;
+    int min_letter_size, min_code_letter_size, ellipsis_count, cut_text_count,
+        overlaps;
     int outside_point_count, word_count;
-    char cut_words[80]; /* the last text that leaves its box */
-    Box column, word[MAX_WORDS];
-    char texts[1 << 15];
+    char cut_text[80]; /* the last text that leaves its box */
+    Box column, word_box[MAX_WORDS];
+    char drawn_texts[1 << 15];
 } seen;
 
 const Glyph *__real_font_get_glyph(Text *text, Face face, int size,
@@ -239,10 +239,10 @@ void __real_plot_curve(const Plot *plot, int count, const double *x,
 const Glyph *__wrap_font_get_glyph(Text *text, Face face, int size,
                                    uint32_t letter)
 {
-    if (letter != ' ' && size < seen.min_letter)
-        seen.min_letter = size;
-    if (face == FACE_MONO && size < seen.min_code_letter)
-        seen.min_code_letter = size;
+    if (letter != ' ' && size < seen.min_letter_size)
+        seen.min_letter_size = size;
+    if (face == FACE_MONO && size < seen.min_code_letter_size)
+        seen.min_code_letter_size = size;
     seen.ellipsis_count += letter == 0x2026;
     return __real_font_get_glyph(text, face, size, letter);
 }
@@ -253,25 +253,26 @@ int __wrap_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
     const Box *place = &canvas->clip;
     double wide = text_measure(text, style, markup).width;
     double left = x - 0.5 * (double)align * wide;
-    size_t used = strlen(seen.texts);
+    size_t used = strlen(seen.drawn_texts);
     if (left < place->x - 1.5 || y < place->y - 1.5 ||
         left + wide > place->x + place->width + 1.5 ||
         y + style->size > place->y + place->height + 1.5) {
         seen.cut_text_count++;
-        snprintf(seen.cut_words, sizeof seen.cut_words, "%s", markup);
+        snprintf(seen.cut_text, sizeof seen.cut_text, "%s", markup);
     }
-    snprintf(seen.texts + used, sizeof seen.texts - used, "%s ", markup);
+    snprintf(seen.drawn_texts + used, sizeof seen.drawn_texts - used, "%s ",
+             markup);
     Box word = {(int)left + 1, (int)y, (int)wide - 2, (int)(0.4 * style->size)};
     char *end;
     strtod(markup, &end);
     /* Overlaps count for numbers, and for words in the column of cards. */
     bool counts = !*end || box_contains(seen.column, left + 1, y);
     for (int i = 0; i < seen.word_count && counts; i++)
-        seen.overlaps += word.x < seen.word[i].x + seen.word[i].width &&
-                         seen.word[i].x < word.x + word.width &&
-                         abs(word.y - seen.word[i].y) < word.height;
+        seen.overlaps += word.x < seen.word_box[i].x + seen.word_box[i].width &&
+                         seen.word_box[i].x < word.x + word.width &&
+                         abs(word.y - seen.word_box[i].y) < word.height;
     assert_true(seen.word_count < MAX_WORDS);
-    seen.word[seen.word_count] = word;
+    seen.word_box[seen.word_count] = word;
     seen.word_count += counts;
     return __real_text_draw(text, canvas, style, x, y, align, markup);
 }
@@ -298,7 +299,7 @@ static const char *find_missing_line(const FrameContent *content,
     static TextLine line;
     line = text_begin(&active_pane(content)->values, text);
     while (text_next_line(&line))
-        if (!strstr(seen.texts, line.text))
+        if (!strstr(seen.drawn_texts, line.text))
             return line.text;
     return NULL;
 }
@@ -320,7 +321,7 @@ static const char *find_missing_text(const FrameContent *content)
 static void inspect_frame(const FrameContent *content, Paper *paper)
 {
     memset(&seen, 0, sizeof seen);
-    seen.min_letter = seen.min_code_letter = INT_MAX;
+    seen.min_letter_size = seen.min_code_letter_size = INT_MAX;
     seen.column =
         layout_create(content, paper->canvas.width, paper->canvas.height)
             .column;
@@ -344,7 +345,7 @@ static void check_frame(const LecturePage *page, Simulation *simulation,
     frame_add_lecture(column[kind], NULL, &content);
     frame_expand_texts(&content);
     inspect_frame(&content, paper);
-    bool good = (seen.min_letter + 0.5) * (large ? 35 : 55) >= height;
+    bool good = (seen.min_letter_size + 0.5) * (large ? 35 : 55) >= height;
     if (kind == CODE_VIEW) { /* the picture and the main card stay */
         Layout beside = layout_create(&content, width, height);
         const Picture *picture = picture_of_scene(simulation->scene);
@@ -354,7 +355,7 @@ static void check_frame(const LecturePage *page, Simulation *simulation,
         CHECK(!page->main_card ||
               beside.card[card].height > 0.25 * beside.stage.height);
         good = good && (strcmp(page->file, "src/lecture.c") != 0 ||
-                        50 * (seen.min_code_letter + 0.5) > height);
+                        50 * (seen.min_code_letter_size + 0.5) > height);
     }
     if (kind < CODE_VIEW)
         missing = find_missing_text(&content);
@@ -365,10 +366,10 @@ static void check_frame(const LecturePage *page, Simulation *simulation,
             "page %s, step %ld, at %d x %d, %d: letters of %d, of code "
             "%d, %d ends in dots, %d outside its box (%s), %d over others, %d "
             "curves beyond the axes, no '%s'",
-            page->name, simulation->steps, width, height, kind, seen.min_letter,
-            seen.min_code_letter, seen.ellipsis_count, seen.cut_text_count,
-            seen.cut_words, seen.overlaps, seen.outside_point_count,
-            missing ? missing : "");
+            page->name, simulation->steps, width, height, kind,
+            seen.min_letter_size, seen.min_code_letter_size,
+            seen.ellipsis_count, seen.cut_text_count, seen.cut_text,
+            seen.overlaps, seen.outside_point_count, missing ? missing : "");
 }
 
 /* On each page, at its start and later, letters are at least 1/55 of the frame
@@ -416,13 +417,12 @@ TEST(scenes_keep_their_words_in_place)
             if (seen.cut_text_count > 0 || seen.overlaps > 0)
                 fail_msg("%s at %d x %d: %d words cut (%s), %d over others",
                          scenes[i].name, sizes[s][0], sizes[s][1],
-                         seen.cut_text_count, seen.cut_words, seen.overlaps);
+                         seen.cut_text_count, seen.cut_text, seen.overlaps);
         }
         free_simulations();
     }
 }
 
-/* A long label of a pane on a phone is broken between its parts. */
 TEST(labels_of_narrow_panes_are_not_cut)
 {
     Paper paper;

@@ -14,7 +14,7 @@ static Past past;
 static uint64_t hash_past(void)
 {
     uint64_t hash = STATE_HASH_SEED;
-    for (int p = 0; p < past_pane_count(&past); p++)
+    for (int p = 0; p < past_count_panes(&past); p++)
         hash = hash_with_ledger(&past.pane[p].simulation, hash);
     return hash;
 }
@@ -33,7 +33,7 @@ static uint64_t go_to_step(long step)
     past_set_goal(&past, step, false);
     Status status = past_finish_work(&past);
     CHECK(!status || status_is_unconverged(status));
-    CHECK(past.step == step);
+    CHECK(past.shown_step == step);
     return hash_past();
 }
 
@@ -87,30 +87,31 @@ static const char *const lines[] = {
     "arrows",
     "spring",
 };
-enum { LINES = sizeof lines / sizeof *lines };
+enum { COMMAND_LINE_COUNT = sizeof lines / sizeof *lines };
 
 /* States equal those of an uninterrupted simulation, also with memory for a few
  * states, of which only every 2^k-th is kept. */
 TEST(states_come_back)
 {
-    for (int i = 0; i < 2 * LINES; i += choose_stride(1, 3)) {
+    for (int i = 0; i < 2 * COMMAND_LINE_COUNT; i += choose_stride(1, 3)) {
         uint64_t hash[STEPS + 1];
         Simulation plain;
-        begin_past(lines[i % LINES]);
-        bool thinned = i >= LINES;
+        begin_past(lines[i % COMMAND_LINE_COUNT]);
+        bool thinned = i >= COMMAND_LINE_COUNT;
         if (thinned)
             past.max_bytes = 5 * past.used_bytes;
         go_to_each_step(0, STEPS, hash);
         CHECK(past.used_bytes <= past.max_bytes);
         CHECK((past.branch[0].stride >= STEPS / 8) == thinned);
-        simulation_from_line(lines[i % LINES], NULL, NULL, &plain);
+        simulation_from_line(lines[i % COMMAND_LINE_COUNT], NULL, NULL, &plain);
         for (int step = 0; step <= STEPS; step++) {
             CHECK(hash_with_ledger(&plain, STATE_HASH_SEED) == hash[step]);
             simulation_step(&plain);
         }
         simulation_free(&plain);
         check_all_steps(STEPS, hash);
-        CHECK(past_newest(&past) == STEPS && past.used_bytes <= past.max_bytes);
+        CHECK(past_find_newest(&past) == STEPS &&
+              past.used_bytes <= past.max_bytes);
         past_free(&past);
     }
 }
@@ -158,7 +159,7 @@ TEST(states_of_many_edits_have_a_limit)
         edit_past(COMMAND_PIN, 1, i % 2, 0);
         go_to_step(i);
     }
-    CHECK(past.branches == 31 && past.used_bytes <= past.max_bytes);
+    CHECK(past.branch_count == 31 && past.used_bytes <= past.max_bytes);
     past_free(&past);
 }
 
@@ -176,7 +177,6 @@ TEST(an_edit_ends_what_was_undone)
     past_free(&past);
 }
 
-/* Written commands are read as the same commands. */
 TEST(commands_are_written_as_they_are_read)
 {
     char message[256], line[160], again[160];
@@ -201,7 +201,6 @@ TEST(commands_are_written_as_they_are_read)
     }
 }
 
-/* No key has two commands. */
 TEST(keys_are_given_once)
 {
     CHECK(command_from_key("R", true, SCOPE_RUN).kind == COMMAND_NONE);
@@ -242,7 +241,7 @@ static void drag_randomly(Random *random, int step)
                   random_uniform(random, -1, 1), random_uniform(random, -1, 1));
     else if (step % 25 == 20)
         edit_past(COMMAND_RELEASE, 0, 0, 0);
-    else if (past_control(&past, 0)->held_node >= 0)
+    else if (past_get_control(&past, 0)->held_node >= 0)
         edit_past(COMMAND_DRAG, 0, random_uniform(random, -5, 5),
                   random_uniform(random, -5, 5));
 }
@@ -259,7 +258,7 @@ static bool make_step_after_jerk(bool descends)
     int size = 2 * simulation->system.nodes;
     Energies energies = simulation_get_energies(simulation, 0);
     double v[MAX_COORDINATES * 3], high = energies.total - energies.work;
-    long before = past.step;
+    long before = past.shown_step;
     memcpy(v, run->v, (size_t)size * sizeof *v);
     past_set_goal(&past, before + 1, false);
     Status status = past_finish_work(&past);
@@ -268,10 +267,10 @@ static bool make_step_after_jerk(bool descends)
         CHECK_SAME_BITS(run->v, v, size);
         return false;
     }
-    CHECK(past.step == before + 1);
-    const NewtonRecords *records = &past.pane[0].records;
+    CHECK(past.shown_step == before + 1);
+    const NewtonRecords *records = &past.pane[0].newton_records;
     for (int i = 0; i < records->count; i++)
-        CHECK(records->record[i].change <= 0);
+        CHECK(records->record[i].energy_change <= 0);
     for (int k = 0; k < size; k++)
         CHECK(isfinite(run->x[k]) && isfinite(run->v[k]));
     Energies now = simulation_get_energies(simulation, 0);

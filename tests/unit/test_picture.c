@@ -101,20 +101,21 @@ TEST(history_joins_energies_by_name)
     static History history;
     const Energy rows[] = {{"one", 1}, {"two", 2}, {"late", 3}};
     const Energy bad[] = {{"one", 1}, {"two", NAN}};
-    history.series = history.count = 0;
+    history.series_count = history.point_count = 0;
     history_add_point(&history, 0, 2, rows);
     history_add_point(&history, 1, 2, bad);
     history_add_point(&history, NAN, 2, rows);
     history_add_point(&history, 2, 2, rows + 1);
-    CHECK(history.count == 2 && history.series == 3 && history.time[1] == 2);
+    CHECK(history.point_count == 2 && history.series_count == 3 &&
+          history.time[1] == 2);
     for (int s = 0; s < 3; s++) {
         assert_string_equal(history.name[s], rows[s].name);
         CHECK(history.value[s][0] == (s < 2 ? rows[s].value : 0));
         CHECK(history.value[s][1] == (s > 0 ? rows[s].value : 0));
     }
-    for (int i = 3; i < 2 * HISTORY_POINTS; i++)
+    for (int i = 3; i < 2 * HISTORY_MAX_POINTS; i++)
         history_add_point(&history, i, 3, rows);
-    CHECK(history.count == HISTORY_POINTS);
+    CHECK(history.point_count == HISTORY_MAX_POINTS);
 }
 
 /* Shapes are cut at the edge of the axes, and left out if centred outside. */
@@ -201,7 +202,7 @@ static void paint_step(const char *line, int step, Canvas frame[2])
     begin_player(whole);
     player.screen.draws_frames = true; /* E along p is kept for the picture */
     player.play.mode = MODE_RUN;
-    while (player.past.step < step) {
+    while (player.past.shown_step < step) {
         Status status = player_make_step(&player);
         CHECK(!status || status_is_unconverged(status));
     }

@@ -39,7 +39,7 @@ TEST(the_curve_goes_through_the_step)
                 if (kept->iterate[iterate].has_remainder &&
                     record->alpha < trace.first_alpha / SAMPLE_INTERVALS)
                     continue; /* alpha is between two samples of E */
-                CHECK_NEAR(change, record->change,
+                CHECK_NEAR(change, record->energy_change,
                            1e-7 * fabs(record->slope) * record->alpha);
             }
         }
@@ -94,12 +94,12 @@ TEST(steps_are_due_at_the_speed_that_was_asked_for)
         CHECK_OK(player_make_frame(&player)); /* frame of the start */
         const double every = ldexp(1, speed < 0 ? -speed : 0) / 60;
         CHECK_NEAR(player_find_wait_time(&player), fmin(1e3 * every, 200), 1);
-        const long before = player.past.step;
+        const long before = player.past.shown_step;
         fake_time += 9 * every;
         CHECK(player_find_wait_time(&player) == 0);
         fake_time -= 9 * every;
         pass_time(3 * 240);
-        CHECK_NEAR(player.past.step - before, 180 * ldexp(1, speed),
+        CHECK_NEAR(player.past.shown_step - before, 180 * ldexp(1, speed),
                    fmax(1, ldexp(1, speed)));
         fake_time = -1;
         end_player();
@@ -120,7 +120,7 @@ TEST(the_overview_is_alive)
             if (i > 0) /* cell 0 shows pages, whose runs may end */
                 assert_int_equal(cell->steps, moves ? frames + 2 : 0);
         }
-    assert_int_equal(player.past.step, 0);
+    assert_int_equal(player.past.shown_step, 0);
     fake_time = -1;
     end_player();
 }
@@ -142,8 +142,8 @@ TEST(curves_span_what_is_known)
         if (newest % 300)
             continue;
         const History *history = get_history();
-        int count = history->count, pace = 1;
-        while (newest / pace > HISTORY_POINTS - 2)
+        int count = history->point_count, pace = 1;
+        while (newest / pace > HISTORY_MAX_POINTS - 2)
             pace *= 2;
         CHECK(count == newest / pace + 1 && history->time[0] == 0);
         for (int i = 0; i < count; i++)
@@ -152,10 +152,10 @@ TEST(curves_span_what_is_known)
     double before = get_history()->value[1][400];
     CHECK_OK(obey_line("goto 30"));
     CHECK_OK(obey_line("set stiffness 2e5"));
-    CHECK(get_history()->count == 31);
+    CHECK(get_history()->point_count == 31);
     CHECK_OK(obey_line("step"));
     CHECK_OK(obey_line("undo"));
-    CHECK(get_history()->count == 2100 / 4 + 1);
+    CHECK(get_history()->point_count == 2100 / 4 + 1);
     CHECK(get_history()->value[1][400] == before);
     end_player();
 }

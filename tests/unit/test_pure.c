@@ -6,9 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { STEPS = 36 }; /* no multiple of 37, so 37 i % STEPS visits each step */
+enum { STEPS = 36 }; /* not divisible by 23, so 23 i % STEPS visits each step */
 
-/* Makes a step and saves the state. bytes out */
 static void make_saved_step(Simulation *simulation, void *bytes)
 {
     Status status = simulation_step(simulation);
@@ -32,7 +31,7 @@ static void make_changed_step(const Options *options, Simulation *old)
     if (damps) {
         const Newton *newton = old->run[0].newton;
         CHECK(newton->rounding.max_curvature ==
-              system_curvature_bound(newton->system));
+              system_curvature_estimate(newton->system));
     }
     if (damps)
         CHECK_OK(change_option(old, OPTION_SLOT(damping), options->damping));
@@ -84,13 +83,12 @@ static bool check_steps_are_pure(const Options *options)
     for (int i = 0; i < STEPS && !status; i++)
         make_saved_step(&simulation, states + (size_t)(i + 1) * size);
     for (int i = 0; i < STEPS && !status; i++)
-        check_step_is_pure(options, &simulation, states, size, i * 37 % STEPS);
+        check_step_is_pure(options, &simulation, states, size, i * 23 % STEPS);
     simulation_free(&simulation);
     free(states);
     return !status;
 }
 
-/* Steps are pure in all scenes with time, with all methods that apply. */
 TEST(steps_are_pure)
 {
     int runs = 0;
@@ -112,7 +110,6 @@ TEST(steps_are_pure)
     CHECK(runs > 40);
 }
 
-/* Steps are pure with each solver and with terms that have a memory. */
 TEST(all_solvers_are_pure)
 {
     static const char *const lines[] = {
@@ -139,7 +136,6 @@ TEST(all_solvers_are_pure)
     }
 }
 
-/* A method forgets earlier steps if the time step changes. */
 TEST(changed_h_forgets_earlier_steps)
 {
     static const char *const methods[] = {"bdf2", "verlet"};

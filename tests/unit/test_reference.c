@@ -21,10 +21,10 @@ enum { MAX_UPDATE_ROWS = 1024 };
 
 /* The Newton updates of a table, or of a run */
 typedef struct NewtonUpdates {
-    int count;
+    int row_count;
     struct {
         long step;
-        int update;
+        int update_index;
         double residual, alpha;
     } row[MAX_UPDATE_ROWS];
 } NewtonUpdates;
@@ -45,21 +45,21 @@ static void read_updates(FILE *file, NewtonUpdates *updates)
     int i = 0;
     while (i < MAX_UPDATE_ROWS &&
            fscanf(file, "%ld,%d,%lf,%lf", &updates->row[i].step,
-                  &updates->row[i].update, &updates->row[i].residual,
+                  &updates->row[i].update_index, &updates->row[i].residual,
                   &updates->row[i].alpha) == 4)
         i++;
     CHECK(i < MAX_UPDATE_ROWS && feof(file));
-    updates->count = i;
+    updates->row_count = i;
     fclose(file);
 }
 
 static bool store_update(void *user, const NewtonRecord *record)
 {
     NewtonUpdates *kept = user;
-    CHECK(kept->count < MAX_UPDATE_ROWS);
-    int i = kept->count++;
+    CHECK(kept->row_count < MAX_UPDATE_ROWS);
+    int i = kept->row_count++;
     kept->row[i].step = record->step_number;
-    kept->row[i].update = record->iteration;
+    kept->row[i].update_index = record->iteration;
     kept->row[i].residual = record->residual;
     kept->row[i].alpha = record->alpha;
     return true;
@@ -71,12 +71,12 @@ static bool store_update(void *user, const NewtonRecord *record)
 static void check_updates(const NewtonUpdates *got,
                           const NewtonUpdates *expected)
 {
-    CHECK_NEAR(got->count, expected->count, 0);
-    for (int i = 0; i < got->count; i++) {
+    CHECK_NEAR(got->row_count, expected->row_count, 0);
+    for (int i = 0; i < got->row_count; i++) {
         double alpha = expected->row[i].alpha;
         double residual = expected->row[i].residual;
         CHECK(got->row[i].step == expected->row[i].step);
-        CHECK(got->row[i].update == expected->row[i].update);
+        CHECK(got->row[i].update_index == expected->row[i].update_index);
         CHECK_NEAR(got->row[i].alpha, alpha,
                    log2(alpha) == rint(log2(alpha)) ? 0 : 1e-11);
         CHECK_NEAR(got->row[i].residual, residual, 1e-8 * residual);
@@ -106,12 +106,11 @@ static void check_state(FILE *file, long step, int nodes, const double *x,
 /* A row of the table in tests/data/reference/README.md */
 typedef struct ReferenceCase {
     char name[32], tested_program[8], line[320];
-    int interval, steps;
-    double v; /* m/s, about the largest velocity */
+    int state_interval, steps;
 } ReferenceCase;
 
 static ReferenceCase cases[32];
-static int count;
+static int case_count;
 
 static int read_cases(void **unused)
 {
@@ -120,13 +119,13 @@ static int read_cases(void **unused)
     (void)unused;
     assert_non_null(file);
     while (fgets(row, sizeof row, file)) {
-        ReferenceCase *it = &cases[count];
-        count += sscanf(row, "| %31s | %7s | %d | %d | %lf | `%319[^`]",
-                        it->name, it->tested_program, &it->interval, &it->steps,
-                        &it->v, it->line) == 6;
+        ReferenceCase *it = &cases[case_count];
+        case_count += sscanf(row, "| %31s | %7s | %d | %d | %*f | `%319[^`]",
+                             it->name, it->tested_program, &it->state_interval,
+                             &it->steps, it->line) == 5;
     }
     fclose(file);
-    return count == 19 ? 0 : -1;
+    return case_count == 19 ? 0 : -1;
 }
 
 static bool case_is_for(const ReferenceCase *one, const char *who)
@@ -153,7 +152,7 @@ static void read_start_state(FILE *file, TimeIntegrator *run, double most)
  * state. */
 TEST(the_program_follows_the_slides)
 {
-    for (int i = 0; i < count; i++) {
+    for (int i = 0; i < case_count; i++) {
         const ReferenceCase *it = &cases[i];
         bool solid = case_is_for(it, "solid");
         if (case_is_for(it, "lecture"))
@@ -164,9 +163,9 @@ TEST(the_program_follows_the_slides)
         if (solid)
             read_start_state(file, run,
                              strstr(it->line, "--body") ? 1e-15 : INFINITY);
-        for (int step = solid ? it->interval : 0; step <= it->steps;
-             step += it->interval) {
-            make_steps(scene, step > 0 ? it->interval : 0);
+        for (int step = solid ? it->state_interval : 0; step <= it->steps;
+             step += it->state_interval) {
+            make_steps(scene, step > 0 ? it->state_interval : 0);
             check_state(file, step, run->system->nodes, run->x, run->v,
                         solid ? 1e-8 : 1e-6, (solid ? 1e-8 : 1e-6) / run->h);
         }
@@ -215,7 +214,7 @@ static void free_solid(Solid *solid)
 TEST(lecture_follows_the_slides)
 {
     static NewtonUpdates got, expected;
-    for (int i = 0; i < count && case_is_for(&cases[i], "lecture"); i++) {
+    for (int i = 0; i < case_count && case_is_for(&cases[i], "lecture"); i++) {
         const Options options = simulate("%s", cases[i].line)->options;
         Solid solid = square(1, options.segments, 1000, options.stiffness);
         FILE *file = open_reference(cases[i].name, "states");
@@ -286,9 +285,9 @@ TEST(hands_act_on_lecture)
         CHECK(distance(solid.x[i], start[i]) + dot(solid.v[i], solid.v[i]) ==
               0);
     for (int i = 0; i < 2; i++)
-        CHECK(screen.paused == (i == 1) &&
+        CHECK(screen.is_paused == (i == 1) &&
               send_event(&screen, &solid, SDL_KEYDOWN, SDLK_SPACE, 0));
-    CHECK(!screen.paused);
+    CHECK(!screen.is_paused);
     CHECK(!send_event(&screen, &solid, SDL_KEYDOWN, SDLK_ESCAPE, 0));
     CHECK(!send_event(&screen, &solid, SDL_QUIT, 0, 0));
     free_solid(&solid);
@@ -315,11 +314,11 @@ static void make_step_tested_last(Solid *solid, double h, double tol, int step,
         else
             for (int i = 0; i < n; i++)
                 x_new[i] = add(x[i], p[i]);
-        CHECK(updates->count < MAX_UPDATE_ROWS);
-        updates->row[updates->count].step = step;
-        updates->row[updates->count].update = update;
-        updates->row[updates->count].residual = residual(solid, p, h);
-        updates->row[updates->count++].alpha = alpha;
+        CHECK(updates->row_count < MAX_UPDATE_ROWS);
+        updates->row[updates->row_count].step = step;
+        updates->row[updates->row_count].update_index = update;
+        updates->row[updates->row_count].residual = residual(solid, p, h);
+        updates->row[updates->row_count++].alpha = alpha;
         memcpy(x, x_new, bytes);
         if (residual(solid, p, h) <= tol)
             break;
@@ -338,11 +337,11 @@ static void check_same_updates(const NewtonUpdates *got,
                                double negligible)
 {
     int i = 0;
-    for (int k = 0; k < expected->count; k++) {
+    for (int k = 0; k < expected->row_count; k++) {
         double residual = expected->row[k].residual;
-        bool there = i < got->count &&
+        bool there = i < got->row_count &&
                      got->row[i].step == expected->row[k].step &&
-                     got->row[i].update == expected->row[k].update;
+                     got->row[i].update_index == expected->row[k].update_index;
         if (!there) {
             CHECK_AT_MOST(residual, negligible);
             continue;
@@ -352,7 +351,7 @@ static void check_same_updates(const NewtonUpdates *got,
                    0.02 * residual + 1e-3 * tolerance);
         i++;
     }
-    CHECK(i == got->count && i > 10);
+    CHECK(i == got->row_count && i > 10);
 }
 
 /* The program makes the same updates as lecture.c with p tested after the
@@ -361,9 +360,9 @@ static void check_same_updates(const NewtonUpdates *got,
 TEST(the_program_makes_the_updates_of_lecture)
 {
     static NewtonUpdates got, expected;
-    for (int i = 0; i < count && case_is_for(&cases[i], "lecture"); i++)
+    for (int i = 0; i < case_count && case_is_for(&cases[i], "lecture"); i++)
         for (int tight = 0; tight < 2; tight++) {
-            got.count = expected.count = 0;
+            got.row_count = expected.row_count = 0;
             Simulation *scene =
                 simulate_observed(store_update, &got, "%s %s", cases[i].line,
                                   tight ? "--tolerance 1e-9" : "");
@@ -415,7 +414,7 @@ TEST(explicit_euler_agrees_with_the_program)
 
 /* Returns the largest relative change of the energy of the stretched square in
  * `steps` time steps of c/n_seg s, at most 1000. */
-static double find_largest_deviation(int n_seg, double c, int steps)
+static double find_energy_deviation(int n_seg, double c, int steps)
 {
     Solid solid = square(1, n_seg, 1000, 1e5);
     double start, most = 0;
@@ -441,8 +440,8 @@ TEST(symplectic_euler_stays_as_long_as_it_says)
 {
     static const int n_seg[] = {4, 8, 16};
     for (int i = 0; i < 3; i++) {
-        CHECK(find_largest_deviation(n_seg[i], 0.01, 3000) <= 0.25);
-        CHECK(find_largest_deviation(n_seg[i], 0.025, 50) == 1000);
+        CHECK(find_energy_deviation(n_seg[i], 0.01, 3000) <= 0.25);
+        CHECK(find_energy_deviation(n_seg[i], 0.025, 50) == 1000);
     }
 }
 

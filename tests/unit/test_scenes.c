@@ -28,19 +28,22 @@ TEST(scenes_are_complete)
     for (const Scene *scene = scenes; scene->name; scene++) {
         char words[512], *rest = NULL;
         CHECK(scene_find(scene->name) == scene);
-        CHECK(strlen(scene->sentence) > 20 && strlen(scene->sentence) <= 60);
+        CHECK(strlen(scene->description) > 20 &&
+              strlen(scene->description) <= 60);
         CHECK(scene->picture < PICTURE_COUNT);
-        snprintf(words, sizeof words, "%s", scene->args ? scene->args : "");
+        snprintf(words, sizeof words, "%s",
+                 scene->default_options ? scene->default_options : "");
         for (char *word = strtok_r(words, " ", &rest); word;
              word = strtok_r(NULL, " ", &rest))
             if (strncmp(word, "--", 2) == 0)
-                CHECK(option_find(word + 2)->needs_any_of & scene->parts);
+                CHECK(option_find(word + 2)->needs_any_scene_part &
+                      scene->parts);
         Simulation *simulation = simulate("%s", scene->name);
         CHECK(simulation->scene == scene && simulation->runs >= 1);
         CHECK(!simulation->is_over && simulation->steps == 0);
         simulation_step(simulation);
         CHECK(simulation->steps == 1);
-        double time = simulation_time(simulation);
+        double time = simulation_get_time(simulation);
         CHECK((time > 0) == ((scene->parts & HAS_TIME) != 0));
     }
     CHECK(!scene_find("") && !scene_find("squar") && !scene_find("0"));
@@ -55,19 +58,20 @@ static void check_descent_path(const Simulation *simulation)
 {
     const Descent *descent = &simulation->descent;
     bool on_demand = simulation->options.projection == PROJECTION_ON_DEMAND;
-    for (int i = 0; i < descent->count; i++) {
+    for (int i = 0; i < descent->record_count; i++) {
         const NewtonRecord *record = &descent->record[i];
         const double *from = record->x_before, *to = record->x_after;
-        CHECK(record->slope < 0 && record->change < 0 && record->alpha > 0);
+        CHECK(record->slope < 0 && record->energy_change < 0 &&
+              record->alpha > 0);
         double E =
             descent_evaluate(simulation, PROJECTION_NONE, from[0], from[1])
                 .energy;
         CHECK_NEAR(
             descent_evaluate(simulation, PROJECTION_NONE, to[0], to[1]).energy -
                 E,
-            record->change, 1e-12 * (1 + fabs(E)));
+            record->energy_change, 1e-12 * (1 + fabs(E)));
         if (on_demand)
-            CHECK((record->projected > 0) ==
+            CHECK((record->projected_blocks > 0) ==
                   (descent_classify_hessian(simulation, from[0], from[1]) > 0));
     }
 }
@@ -107,7 +111,6 @@ static const EnvelopeCell *run_envelope_cell(Simulation *map, int column,
     return &map->exhibit.envelope.cell[row][column];
 }
 
-/* A cell of the envelope equals the run of its command line. */
 TEST(envelope_cells_are_runs)
 {
     static const int cells[6][2] = {{13, 11}, {20, 8}, {24, 21},
@@ -178,8 +181,8 @@ TEST(pairs_that_come_up_inside_a_step_have_entries)
     before.x = newton->x_trial;
     incremental_potential_gradient(&before.E, before.u, before.x, before.g);
     CHECK(self->pair_count > 0);
-    incremental_potential_apply_hessian(&before, newton->direction.projection,
-                                        before.p, Hp);
+    incremental_potential_apply_hessian(
+        &before, newton->factored_hessian.projection, before.p, Hp);
     for (int i = 0; i < 36; i++)
         CHECK_NEAR(Hp[i], -newton->iterate.g[i], 1e-10);
     CHECK_OK(incremental_potential_extend_pattern(&newton->iterate, &grown));
@@ -207,7 +210,6 @@ TEST(a_body_that_is_pushed_stops_at_another)
 
 /* ---- the ledger while hands are on ------------------------------------- */
 
-/* Changes a run between two steps. */
 static Status change_by_hand(Simulation *scene, int deed)
 {
     const double *x = scene->run[0].x + 2 * 7;

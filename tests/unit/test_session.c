@@ -47,13 +47,12 @@ static uint64_t hash_pixels(const Canvas *canvas, Box box)
     return hash;
 }
 
-/* Returns a hash of the node positions that the active pane shows. */
 static uint64_t hash_positions(void)
 {
     player_build_frame(&player);
     const Pane *pane = active_pane(content);
     const int nodes = pane->simulation->system.nodes;
-    return add_to_hash(STATE_HASH_SEED, pane_positions(pane),
+    return add_to_hash(STATE_HASH_SEED, pane_get_positions(pane),
                        2 * sizeof(double) * (size_t)nodes);
 }
 
@@ -63,7 +62,7 @@ static uint64_t hash_aspect(const char *aspect)
 {
     char note[sizeof player.note];
     if (strcmp(aspect, "state") == 0)
-        return player_hash(&player);
+        return player_compute_hash(&player);
     if (strcmp(aspect, "shape") == 0)
         return hash_positions();
     memcpy(note, player.note, sizeof note);
@@ -81,9 +80,9 @@ static uint64_t hash_aspect(const char *aspect)
 static char window_text[1 << 16], column_text[1 << 15];
 static Box column;
 static struct {
-    size_t offset; /* offset in window_text */
-    double x, y;   /* pixels, middle of the text's left end */
-    double size;   /* pixels, size of the font */
+    size_t offset;    /* offset in window_text */
+    double x, y;      /* pixels, middle of the text's left end */
+    double font_size; /* pixels, size of the font */
     Colour colour;
 } texts[1024];
 static int text_count;
@@ -98,7 +97,7 @@ int __wrap_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
     texts[text_count].offset = used;
     texts[text_count].x = x;
     texts[text_count].y = y + 0.5 * style->size;
-    texts[text_count].size = style->size;
+    texts[text_count].font_size = style->size;
     texts[text_count].colour = style->colour;
     text_count += text_count < 1023;
     snprintf(window_text + used, sizeof window_text - used, "%s\n", markup);
@@ -108,7 +107,6 @@ int __wrap_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
     return __real_text_draw(text, canvas, style, x, y, align, markup);
 }
 
-/* Draws the window and collects its texts. */
 static void collect_drawn_texts(void)
 {
     window_text[0] = column_text[0] = '\0';
@@ -133,7 +131,6 @@ static void check_window_words(const char *verb, char *words)
     }
 }
 
-/* Returns the text with these words that is nearest to the mouse. */
 static int find_text(const char *words)
 {
     int nearest = -1;
@@ -188,7 +185,6 @@ static void begin_session(const char *line)
     scale_before = find_pane_scale();
 }
 
-/* Shows the message of a refused command as a note. */
 static void show_refusal(Status status)
 {
     status = player_show_refusal(&player, status);
@@ -238,7 +234,6 @@ static void move_mouse_into(Box box, bool corner)
     mouse[1] = box.y + (corner ? 0.95 : 0.5) * box.height;
 }
 
-/* Returns true if the mouse is on this grip. */
 static bool is_on_grip(const Layout *layout, int grip)
 {
     Pick pick = frame_find_pick(content, layout, mouse[0], mouse[1]);
@@ -257,7 +252,7 @@ static bool move_mouse_in_pane(const char *place, const Layout *layout)
         assert_true(i < exhibit_list_handles(pane->simulation, grip));
         memcpy(at, grip[i], sizeof at);
     } else if (sscanf(place, "node %d", &i) == 1)
-        memcpy(at, pane_positions(pane) + 2 * i, sizeof at);
+        memcpy(at, pane_get_positions(pane) + 2 * i, sizeof at);
     else if (sscanf(place, "m %lf,%lf", &at[0], &at[1]) != 2)
         return false;
     Camera camera = make_pane_camera(content, layout, p);
@@ -269,7 +264,6 @@ static bool move_mouse_in_pane(const char *place, const Layout *layout)
     return true;
 }
 
-/* Returns the chip with this key, or -1. */
 static int find_chip(const char *key)
 {
     int i = content->chips.count - 1;
@@ -278,7 +272,6 @@ static int find_chip(const char *key)
     return i;
 }
 
-/* Returns the cell of the overview with this scene, or -1. */
 static int find_cell(const char *scene)
 {
     int i = content->sheet.cells - 1;
@@ -298,7 +291,7 @@ static void move_mouse(const char *place)
         mouse[1] += y;
     } else if (strncmp(place, "step ", 5) == 0) {
         long step = atol(place + 5);
-        mouse[0] = layout.bars.x;
+        mouse[0] = layout.step_bars.x;
         mouse[1] = layout.time_line.y + layout.time_line.height / 2;
         while (frame_find_bar_step(content, &layout, mouse[0]) < step &&
                mouse[0] < layout.width)
@@ -375,7 +368,7 @@ static void run_until_step(long step)
 static void stop_within_step(void)
 {
     Past *past = &player.past;
-    show_refusal(player_seek(&player, past->step + 1, AFTER_NOTHING));
+    show_refusal(player_seek(&player, past->shown_step + 1, AFTER_NOTHING));
     while (!past->pane[0].is_iterating)
         CHECK_STATUS(past_do_work(past), STATUS_RUNNING);
 }
@@ -404,13 +397,14 @@ static void check_replay(const char *line)
     fclose(file);
     remove(found.gl_pathv[0]); /* the next call finds only its own script */
     globfree(&found);
-    uint64_t hash = player_hash(&player);
+    uint64_t hash = player_compute_hash(&player);
     finish_session();
     snprintf(paused, sizeof paused, "%s --paused", line);
     begin_scripted_player(script, paused);
     player_is_open = true;
     player_run(&player); /* status ignored: some steps do not converge */
-    CHECK(player_hash(&player) == hash && !player.commands.has_refused_line);
+    CHECK(player_compute_hash(&player) == hash &&
+          !player.commands.has_refused_line);
 }
 
 /* Checks the rows of the last step in the file `states` against a new run. */
@@ -477,9 +471,9 @@ static bool pane_shows_all_nodes(const Layout *layout, int p)
     const Box *box = &layout->pane[p];
     Camera camera = make_pane_camera(content, layout, p);
     double at[2], first[2], far = 0;
-    camera_to_pixel(&camera, pane_positions(pane), first);
+    camera_to_pixel(&camera, pane_get_positions(pane), first);
     for (int i = 0; i < pane->simulation->system.nodes; i++) {
-        camera_to_pixel(&camera, pane_positions(pane) + 2 * i, at);
+        camera_to_pixel(&camera, pane_get_positions(pane) + 2 * i, at);
         if (!box_contains(*box, at[0], at[1]))
             return false;
         far = fmax(far, hypot(at[0] - first[0], at[1] - first[1]));
@@ -487,7 +481,6 @@ static bool pane_shows_all_nodes(const Layout *layout, int p)
     return far > 0.05 * box->width;
 }
 
-/* Adds the facts of panes, numbers, chips and cards. */
 static void add_facts_of_parts(void)
 {
     Layout layout = find_layout();
@@ -511,42 +504,42 @@ static void add_facts_of_parts(void)
         add_fact("lit %s %d", content->chips.chip[i].key,
                  content->chips.chip[i].is_highlighted);
     }
-    for (int c = 0; c < active_picture(content)->count; c++)
+    for (int c = 0; c < active_picture(content)->card_count; c++)
         add_fact("card %d %s", c,
                  content->cards.closed_cards >> c & 1 ? "closed"
-                 : content->cards.enlarged == c       ? "large"
+                 : content->cards.enlarged_card == c  ? "large"
                                                       : "open");
 }
 
-/* Collects what the window shows, as lines of text. */
 static void collect_window_facts(void)
 {
     static const char *const kinds[] = {"none",     "node",  "spring",
                                         "obstacle", "other", "other",
                                         "other",    "other", "other"};
     const LecturePage *page = content->lecture.page;
-    const NewtonTrace *trace = content->pane[content->active_pane].trace;
+    const NewtonTrace *trace = content->pane[content->active_pane_index].trace;
     facts[0] = '\0';
-    add_fact("at %ld", content->time_line.step);
-    add_fact("newest %ld", past_newest(&player.past));
+    add_fact("at %ld", content->time_line.shown_step);
+    add_fact("newest %ld", past_find_newest(&player.past));
     add_fact("ended %d", player.is_quitting);
     add_fact("files %d", count_files(false));
     add_fact("page %d", page ? (int)(page - lecture_pages) + 1 : 0);
     add_fact("page %s", page ? page->name : "none");
     add_fact("stands %d", content->time_line.is_paused);
     add_fact("panes %d", content->panes);
-    add_fact("ghost %d", content->pane[content->active_pane].ghost_x != NULL);
+    add_fact("ghost %d",
+             content->pane[content->active_pane_index].ghost_x != NULL);
     add_fact("speed %d", player.play.log_speed);
-    add_fact("scene %s", player_simulation(&player)->scene->name);
-    add_fact("over %s %d", kinds[content->view->hovered.kind],
-             content->view->hovered.index);
+    add_fact("scene %s", player_get_simulation(&player)->scene->name);
+    add_fact("over %s %d", kinds[content->view->hovered_part.kind],
+             content->view->hovered_part.index);
     double scale = find_pane_scale();
     add_fact("scale %s", scale < scale_before   ? "smaller"
                          : scale > scale_before ? "larger"
                                                 : "same");
     add_fact("residual %.5g", trace ? trace->residual : -1);
     const Newton *newton =
-        content->pane[content->active_pane].simulation->run->newton;
+        content->pane[content->active_pane_index].simulation->run->newton;
     add_fact("solver\t%s %s",
              newton ? get_solver_name(newton->active_solver) : "none",
              newton && newton->refusal_reason ? newton->refusal_reason : "");
@@ -563,19 +556,19 @@ static void collect_window_facts(void)
 
 static const struct {
     const char *name;
-    size_t place;
+    size_t counter_offset;
 } counters[] = {{"all updates", offsetof(NewtonCounters, updates)},
                 {"all factors", offsetof(NewtonCounters, factorisations)},
-                {"all solves", offsetof(NewtonCounters, solves)},
-                {"all cycles", offsetof(NewtonCounters, cycles)},
+                {"all solves", offsetof(NewtonCounters, linear_solves)},
+                {"all cycles", offsetof(NewtonCounters, v_cycles)},
                 {"all tile sweeps", offsetof(NewtonCounters, tile_sweeps)},
-                {"handed over", offsetof(NewtonCounters, handed_to_newton)}};
-enum { COUNTERS = sizeof counters / sizeof *counters };
+                {"handed over", offsetof(NewtonCounters, newton_takeovers)}};
+enum { COUNTER_COUNT = sizeof counters / sizeof *counters };
 
 static long get_counter(const Simulation *simulation, size_t i)
 {
     const NewtonCounters sum = simulation_sum_newton_counters(simulation);
-    return *(const long *)((const char *)&sum + counters[i].place);
+    return *(const long *)((const char *)&sum + counters[i].counter_offset);
 }
 
 /* ---- records ------------------------------------------------------------- */
@@ -588,7 +581,6 @@ static void clear_record(void)
     record[0] = facts[0] = recorded_texts[0] = '\0';
 }
 
-/* Adds to the record the lines of a text that are not in an earlier text. */
 static void add_new_lines(const char *before, const char *now)
 {
     for (size_t length; *now; now += length + (now[length] == '\n')) {
@@ -606,7 +598,7 @@ static void add_new_lines(const char *before, const char *now)
 static void add_changed_facts_to_record(const char *line)
 {
     static char before[sizeof facts], head[160];
-    const Simulation *simulation = player_simulation(&player);
+    const Simulation *simulation = player_get_simulation(&player);
     const Energies now = simulation_get_energies(simulation, 0);
     const bool must_redraw = player.screen.must_redraw;
     memcpy(before, facts, sizeof before);
@@ -618,7 +610,7 @@ static void add_changed_facts_to_record(const char *line)
     if (content->lecture.page)
         for (char *at = facts; (at = strchr(at, '\t'));)
             memset(at, '.', strcspn(at, "\n"));
-    for (size_t i = 0; i < COUNTERS; i++)
+    for (size_t i = 0; i < COUNTER_COUNT; i++)
         add_fact("%s %ld", counters[i].name, get_counter(simulation, i));
     for (int i = 0; i < STATUS_COUNT; i++)
         if (simulation->status_counts[i] > 0)
@@ -643,7 +635,7 @@ static void add_changed_facts_to_record(const char *line)
 /* Returns the name of the card in which a text stands, or "". */
 static const char *find_card_name(const Layout *layout, double x, double y)
 {
-    for (int c = 0; c < layout->cards; c++)
+    for (int c = 0; c < layout->card_count; c++)
         if (box_contains(layout->card[c], x, y))
             return active_picture(content)->cards[c]->name;
     return "";
@@ -674,7 +666,7 @@ static int write_ink_amount(const Canvas *canvas, Box box, const char *name,
  * and in each card. */
 static int write_shape_ink(const Layout *layout, char *out)
 {
-    enum { STAGE_PARTS = 5 };
+    enum { PARTS_PER_SIDE = 5 };
     Paper *paper = &player.screen.paper;
     Text *text = paper->text;
     const Box stage = layout->stage;
@@ -682,22 +674,24 @@ static int write_shape_ink(const Layout *layout, char *out)
     paper->text = NULL;
     player_paint_frame(&player, paper);
     paper->text = text;
-    for (int i = 0; !layout->cells && i < STAGE_PARTS * STAGE_PARTS; i++) {
-        const int column = i % STAGE_PARTS, row = i / STAGE_PARTS;
-        const int left = stage.width * column / STAGE_PARTS;
-        const int top = stage.height * row / STAGE_PARTS;
+    for (int i = 0; !layout->cell_count && i < PARTS_PER_SIDE * PARTS_PER_SIDE;
+         i++) {
+        const int column = i % PARTS_PER_SIDE, row = i / PARTS_PER_SIDE;
+        const int left = stage.width * column / PARTS_PER_SIDE;
+        const int top = stage.height * row / PARTS_PER_SIDE;
         const Box part = {stage.x + left, stage.y + top,
-                          stage.width * (column + 1) / STAGE_PARTS - left,
-                          stage.height * (row + 1) / STAGE_PARTS - top};
+                          stage.width * (column + 1) / PARTS_PER_SIDE - left,
+                          stage.height * (row + 1) / PARTS_PER_SIDE - top};
         snprintf(name, sizeof name, "picture %d %d", column, row);
         at += write_ink_amount(&paper->canvas, part, name, at);
     }
-    for (int c = 0; c < layout->cards; c++)
+    for (int c = 0; c < layout->card_count; c++)
         at += write_ink_amount(&paper->canvas, layout->card[c],
                                active_picture(content)->cards[c]->name, at);
     if (layout->has_list)
         at += write_ink_amount(&paper->canvas, layout->column, "list", at);
-    for (int i = 0; i < layout->cells; i++) /* run times of the race vary */
+    for (int i = 0; i < layout->cell_count;
+         i++) /* run times of the race vary */
         if (strcmp(content->sheet.cell[i].name, "race") != 0)
             at += write_ink_amount(&paper->canvas, layout->cell[i], "cell", at);
     player.screen.must_redraw = true;
@@ -715,7 +709,7 @@ static void write_hits(const Layout *layout, char *out)
         const double y = canvas->height * (i / COLUMNS + 0.5) / ROWS;
         const WindowHit hit = layout_find_hit(layout, x, y);
         const Pick pick = frame_find_pick(content, layout, x, y);
-        const int row = frame_find_row(content, layout, x, y);
+        const int row = frame_find_list_row(content, layout, x, y);
         out += sprintf(out, i % COLUMNS ? " " : "| hits %d: ", i / COLUMNS);
         out += sprintf(out, "%c%d", 'a' + hit.zone, hit.index);
         if (pick.kind != PICK_NONE || row >= 0)
@@ -748,9 +742,9 @@ static void add_window_to_record(const char *unused)
             !box_contains(*places, x, y)) {
             if (!card[0] || strcmp(card, "page") == 0)
                 continue;
-            now += sprintf(now, "%.0f %s", texts[i].size, card);
+            now += sprintf(now, "%.0f %s", texts[i].font_size, card);
         } else
-            now += sprintf(now, "%.1f %.1f %.0f", x, y, texts[i].size);
+            now += sprintf(now, "%.1f %.1f %.0f", x, y, texts[i].font_size);
         now += sprintf(now, " | %06x %.*s\n", colour, length, text);
         count++;
     }
@@ -841,10 +835,11 @@ static void check_fact(const char *line)
 static int get_newton_records(const Simulation *simulation,
                               const NewtonRecord **row)
 {
-    const NewtonRecords *made = &player.past.pane[content->active_pane].records;
+    const NewtonRecords *made =
+        &player.past.pane[content->active_pane_index].newton_records;
     bool descends = simulation->scene->step == step_descent;
     *row = descends ? simulation->descent.record : made->record;
-    return descends ? simulation->descent.count : made->count;
+    return descends ? simulation->descent.record_count : made->count;
 }
 
 static double count_newton_records(const Simulation *simulation)
@@ -853,24 +848,22 @@ static double count_newton_records(const Simulation *simulation)
     return get_newton_records(simulation, &row);
 }
 
-/* Counts the updates in which E does not fall. */
 static double count_energy_rises(const Simulation *simulation)
 {
     const NewtonRecord *row;
     int rises = 0;
     for (int i = get_newton_records(simulation, &row) - 1; i >= 0; i--)
-        rises += !(row[i].change < 0 && row[i].slope < 0);
+        rises += !(row[i].energy_change < 0 && row[i].slope < 0);
     return rises;
 }
 
-/* Returns the rise of E in the first updates, J s^2. */
 static double find_energy_rise(const Simulation *simulation, int updates)
 {
     const NewtonRecord *row;
     double E = 0;
     int count = get_newton_records(simulation, &row);
     for (int i = 0; i < updates && i < count; i++)
-        E += row[i].change;
+        E += row[i].energy_change;
     return E;
 }
 
@@ -890,7 +883,6 @@ static double sum_masses(const Simulation *simulation)
     return sum;
 }
 
-/* Returns the height of the lowest node, m. */
 static double find_lowest_height(const Simulation *simulation)
 {
     double low = INFINITY;
@@ -908,7 +900,6 @@ static double find_highest_height(const Simulation *simulation)
     return high;
 }
 
-/* Returns the largest distance of a node from its place at rest, m. */
 static double find_distance_from_rest(const Simulation *simulation)
 {
     const double *x = simulation->run[0].x, *rest = get_rest_x(simulation);
@@ -918,7 +909,6 @@ static double find_distance_from_rest(const Simulation *simulation)
     return most;
 }
 
-/* Returns the upward velocity of the centre of mass, m/s. */
 static double find_mean_vy(const Simulation *simulation)
 {
     double sum = 0;
@@ -952,7 +942,6 @@ static double find_smallest_area_ratio(const Simulation *simulation)
     return smallest_area_ratio(&simulation->system, simulation->run[0].x);
 }
 
-/* Returns the energy that the run gained without work, J. */
 static double find_gained_energy(const Simulation *simulation)
 {
     return simulation->ledger[0].gained_energy;
@@ -963,32 +952,28 @@ static double count_steps_with_energy_gain(const Simulation *simulation)
     return (double)simulation->ledger[0].gain_steps;
 }
 
-/* Returns the total energy without the work done, J. */
 static double find_energy_without_work(const Simulation *simulation)
 {
     Energies ledger = simulation_get_energies(simulation, 0);
     return ledger.total - ledger.work;
 }
 
-/* Returns the height of the first wall, m. */
 static double find_wall_height(const Simulation *simulation)
 {
     return get_contact(&simulation->system)->obstacle[0].o[1];
 }
 
-/* Returns the distance of the held node from the hand, m. */
 static double find_hand_distance(const Simulation *simulation)
 {
-    const UserControl *control = past_control(&player.past, 0);
+    const UserControl *control = past_get_control(&player.past, 0);
     const double *x = simulation->run[0].x + 2 * control->held_node;
     return hypot(x[0] - control->target[0], x[1] - control->target[1]);
 }
 
-/* Returns how far the held node moves in a step, m. */
-static double find_held_node_step(const Simulation *simulation)
+static double find_held_node_motion(const Simulation *simulation)
 {
     const TimeIntegrator *run = &simulation->run[0];
-    const double *v = run->v + 2 * past_control(&player.past, 0)->held_node;
+    const double *v = run->v + 2 * past_get_control(&player.past, 0)->held_node;
     return run->h * hypot(v[0], v[1]);
 }
 
@@ -1015,13 +1000,12 @@ static void run_until_rest(void)
     for (int i = 0; i < 3000 && !player_is_stopped(&player); i++)
         show_refusal(player_make_step(&player));
     CHECK(player_is_stopped(&player));
-    const Simulation *simulation = player_simulation(&player);
+    const Simulation *simulation = player_get_simulation(&player);
     size_t size = 2 * sizeof *stopped_x * (size_t)simulation->system.nodes;
     memcpy(stopped_x, simulation->run[0].x,
            size < sizeof stopped_x ? size : sizeof stopped_x);
 }
 
-/* Returns the growth of the heap since the session began, MB. */
 static double find_heap_growth(const Simulation *simulation)
 {
     (void)simulation;
@@ -1055,7 +1039,7 @@ static const struct {
                {"own energy", find_energy_without_work},
                {"wall", find_wall_height},
                {"hand distance", find_hand_distance},
-               {"hand step", find_held_node_step},
+               {"hand step", find_held_node_motion},
                {"way from stop", find_distance_from_stop},
                {"unconverged", count_unconverged_steps}};
 
@@ -1073,7 +1057,7 @@ static double find_value_by_name(const char *name)
     for (size_t n = 0; n < sizeof numbers / sizeof *numbers; n++)
         if (strcmp(numbers[n].name, name) == 0)
             return numbers[n].find(simulation);
-    for (size_t n = 0; n < COUNTERS; n++)
+    for (size_t n = 0; n < COUNTER_COUNT; n++)
         if (strcmp(counters[n].name, name) == 0)
             return (double)get_counter(simulation, n);
     if (strncmp(name, "gap", 3) == 0) {
@@ -1085,16 +1069,17 @@ static double find_value_by_name(const char *name)
     if (sscanf(name, "radius %d", &i) == 1)
         return hypot(simulation->run[i].x[0], simulation->run[i].x[1]);
     if (sscanf(name, "x %d", &i) == 1)
-        return pane_positions(pane)[2 * i];
+        return pane_get_positions(pane)[2 * i];
     if (sscanf(name, "y %d", &i) == 1)
-        return pane_positions(pane)[2 * i + 1];
+        return pane_get_positions(pane)[2 * i + 1];
     if (sscanf(name, "update %d %15s", &i, field) == 2) {
         CHECK(i >= 1 && i <= get_newton_records(simulation, &row));
         row += i - 1;
         while (strcmp(fields[k], field) != 0)
             k++;
-        return (double[]){row->alpha,  row->residual, row->projected,
-                          row->change, row->slope,    row->x_after[0]}[k];
+        return (double[]){
+            row->alpha,         row->residual, row->projected_blocks,
+            row->energy_change, row->slope,    row->x_after[0]}[k];
     }
     const Energies ledger = simulation_get_energies(simulation, 0);
     for (i = 0; i < ledger.count; i++)
@@ -1125,7 +1110,7 @@ static void check_named_value(const char *line)
     double number = find_value_by_name(name);
     if (!has_digits(number, digits))
         fail_msg("%s is %.12g at step %ld, not %s", name, number,
-                 player.past.step, digits);
+                 player.past.shown_step, digits);
 }
 
 /* Makes the steps of "STEPS NAME NUMBER"; checks the number after each. */
@@ -1271,7 +1256,7 @@ static int end_session(void **unused)
  * stiffness k, l lines of Algorithm 3, f projection, s line search, m method */
 static const struct SceneRow {
     const char *scene, *drag_start;
-    int dx, dy;
+    int drag_x, drag_y;
     const char *action_letters;
 } rows[] = {
     {"square", "node 12", 60, -60, "gpklfsm"},
@@ -1309,8 +1294,8 @@ static bool fill_action_line(const char *pattern, const struct SceneRow *row,
     int verb = (int)(place - pattern), half = strcmp(place, "ON") == 0;
     half = strcmp(place, "BACK") == 0 ? -1 : half;
     if (half)
-        snprintf(line, size, "%.*s%+d %+d", verb, pattern, half * row->dx / 2,
-                 half * row->dy / 2);
+        snprintf(line, size, "%.*s%+d %+d", verb, pattern,
+                 half * row->drag_x / 2, half * row->drag_y / 2);
     else
         snprintf(line, size, "%.*s%s", verb, pattern,
                  strcmp(place, "START") == 0 ? row->drag_start : place);
@@ -1348,7 +1333,7 @@ static void grips_go_where_they_are_dragged(void **unused)
             run_session_line("move +9 +9");
             run_session_line("move m 0.4,-0.3");
             run_session_line("release +0 +0");
-            exhibit_list_handles(player_simulation(&player), at);
+            exhibit_list_handles(player_get_simulation(&player), at);
             CHECK_NEAR(at[i][0], 0.4, 1e-9);
             CHECK(flat || fabs(at[i][1] + 0.3) < 1e-9);
         }
@@ -1358,10 +1343,9 @@ static void grips_go_where_they_are_dragged(void **unused)
 
 /* ---- random keys -------------------------------------------------------- */
 
-/* Hashes the state, the step, and all settings but one. */
 static uint64_t hash_all_but_setting(int place)
 {
-    uint64_t hash = hash_aspect("state") + (uint64_t)player.past.step;
+    uint64_t hash = hash_aspect("state") + (uint64_t)player.past.shown_step;
     player_build_frame(&player);
     for (int i = 0; i < content->settings.count; i++)
         if (i != place)
@@ -1380,7 +1364,7 @@ static void random_keys_stay_in_their_field(void **unused)
         "Delete", "Ctrl+R", "Tab+M",     "Shift+N",   "Ctrl+5", "Keypad 5",
         "Insert", "\u00dc", "Shift+Tab", "Backspace",
     };
-    enum { OTHER_KEYS = sizeof others / sizeof *others, ROUNDS = 150 };
+    enum { OTHER_KEY_COUNT = sizeof others / sizeof *others, ROUNDS = 150 };
     Random random = {19};
     int set = 0, refused = 0;
     for (int round = 0; round < ROUNDS; round++) {
@@ -1389,14 +1373,14 @@ static void random_keys_stay_in_their_field(void **unused)
             run_session_line("key N N");
         }
         uint64_t before = hash_aspect("");
-        int place = random_below(&random, player.screen.frame.options);
+        int place = random_below(&random, player.screen.frame.option_count);
         for (int i = 0; i <= place; i++)
             press_key("Tab");
         uint64_t rest = hash_all_but_setting(place);
         press_letter("0123456789.,+-"[random_below(&random, 14)]);
         for (int i = random_below(&random, 12); i > 0; i--)
             if (random_below(&random, 4) == 0)
-                press_key(others[random_below(&random, OTHER_KEYS)]);
+                press_key(others[random_below(&random, OTHER_KEY_COUNT)]);
             else if (random_below(&random, 2) == 0)
                 press_letter((char)(' ' + random_below(&random, 95)));
             else
@@ -1405,26 +1389,28 @@ static void random_keys_stay_in_their_field(void **unused)
         bool enter = !mesh && random_below(&random, 2) == 0;
         if (enter)
             press_key("Return");
-        set = enter && !player.hands.selected;
+        set = enter && !player.hands.selected_option;
         refused += enter && !set;
         press_key("Escape");
-        CHECK(!player.hands.selected && past_pane_count(&player.past) == 1 &&
+        CHECK(!player.hands.selected_option &&
+              past_count_panes(&player.past) == 1 &&
               player_is_stopped(&player));
-        if (set && player.past.step == 2) /* a mesh size begins a new run */
+        if (set &&
+            player.past.shown_step == 2) /* a mesh size begins a new run */
             CHECK(hash_all_but_setting(place) == rest);
         if (!set)
             CHECK(hash_aspect("") == before);
-        assert_string_equal(player_simulation(&player)->scene->name, "square");
+        assert_string_equal(player_get_simulation(&player)->scene->name,
+                            "square");
         assert_int_equal(count_files(false), 0);
     }
     CHECK(refused > ROUNDS / 10);
 }
 
-/* Returns a hash of the states, times and ledgers of all panes. */
 static uint64_t hash_panes(void)
 {
     uint64_t hash = STATE_HASH_SEED;
-    for (int p = 0; p < past_pane_count(&player.past); p++)
+    for (int p = 0; p < past_count_panes(&player.past); p++)
         hash = hash_with_ledger(&get_past_pane(p)->simulation, hash);
     return hash;
 }
@@ -1433,7 +1419,7 @@ static uint64_t hash_panes(void)
  * checks that its hash is the stored one. */
 static void hash_each_step(uint64_t *hash, bool again)
 {
-    const long newest = past_newest(&player.past);
+    const long newest = past_find_newest(&player.past);
     CHECK(newest < MAX_STEPS);
     for (long i = 0; i <= newest; i++) {
         char line[32];
@@ -1446,21 +1432,20 @@ static void hash_each_step(uint64_t *hash, bool again)
     }
 }
 
-/* Undoes and redoes all changes, which must restore the bits of every step. */
 static void undo_and_redo_all(uint64_t started)
 {
     static uint64_t hash[MAX_CHANGES][MAX_STEPS];
     int back = 0;
     run_session_line("release 350 300");
-    const uint64_t end = player_hash(&player);
-    const long step = player.past.step;
-    for (; player.past.current > 0; back++) {
+    const uint64_t end = player_compute_hash(&player);
+    const long step = player.past.shown_step;
+    for (; player.past.branch_index > 0; back++) {
         CHECK(back + 1 < MAX_CHANGES);
         hash_each_step(hash[back], false);
         show_refusal(obey_line("undo"));
     }
     hash_each_step(hash[back], false);
-    CHECK(player_hash(&player) == started);
+    CHECK(player_compute_hash(&player) == started);
     for (; back >= 0; back--) {
         hash_each_step(hash[back], true);
         if (back > 0)
@@ -1469,7 +1454,7 @@ static void undo_and_redo_all(uint64_t started)
     char line[32];
     snprintf(line, sizeof line, "goto %ld", step);
     show_refusal(obey_line(line));
-    CHECK(player_hash(&player) == end);
+    CHECK(player_compute_hash(&player) == end);
 }
 
 /* Acts at random, with memory for few or many states. Undo and redo restore the
@@ -1478,7 +1463,7 @@ static void undo_and_redo_all(uint64_t started)
 static void record_of_random_hands(void **unused)
 {
     (void)unused;
-    enum { ROUNDS = 60, ACTIONS = 40 };
+    enum { ROUNDS = 60, ACTIONS_PER_ROUND = 40 };
     static const char *const scene[] = {
         "square --segments 2", "square --segments 2 --integrator sdirk2",
         "drop --segments 2", "square --segments 2 --integrator bdf2"};
@@ -1494,8 +1479,8 @@ static void record_of_random_hands(void **unused)
         snprintf(line, sizeof line, "begin %s --paused", scene[round % 4]);
         run_session_line(line);
         player.past.max_bytes = states[round % 3] * player.past.used_bytes;
-        const uint64_t started = player_hash(&player);
-        for (int i = 0; i < ACTIONS; i++) {
+        const uint64_t started = player_compute_hash(&player);
+        for (int i = 0; i < ACTIONS_PER_ROUND; i++) {
             run_session_line(current_line = acts[random_below(&random, count)]);
             player.is_quitting = false; /* Escape may quit */
             add_changed_facts_to_record(current_line);

@@ -26,10 +26,10 @@ static void set_paper_size(int width, int height)
 
 static void sample_energies(void)
 {
-    Energy row[HISTORY_SERIES];
+    Energy row[MAX_HISTORY_SERIES];
     const Picture *picture = picture_of_scene(simulation.scene);
     int n = picture->get_energies ? picture->get_energies(&simulation, row) : 0;
-    history_add_point(&history, simulation_time(&simulation), n, row);
+    history_add_point(&history, simulation_get_time(&simulation), n, row);
 }
 
 /* Creates the simulation of a test, and frees the last one. */
@@ -37,7 +37,7 @@ static void begin_show(const char *line, int steps)
 {
     simulation_free(&simulation);
     simulation_from_line(line, NULL, NULL, &simulation);
-    history.series = history.count = 0;
+    history.series_count = history.point_count = 0;
     sample_energies();
     for (int i = 0; i < steps; i++) {
         Status status = simulation_step(&simulation);
@@ -82,7 +82,7 @@ static Colour get_pixel(int x, int y)
     return paper.canvas.pixels[y * paper.canvas.width + x];
 }
 
-static int count_colour(Box box, Colour colour)
+static int count_box_pixels(Box box, Colour colour)
 {
     int count = 0;
     for (int j = box.y; j < box.y + box.height; j++)
@@ -93,7 +93,7 @@ static int count_colour(Box box, Colour colour)
 
 static int count_stage_pixels(Colour colour)
 {
-    return count_colour(layout.stage, colour);
+    return count_box_pixels(layout.stage, colour);
 }
 
 /* Picks at some pixels right of and below a point of the world. */
@@ -129,8 +129,8 @@ TEST(every_size_is_drawn)
                 content.is_bare = mode == 3;
                 content.column = mode == 2 ? COLUMN_KEYS : COLUMN_CARDS;
                 content.cards.closed_cards = 0;
-                content.pane[0].failure = STATUS_NOT_FINITE;
-                view.hovered = (Pick){.kind = PICK_SPRING, .index = 0};
+                content.pane[0].step_status = STATUS_NOT_FINITE;
+                view.hovered_part = (Pick){.kind = PICK_SPRING, .index = 0};
                 if (simulation.runs > 0 && mode > 0) {
                     simulation.run[0].x[0] = NAN;
                     simulation.run[0].x[1] = mode == 1 ? 1e300 : -INFINITY;
@@ -160,7 +160,7 @@ TEST(distant_nodes_are_drawn_or_reported)
         x[i] = i == 2 * 11 + 1 ? 1e220 : i == 2 * 13 + 1 ? -1e220 : 0;
     draw_picture();
     CHECK(count_stage_pixels(COLOUR_X) > 300);
-    view.hovered = (Pick){.kind = PICK_SPRING, .index = 0};
+    view.hovered_part = (Pick){.kind = PICK_SPRING, .index = 0};
     draw_picture();
     CHECK(count_stage_pixels(COLOUR_NOTE) > 1000);
     for (int part = 0; part < 2; part++) { /* first one node, then all nodes */

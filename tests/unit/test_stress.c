@@ -11,7 +11,7 @@ TEST(named_cases_keep_the_promise)
         VerdictTally tally = {0};
         if (row->is_slow)
             continue;
-        bool good = row->run(&tally, reason);
+        bool good = row->run_case(&tally, reason);
         if (!good)
             print_error("%s: %s\n", row->name, reason);
         CHECK(good);
@@ -32,8 +32,8 @@ TEST(random_scenes_keep_the_promise)
         if (!good)
             print_error("build/stress --line '%s': %s\n", stress_line, reason);
         CHECK(good);
-        CHECK(tally.steps[VERDICT_CONVERGED] >
-              2 * tally.steps[VERDICT_REPORTED]);
+        CHECK(tally.steps_by_verdict[VERDICT_CONVERGED] >
+              2 * tally.steps_by_verdict[VERDICT_REPORTED]);
         CHECK(i > 0 || (tally.judged_residuals > count &&
                         tally.undecided * 10 < tally.judged_residuals));
     }
@@ -157,19 +157,19 @@ TEST(interruptions_leave_no_trace)
         }
 }
 
-/* test_large_residual rejects the first iterate and accepts the last one. */
+/* test_large_square rejects the first iterate and accepts the last one. */
 TEST(an_unfinished_search_is_noticed)
 {
     Simulation *simulation = simulate("--segments 12 --solver multigrid");
     Newton *newton = simulation->run[0].newton;
     newton_start(newton, simulation->run[0].x, NULL, 1.6e-5, 0.01);
-    CHECK(test_large_residual(&newton->iterate.E, newton->iterate.u,
-                              newton->settings.h,
-                              newton->tolerance) == TEST_FAILED);
+    CHECK(test_large_square(&newton->iterate.E, newton->iterate.u,
+                            newton->settings.h,
+                            newton->tolerance) == TEST_FAILED);
     CHECK_OK(newton_minimise(newton));
-    CHECK(test_large_residual(&newton->iterate.E, newton->iterate.u,
-                              newton->settings.h,
-                              newton->tolerance) == TEST_PASSED);
+    CHECK(test_large_square(&newton->iterate.E, newton->iterate.u,
+                            newton->settings.h,
+                            newton->tolerance) == TEST_PASSED);
 }
 
 TESTS(NULL, NULL)

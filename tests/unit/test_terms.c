@@ -16,50 +16,62 @@
 #include "model/mass_spring_energy.h"
 #include "model/self_contact.h"
 
-enum { SIZE = 2 * 40 }; /* largest number of coordinates */
+enum { CASE_SIZE = 2 * 40 }; /* largest number of coordinates */
 
 /* A system of a few nodes with one kind of energy, or two */
 typedef struct TermRow {
     const char *name;
-    enum { SPRING, GRAPH, WALL, BALL, FREE_BALL, CORNER, GRID, PAIR } shape;
+    enum {
+        SPRING,
+        RANDOM_SPRINGS,
+        WALL,
+        BALL,
+        FREE_BALL,
+        ONE_TRIANGLE,
+        CELL_GRID,
+        CELL_PAIR
+    } shape;
     double yield, hardening; /* read as one array by plastic_energy.configure */
-    double damping, pull;    /* 0: none; pull in J/m^2 */
-    bool rubs, flat;         /* flat: springs have (nearly) no length at x */
+    double damping, pull_stiffness; /* 0: none; pull in J/m^2 */
+    bool rubs, is_collapsed; /* flat: springs have (nearly) no length at x */
     bool is_solid;           /* triangles instead of springs */
-    double reach;            /* largest alpha, if no term limits it */
+    double max_alpha;        /* largest alpha, if no term limits it */
     const OptionRow *option; /* option whose term is tested; NULL: none */
 } TermRow;
 
 static const TermRow rows[] = {
-    {"one spring", SPRING, .reach = 1e6},
-    {"springs", GRAPH, .reach = 1e3},
-    {"spring of no length", SPRING, .flat = true, .reach = 1e3},
-    {"springs of next to no length", GRAPH, .flat = true, .reach = 1e3},
-    {"field and hand", GRAPH, .pull = 3, .reach = 1e3},
-    {"damped springs", GRAPH, .damping = 0.3, .reach = 1e3},
-    {"flowing spring", SPRING, .yield = 0.1, .hardening = 0.3, .reach = 1e3},
-    {"flowing springs, damped", GRAPH, .yield = 0.1, .hardening = 0.3,
-     .damping = 0.3, .reach = 1e3},
-    {"perfectly plastic spring", SPRING, .yield = 0.1, .reach = 1e6},
-    {"wall", WALL, .reach = 1e3},
-    {"wall that rubs", WALL, .rubs = true, .reach = 1e3},
-    {"ball", BALL, .reach = 1e3},
-    {"ball that rubs", BALL, .rubs = true, .reach = 1e3},
-    {"free ball", FREE_BALL, .reach = 1e3},
-    {"free ball that rubs", FREE_BALL, .rubs = true, .reach = 1e3},
-    {"corner", CORNER, .reach = 1e3},
-    {"cells with springs", GRID, .reach = 1e3},
-    {"triangles", GRID, .is_solid = true, .reach = 1e3},
-    {"two bodies", PAIR, .reach = 1e3},
-    {"two bodies that rub", PAIR, .rubs = true, .reach = 1e3},
+    {"one spring", SPRING, .max_alpha = 1e6},
+    {"springs", RANDOM_SPRINGS, .max_alpha = 1e3},
+    {"spring of no length", SPRING, .is_collapsed = true, .max_alpha = 1e3},
+    {"springs of next to no length", RANDOM_SPRINGS, .is_collapsed = true,
+     .max_alpha = 1e3},
+    {"field and hand", RANDOM_SPRINGS, .pull_stiffness = 3, .max_alpha = 1e3},
+    {"damped springs", RANDOM_SPRINGS, .damping = 0.3, .max_alpha = 1e3},
+    {"flowing spring", SPRING, .yield = 0.1, .hardening = 0.3,
+     .max_alpha = 1e3},
+    {"flowing springs, damped", RANDOM_SPRINGS, .yield = 0.1, .hardening = 0.3,
+     .damping = 0.3, .max_alpha = 1e3},
+    {"perfectly plastic spring", SPRING, .yield = 0.1, .max_alpha = 1e6},
+    {"wall", WALL, .max_alpha = 1e3},
+    {"wall that rubs", WALL, .rubs = true, .max_alpha = 1e3},
+    {"ball", BALL, .max_alpha = 1e3},
+    {"ball that rubs", BALL, .rubs = true, .max_alpha = 1e3},
+    {"free ball", FREE_BALL, .max_alpha = 1e3},
+    {"free ball that rubs", FREE_BALL, .rubs = true, .max_alpha = 1e3},
+    {"corner", ONE_TRIANGLE, .max_alpha = 1e3},
+    {"cells with springs", CELL_GRID, .max_alpha = 1e3},
+    {"triangles", CELL_GRID, .is_solid = true, .max_alpha = 1e3},
+    {"two bodies", CELL_PAIR, .max_alpha = 1e3},
+    {"two bodies that rub", CELL_PAIR, .rubs = true, .max_alpha = 1e3},
 };
-enum { TERM_ROWS = sizeof rows / sizeof *rows };
+enum { TERM_ROW_COUNT = sizeof rows / sizeof *rows };
 
 /* One random point of a row, with directions p and q */
 typedef struct TermCase {
     System system;
     EvalPoint at;
-    double x_n[SIZE], u[SIZE], x[SIZE], p[SIZE], q[SIZE], h;
+    double x_n[CASE_SIZE], u[CASE_SIZE], x[CASE_SIZE], p[CASE_SIZE],
+        q[CASE_SIZE], h;
     int unknowns;
 } TermCase;
 
@@ -86,7 +98,6 @@ static void make_node_contact(const TermRow *row, Random *random, TermCase *c)
                                     random_logarithmic(random, 0.02, 50)));
 }
 
-/* Configures the term of an option with random numbers. */
 static void configure_option(const OptionRow *option, Random *random,
                              const SquareMesh *mesh, System *system)
 {
@@ -99,7 +110,7 @@ static void configure_option(const OptionRow *option, Random *random,
 
 static void make_cell_grid(const TermRow *row, Random *random, TermCase *c)
 {
-    int n = row->shape == CORNER ? 1 : 2;
+    int n = row->shape == ONE_TRIANGLE ? 1 : 2;
     const SquareMesh mesh = square_mesh_create(n, n, 1, 1);
     CHECK_OK(system_create(mesh.nodes, mesh.springs, &c->system));
     for (int i = 0; i < mesh.nodes; i++)
@@ -116,9 +127,10 @@ static void make_cell_grid(const TermRow *row, Random *random, TermCase *c)
                  : cells_configure(&c->system, &mesh, 5));
     if (row->option)
         configure_option(row->option, random, &mesh, &c->system);
-    if (row->shape == GRID && !row->is_solid && random_below(random, 2))
+    if (row->shape == CELL_GRID && !row->is_solid && random_below(random, 2))
         c->system.k[random_below(random, c->system.springs)] = 0;
-    if (row->shape == CORNER) { /* one triangle remains, without springs */
+    if (row->shape ==
+        ONE_TRIANGLE) { /* one triangle remains, without springs */
         const CellBarriers *cells =
             system_find_term(&c->system, &cell_energy)->data;
         const int *side = cells->side_springs[0];
@@ -159,19 +171,18 @@ static void make_cell_pair(const TermRow *row, Random *random, TermCase *c)
                                     random_logarithmic(random, 0.02, 50)));
 }
 
-/* Creates the nodes, springs and contacts of a row, at x_n. */
 static void make_shape(const TermRow *row, Random *random, TermCase *c)
 {
-    if (row->shape == GRAPH) {
-        random_system(random, row->flat ? SPRINGS_SHORT : SPRINGS_MIXED,
+    if (row->shape == RANDOM_SPRINGS) {
+        random_system(random, row->is_collapsed ? SPRINGS_SHORT : SPRINGS_MIXED,
                       &c->system, c->x_n);
         return;
     }
-    if (row->shape == PAIR) {
+    if (row->shape == CELL_PAIR) {
         make_cell_pair(row, random, c);
         return;
     }
-    if (row->shape == GRID || row->shape == CORNER) {
+    if (row->shape == CELL_GRID || row->shape == ONE_TRIANGLE) {
         make_cell_grid(row, random, c);
         return;
     }
@@ -200,11 +211,10 @@ static void add_pulls(Random *random, double strength, System *system)
     CHECK_OK(pull_configure(system, &hand_energy, &one));
 }
 
-/* Adds the pulls, the flow and the damping of a row. */
 static void add_terms(const TermRow *row, Random *random, System *system)
 {
-    if (row->pull > 0)
-        add_pulls(random, row->pull, system);
+    if (row->pull_stiffness > 0)
+        add_pulls(random, row->pull_stiffness, system);
     if (row->yield > 0) {
         CHECK_OK(plastic_energy.configure(system, NULL, &row->yield));
         Plasticity *flow = system_term_data(system, &plastic_energy);
@@ -220,16 +230,16 @@ static void add_terms(const TermRow *row, Random *random, System *system)
 /* Draws random u that all terms allow, and random directions. */
 static void draw_positions(const TermRow *row, Random *random, TermCase *c)
 {
-    double shake = row->flat            ? 1e-8
-                   : row->shape == PAIR ? 0.05
-                   : row->shape >= GRID ? 0.3
-                                        : 0.2;
+    double shake = row->is_collapsed         ? 1e-8
+                   : row->shape == CELL_PAIR ? 0.05
+                   : row->shape >= CELL_GRID ? 0.3
+                                             : 0.2;
     bool good = false;
     for (int k = 0; !good; k++, shake *= 0.7) {
         CHECK(k < 100);
         good = true;
         for (int i = 0; i < c->unknowns; i++) {
-            int from = row->flat && row->shape == SPRING ? i % 2 : i;
+            int from = row->is_collapsed && row->shape == SPRING ? i % 2 : i;
             c->u[i] = shake * random_uniform(random, -1, 1);
             c->u[i] = c->u[from];
             c->x_n[i] = c->x_n[from];
@@ -274,7 +284,7 @@ static int apply_hessian(const TermCase *c, const TermKind *kind,
     return kind->hessian ? kind->hessian(&c->at, projection, NULL, q, out) : 0;
 }
 
-static double case_dot(const TermCase *c, const double *a, const double *b)
+static double dot_product(const TermCase *c, const double *a, const double *b)
 {
     double sum = 0;
     for (int i = 0; i < c->unknowns; i++)
@@ -316,7 +326,7 @@ static void compare(const char *what, Real got, Real expected, Real tolerance)
 
 /* Returns the allowed error of the scalar product a.b: four ulps of the sum of
  * |a_i b_i|, since a.b itself is small if a and b are nearly orthogonal. */
-static Real dot_noise(const TermCase *c, const double *a, const double *b)
+static Real find_dot_noise(const TermCase *c, const double *a, const double *b)
 {
     Real sum = 0;
     for (int i = 0; i < c->unknowns; i++)
@@ -325,37 +335,36 @@ static Real dot_noise(const TermCase *c, const double *a, const double *b)
 }
 
 /* Returns the allowed error of p H q: four ulps of each product in the sum. */
-static Real hessian_noise(TermCase *c, const TermKind *kind)
+static Real find_hessian_noise(TermCase *c, const TermKind *kind)
 {
     Real sum = 0;
     for (int i = 0; i < c->unknowns; i++) {
-        double unit[SIZE] = {0}, column[SIZE] = {0};
+        double unit[CASE_SIZE] = {0}, column[CASE_SIZE] = {0};
         unit[i] = c->q[i];
         apply_hessian(c, kind, PROJECTION_NONE, unit, column);
-        sum += dot_noise(c, c->p, column);
+        sum += find_dot_noise(c, c->p, column);
     }
     return sum;
 }
 
-/* Checks value, gradient and Hessian against the oracle. */
 static void check_derivatives(TermCase *c, const TermKind *kind)
 {
     Jet noise;
-    double g[SIZE] = {0}, Hq[SIZE] = {0}, Hp[SIZE] = {0};
+    double g[CASE_SIZE] = {0}, Hq[CASE_SIZE] = {0}, Hp[CASE_SIZE] = {0};
     Jet formula = evaluate_oracle(c, kind, 0, &noise);
     kind->gradient(&c->at, g);
-    noise.p += dot_noise(c, g, c->p);
-    noise.pq += hessian_noise(c, kind);
+    noise.p += find_dot_noise(c, g, c->p);
+    noise.pq += find_hessian_noise(c, kind);
     apply_hessian(c, kind, PROJECTION_NONE, c->q, Hq);
     apply_hessian(c, kind, PROJECTION_NONE, c->p, Hp);
     if (!(system_term_data(&c->system, &damping) && !kind->is_external))
         compare("value", c->at.weight * kind->value(&c->at), formula.f,
                 noise.f);
-    compare("gradient", case_dot(c, g, c->p), formula.p, noise.p);
-    compare("Hessian", case_dot(c, Hq, c->p), formula.pq, noise.pq);
-    compare("symmetry", case_dot(c, Hp, c->q), formula.pq, noise.pq);
+    compare("gradient", dot_product(c, g, c->p), formula.p, noise.p);
+    compare("Hessian", dot_product(c, Hq, c->p), formula.pq, noise.pq);
+    compare("symmetry", dot_product(c, Hp, c->q), formula.pq, noise.pq);
     for (int f = 0; f < PROJECTION_COUNT; f++) { /* each projection */
-        double projected[SIZE] = {0};
+        double projected[CASE_SIZE] = {0};
         bool differs = false;
         int changed = apply_hessian(c, kind, (Projection)f, c->q, projected);
         for (int i = 0; i < c->unknowns; i++)
@@ -364,8 +373,8 @@ static void check_derivatives(TermCase *c, const TermKind *kind)
     }
     for (int i = 0; kind->is_diagonal && i < c->unknowns; i++)
         compare("curvature", fabs(Hq[i]), 0,
-                c->at.weight * kind->curvature_bound(&c->at) * fabs(c->q[i]) *
-                    (1 + 4 * DBL_EPSILON));
+                c->at.weight * kind->curvature_estimate(&c->at) *
+                    fabs(c->q[i]) * (1 + 4 * DBL_EPSILON));
     if (kind->is_external)
         return;
     Real sum[3] = {0}, size = 0;
@@ -383,10 +392,10 @@ static void check_derivatives(TermCase *c, const TermKind *kind)
 /* Checks the change of E along p without its linear part, also a tiny one. */
 static void check_line_change(TermCase *c, const TermKind *kind, Random *random)
 {
-    double q[3] = {0}, g[SIZE] = {0}, reach = INFINITY;
+    double q[3] = {0}, g[CASE_SIZE] = {0}, reach = INFINITY;
     if (kind->element)
         reach = elements_max_step(&c->at, c->p);
-    double most = fmin(reach, row->reach);
+    double most = fmin(reach, row->max_alpha);
     if (random_below(random, 2))
         most *= random_logarithmic(random, 1e-6, 1);
     double alpha = random_below(random, 4) == 0
@@ -428,7 +437,7 @@ static double find_remaining_share(const TermCase *c, const double *x)
 /* Checks that x is feasible up to the limit: 0.1 of a gap or area is left. */
 static void check_max_step(TermCase *c, const TermKind *kind)
 {
-    double x[SIZE],
+    double x[CASE_SIZE],
         alpha = kind->element ? elements_max_step(&c->at, c->p) : INFINITY;
     TermCase other = *c;
     if (!isfinite(alpha))
@@ -447,9 +456,10 @@ static void check_max_step(TermCase *c, const TermKind *kind)
             other.x[i] = c->x[i] + behind * c->p[i];
         crossings += edge_crossings(&c->system, other.x);
     }
-    if (row->shape == PAIR)
+    if (row->shape == CELL_PAIR)
         CHECK(crossings > 0);
-    else if (row->shape != GRID) /* GRID: the smallest triangle may change */
+    else if (row->shape !=
+             CELL_GRID) /* CELL_GRID: the smallest triangle may change */
         compare("what the limit leaves", find_remaining_share(c, x), 0.1, 1e-8);
 }
 
@@ -459,8 +469,9 @@ static void check_projection(TermCase *c, Random *random)
 {
     IncrementalPotential E = {&c->system, c->at.weight, c->x_n, c->u};
     Iterate iterate = {.E = E, .u = c->u, .x = c->x};
-    static double plain[SIZE * SIZE], H[SIZE * SIZE];
-    static Real g[SIZE], exact_plain[SIZE * SIZE], exact_H[SIZE * SIZE];
+    static double plain[CASE_SIZE * CASE_SIZE], H[CASE_SIZE * CASE_SIZE];
+    static Real g[CASE_SIZE], exact_plain[CASE_SIZE * CASE_SIZE],
+        exact_H[CASE_SIZE * CASE_SIZE];
     int n = c->unknowns;
     Sparse A;
     bool grown;
@@ -468,7 +479,7 @@ static void check_projection(TermCase *c, Random *random)
     CHECK_OK(incremental_potential_create_hessian(&c->system, &A));
     CHECK(incremental_potential_hessian(&iterate, PROJECTION_NONE, &A) == 0);
     fill_dense_matrix(&A, plain);
-    double Hq[SIZE], scale = 0;
+    double Hq[CASE_SIZE], scale = 0;
     incremental_potential_apply_hessian(&iterate, PROJECTION_NONE, c->q, Hq);
     for (int i = 0; i < n * n; i++)
         scale = fmax(scale, fabs(plain[i]));
@@ -484,7 +495,7 @@ static void check_projection(TermCase *c, Random *random)
         incremental_potential_hessian(&iterate, projections[f], &A);
         fill_dense_matrix(&A, H);
         for (int trial = 0; trial < 20; trial++) {
-            double y[SIZE], value = 0;
+            double y[CASE_SIZE], value = 0;
             for (int i = 0; i < n; i++)
                 y[i] = random_uniform(random, -1, 1);
             for (int i = 0; i < n * n; i++)
@@ -500,7 +511,7 @@ static void check_projection(TermCase *c, Random *random)
         }
         /* An ulp of x changes a gap of 2 mm by 1e-13 of the gap, and the second
          * derivative of its barrier energy by 3e-13 of this derivative. */
-        Real relative = 1e-14L * n + (row->shape == PAIR ? 4e-13L : 0);
+        Real relative = 1e-14L * n + (row->shape == CELL_PAIR ? 4e-13L : 0);
         compare("projection", more, expected, relative * scale);
     }
     sparse_free(&A);
@@ -509,7 +520,7 @@ static void check_projection(TermCase *c, Random *random)
 /* Checks E of a step, with inertia and all terms, and its derivatives. */
 static void check_whole_step(TermCase *c, Random *random)
 {
-    double u_tilde[SIZE], g[SIZE], Hq[SIZE];
+    double u_tilde[CASE_SIZE], g[CASE_SIZE], Hq[CASE_SIZE];
     for (int i = 0; i < c->unknowns; i++)
         u_tilde[i] = random_uniform(random, -1, 1);
     IncrementalPotential E = {&c->system, c->at.weight, c->x_n, u_tilde};
@@ -519,10 +530,10 @@ static void check_whole_step(TermCase *c, Random *random)
     Iterate iterate = {.E = E, .u = c->u, .x = c->x, .g = g, .p = c->p};
     incremental_potential_gradient(&E, c->u, c->x, g);
     incremental_potential_apply_hessian(&iterate, PROJECTION_NONE, c->q, Hq);
-    compare("E's gradient", case_dot(c, g, c->p), part.p,
+    compare("E's gradient", dot_product(c, g, c->p), part.p,
             noise.p + 1e-13L * size.p);
-    compare("E's Hessian", case_dot(c, Hq, c->p), part.pq,
-            noise.pq + dot_noise(c, Hq, c->p) + 1e-13L * size.pq);
+    compare("E's Hessian", dot_product(c, Hq, c->p), part.pq,
+            noise.pq + find_dot_noise(c, Hq, c->p) + 1e-13L * size.pq);
     if (!system_term_data(&c->system, &damping))
         compare("E", incremental_potential_value(&E, c->u, c->x), part.f,
                 noise.f + 1e-13L * size.f);
@@ -578,16 +589,16 @@ static void accelerations_are_forces_over_masses(void **unused)
 
 int main(int argc, char **argv)
 {
-    static TermRow all[TERM_ROWS + OPTIONS_MAX_ROWS];
-    static struct CMUnitTest tests[TERM_ROWS + OPTIONS_MAX_ROWS + 1] = {
+    static TermRow all[TERM_ROW_COUNT + OPTIONS_MAX_ROWS];
+    static struct CMUnitTest tests[TERM_ROW_COUNT + OPTIONS_MAX_ROWS + 1] = {
         cmocka_unit_test(accelerations_are_forces_over_masses)};
-    int count = TERM_ROWS;
+    int count = TERM_ROW_COUNT;
     memcpy(all, rows, sizeof rows);
     for (const OptionRow *option = option_rows; option->name; option++)
         if (option->term && option->term->configure)
             all[count++] = (TermRow){.name = option->name,
-                                     .shape = GRID,
-                                     .reach = 1e3,
+                                     .shape = CELL_GRID,
+                                     .max_alpha = 1e3,
                                      .option = option};
     for (int i = 0; i < count; i++)
         tests[1 + i] = (struct CMUnitTest){all[i].name, terms_match_the_oracle,

@@ -94,7 +94,7 @@ int choose_case_count(int all, int some)
 /* Returns 64 random bits: SplitMix64 (Steele, Lea, Flood 2014). */
 static uint64_t random_bits(Random *random)
 {
-    uint64_t z = random->state += 0x9e3779b97f4a7c15u;
+    uint64_t z = random->mix += 0x9e3779b97f4a7c15u;
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
     z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
     return z ^ (z >> 31);
@@ -214,21 +214,21 @@ static Status apply_control(Simulation *simulation, UserControl *control)
 
 Status change_option(Simulation *simulation, int slot, double value)
 {
-    UserControl *control = control_from_simulation(simulation);
+    UserControl *control = control_create(simulation);
     control->options.number[slot] = value;
     return apply_control(simulation, control);
 }
 
 Status simulation_pin(Simulation *simulation, int node, bool pinned)
 {
-    UserControl *control = control_from_simulation(simulation);
+    UserControl *control = control_create(simulation);
     control->pinned[node] = pinned;
     return apply_control(simulation, control);
 }
 
 Status simulation_hold(Simulation *simulation, int node, double x, double y)
 {
-    UserControl *control = control_from_simulation(simulation);
+    UserControl *control = control_create(simulation);
     control->held_node = node;
     control->target[0] = x;
     control->target[1] = y;
@@ -273,8 +273,8 @@ static uint64_t hash_number(uint64_t hash, double number)
 
 uint64_t hash_with_ledger(const Simulation *simulation, uint64_t hash)
 {
-    hash =
-        hash_number(state_hash(simulation, hash), simulation_time(simulation));
+    hash = hash_number(state_hash(simulation, hash),
+                       simulation_get_time(simulation));
     for (int r = 0; r < simulation->runs; r++) {
         const Energies ledger = simulation_get_energies(simulation, r);
         hash = hash_number(hash, ledger.work);

@@ -54,7 +54,7 @@ int choose_case_count(int all, int some);
 
 /* Random numbers by SplitMix64, equal on every machine */
 typedef struct Random {
-    uint64_t state; /* starts as the seed */
+    uint64_t mix; /* starts as the seed */
 } Random;
 
 double random_uniform(Random *random, double low, double high);
