@@ -283,7 +283,6 @@ TEST(backtracking_takes_the_first_that_is_not_higher)
 
 /* ---- ends ------------------------------------------------------------- */
 
-/* The parts of a step with a moving wall share one limit of updates. */
 TEST(parts_share_one_limit)
 {
     Simulation *simulation = simulate("squeeze --segments 8 --gravity 0");

@@ -32,7 +32,6 @@ static void sample_energies(void)
     history_add_point(&history, simulation_get_time(&simulation), n, row);
 }
 
-/* Creates the simulation of a test, and frees the last one. */
 static void begin_show(const char *line, int steps)
 {
     simulation_free(&simulation);
