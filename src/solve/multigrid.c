@@ -17,8 +17,9 @@ static const double NEARBY = 0.05;
 /* A direction p is poor if p is not small (SMALL_P), and p_bound is more than
  * STALLS times its value in the iteration before.  Tiles relax after each poor
  * direction.  A sweep of a tile is worth its time if it lowers E by more than
- * PACE times the last direction's decrease, divided by the number of tiles. */
-static const double STALLS = 0.3, PACE = 0.01;
+ * PACE times the last direction's decrease, divided by the number of tiles.  A
+ * minimum is near if the bound is at most CLOSE times the limit of the test. */
+static const double STALLS = 0.3, PACE = 0.01, CLOSE = 1e3;
 
 /* If the first sweep of all tiles in a step lowers E by less than USELESS times
  * the last direction's decrease, tiles pause for TILE_PAUSE_ITERATIONS - 1
@@ -53,6 +54,7 @@ struct Multigrid {
     unsigned system_version;  /* System.version that the grid was made for */
     double weight;            /* s^2, weight of P that the grid was made for */
     int tiles_pause_until;    /* iteration before which tiles do not relax */
+    bool next_p_is_last;      /* p_bound says that the next p passes the test */
     bool has_relaxed_tiles;   /* tiles relaxed in the last update */
     bool change_was_hidden;   /* rounding hid the last iteration's change of E,
                                  and p_bound did not fall */
@@ -151,8 +153,8 @@ static Status multigrid_copy_problem(Newton *newton)
     if (status)
         return status;
     Multigrid *mg = newton->multigrid;
-    mg->has_relaxed_tiles = mg->change_was_hidden = mg->v_cycle.is_clamped =
-        false;
+    mg->has_relaxed_tiles = mg->change_was_hidden = mg->next_p_is_last =
+        mg->v_cycle.is_clamped = false;
     mg->largest_change = mg->p_size = 0;
     mg->tiles_pause_until = 0;
     incremental_potential_absorb_pulls(at, m, u_tilde);
@@ -194,7 +196,7 @@ static void multigrid_compute_direction(Newton *newton)
         double square = grid_linear_residual(&mg->grid, mg->g, mg->p);
         /* `largest` is rounded to single precision; the factor makes it an
          * upper bound. */
-        newton->passes_test = p_passes_test(
+        newton->passes_test |= p_passes_test(
             &mg->grid, largest * (1 + FLT_EPSILON), square, longest);
     }
     newton->record.residual = largest / h;
@@ -207,7 +209,7 @@ static Status multigrid_find_direction(Newton *newton)
     NewtonRecord *record = &newton->record;
     Status status =
         record->iteration == 0 ? multigrid_copy_problem(newton) : STATUS_OK;
-    newton->passes_test = false;
+    newton->passes_test = !status && newton->multigrid->next_p_is_last;
     record->residual_kind = RESIDUAL_ESTIMATE;
     if (!status)
         multigrid_compute_direction(newton);
@@ -285,15 +287,14 @@ static Status multigrid_find_step_length(Newton *newton)
 }
 
 /* Adds alpha p to x, then relaxes tiles of nodes if the directions stall.  The
- * Hessian is clamped after a poor direction, unless it is the first one of the
- * step, since tiles alone are often enough.  The exact Hessian returns after a
- * direction that is not poor, if one V-cycle was enough for p: near a minimum
- * the exact Hessian needs fewer updates, and each of them takes less time. */
+ * Hessian is clamped after a poor direction, unless it is the step's first one,
+ * since tiles alone are often enough, or a minimum is near.  The exact Hessian
+ * returns after a direction that is not poor, if one V-cycle was enough for p:
+ * near a minimum it needs fewer updates, and each of them takes less time. */
 static Status multigrid_update_iterate(Newton *newton)
 {
     Multigrid *mg = newton->multigrid;
     NewtonRecord *record = &newton->record;
-    const double unit = mg->grid.energy_scale;
     const int tiles = mg->tiles.rows * mg->tiles.columns;
     double *g = mg->g, *p = mg->p;
     grid_add_step(&mg->grid, record->alpha, p);
@@ -304,13 +305,10 @@ static Status multigrid_update_iterate(Newton *newton)
     const bool is_poor = mg->p_bound > STALLS * mg->last_p_bound &&
                          record->residual > SMALL_P * newton->tolerance;
     const bool is_first = mg->tiles_pause_until == 0; /* no earlier poor p */
-    multigrid_choose_hessian(
-        mg, (is_poor && !is_first) ||
-                (mg->v_cycle.is_clamped && mg->direction_cycles > 1));
     mg->has_relaxed_tiles =
         is_poor && record->iteration >= mg->tiles_pause_until;
     if (mg->has_relaxed_tiles) {
-        const double change = record->energy_change * unit;
+        const double change = record->energy_change * mg->grid.energy_scale;
         double first = tiles_relax(&mg->tiles, PACE * change / tiles, p);
         if (is_first)
             mg->tiles_pause_until =
@@ -329,7 +327,12 @@ static Status multigrid_update_iterate(Newton *newton)
     mg->p = mg->last_p;
     mg->last_g = g;
     mg->last_p = p;
-    return multigrid_evaluate_gradient(mg);
+    Status status = multigrid_evaluate_gradient(mg);
+    const double close = CLOSE * newton->tolerance * newton->settings.h;
+    multigrid_choose_hessian(
+        mg, (is_poor && !is_first && mg->p_bound > close) ||
+                (mg->v_cycle.is_clamped && mg->direction_cycles > 1));
+    return status;
 }
 
 /* Decides whether the loop ends.  If multigrid cannot pass the test, for
@@ -345,11 +348,11 @@ static Status multigrid_test_iterate(Newton *newton, Status status)
         fabs(record->energy_change) <= SMALL_CHANGE * -mg->largest_change;
     bool last = record->iteration + 1 >= newton_iteration_limit(newton);
     bool stuck = status != STATUS_OK || record->iteration >= MAX_MG_ITERATIONS;
-    bool next_passes =
+    mg->next_p_is_last =
         fmax(record->residual, 2 * mg->p_bound / newton->settings.h) <=
         newton->tolerance;
     bool is_tiny = mg->p_bound <= negligible_direction_size(newton);
-    bool ends = newton->passes_test || (!stuck && (next_passes || is_tiny));
+    bool ends = newton->passes_test || (!stuck && is_tiny);
     if (ends && system_falls_freely(newton->system))
         record->energy_change +=
             grid_correct_momentum(&mg->grid) / mg->grid.energy_scale;

@@ -332,9 +332,9 @@ FAST static void descend_level(const VCycle *cycle, const Level *l)
     }
 }
 
-/* Adds the interpolated x of the coarser level, then makes a backward pass in
- * the opposite order. */
-FAST static void ascend_level(const Level *l)
+/* Adds the interpolated x of the coarser level, then makes a second pass: in
+ * the order opposite to the first one, or in the order 1, 0, 2, 3. */
+FAST static void ascend_level(const Level *l, bool is_opposite)
 {
     const int nodes = l->rows.nodes_per_side;
     for (int i = 0; i < nodes + 2; i += 2) {
@@ -343,10 +343,17 @@ FAST static void ascend_level(const Level *l)
                 prolong_row(l, &l->coarse->rows, row,
                             l->coarse->x + c * l->coarse->rows.plane_length,
                             l->x + c * l->rows.plane_length);
-        sweep_row(l, i - 1, 3, PASS_SMOOTH, NULL, NULL);
-        sweep_row(l, i - 1, 2, PASS_SMOOTH, NULL, NULL);
-        sweep_row(l, i - 2, 1, PASS_SMOOTH, NULL, NULL);
-        sweep_row(l, i - 2, 0, PASS_SMOOTH, NULL, NULL);
+        if (is_opposite) {
+            sweep_row(l, i - 1, 3, PASS_SMOOTH, NULL, NULL);
+            sweep_row(l, i - 1, 2, PASS_SMOOTH, NULL, NULL);
+            sweep_row(l, i - 2, 1, PASS_SMOOTH, NULL, NULL);
+            sweep_row(l, i - 2, 0, PASS_SMOOTH, NULL, NULL);
+        } else {
+            sweep_row(l, i, 1, PASS_SMOOTH, NULL, NULL);
+            sweep_row(l, i, 0, PASS_SMOOTH, NULL, NULL);
+            sweep_row(l, i - 1, 2, PASS_SMOOTH, NULL, NULL);
+            sweep_row(l, i - 1, 3, PASS_SMOOTH, NULL, NULL);
+        }
     }
 }
 
@@ -356,7 +363,7 @@ static void run_v_cycle(const VCycle *cycle, const Level *level)
     descend_level(cycle, level);
     if (level->coarse)
         run_v_cycle(cycle, level->coarse);
-    ascend_level(level);
+    ascend_level(level, cycle->is_clamped);
 }
 
 /* Computes w = A x on one level.

@@ -13,10 +13,10 @@
  * pinned.  On the coarsest level masses outweigh springs, or nodes are few.
  *
  * A cycle smooths by Gauss-Seidel, node by node in four colours (row and column
- * even or odd), before the coarser level's correction and, in the opposite
- * order, after it; so the cycle is symmetric, and positive definite if H is
- * clamped.  Nodes of one colour share no spring, so the bits do not depend on
- * the number of lanes. */
+ * even or odd), before the coarser level's correction and after it: on the
+ * clamped H in the opposite order, so the cycle is symmetric and positive
+ * definite, on the exact H in an order that leaves half the error.  Nodes of
+ * one colour share no spring, so no bit depends on the number of lanes. */
 #pragma once
 
 #include "solve/grid.h"

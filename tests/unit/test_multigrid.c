@@ -213,7 +213,7 @@ TEST(steps_take_no_more_work_than_counted)
 {
     static const struct {
         int segments, max_smooth_cycles, max_rough_cycles;
-    } rows[] = {{16, 23, 44}, {32, 25, 80}, {64, 30, 103}, {128, 33, 216}};
+    } rows[] = {{16, 25, 45}, {32, 30, 85}, {64, 32, 119}, {128, 36, 217}};
     for (int i = 0; i < 8; i++) {
         Random random = {7};
         bool rough = i % 2;
