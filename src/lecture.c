@@ -13,8 +13,7 @@
  *      -I/usr/include/suitesparse -lcholmod -llapack -lm
  *   ./lecture                         a window: pull at a node; Esc closes it
  *   ./lecture k=1e6 n_seg=8           other parameters: see main
- *   ./lecture steps=50 states=FILE    no window: Newton's updates, and x and v
- */
+ *   ./lecture steps=50 states=FILE    no window: Newton's updates, x and v */
 #include <SDL.h>
 #include <cholmod.h>
 #include <errno.h>

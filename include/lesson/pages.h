@@ -8,7 +8,7 @@
 #include "simulation/options.h"
 
 /* Length of line_highlight: lines 1 to 8 of Algorithm 3; [0] is unused. */
-enum { PAGE_HIGHLIGHT_LENGTH = 9 };
+enum { PAGE_HIGHLIGHT_COUNT = 9 };
 
 /* A page: a field for each word of pages.txt.  Texts: see live_values.h. */
 typedef struct LecturePage {
@@ -22,9 +22,9 @@ typedef struct LecturePage {
     const char *open_cards;   /* names of the open cards, separated by blanks */
     const char *answer_text;  /* text: the answer, and what to look at */
     const char *try;          /* text: what to change, and what will happen */
-    const char *question; /* text: the question before the answer, or NULL */
-    const char *answer;   /* name of the live value to guess; "click": the end
-                             of the next step; NULL: the answer is words */
+    const char *question;    /* text: the question before the answer, or NULL */
+    const char *answer_name; /* name of the live value to guess; "click": the
+                           end of the next step; NULL: the answer is words */
     const char *covered_cards; /* cards hidden before the answer, or NULL */
     const char *main_card;     /* name of the enlarged card, or NULL */
     const char *law_name;  /* name of the curve in the card `law`, or NULL */
@@ -33,7 +33,7 @@ typedef struct LecturePage {
     const char *functions; /* names of the shown functions, separated by ',' */
     const char *const *code;    /* code lines of `functions`, then NULL */
     const char *highlight_text; /* code lines with this text are highlighted */
-    /* [PAGE_HIGHLIGHT_LENGTH] text of the code lines that are highlighted at
+    /* [PAGE_HIGHLIGHT_COUNT] text of the code lines that are highlighted at
      * each line of Algorithm 3; NULL: `highlight_text` */
     const char *const *line_highlight;
     const char *claim;     /* statement that a test checks */
@@ -42,8 +42,8 @@ typedef struct LecturePage {
     double speed;          /* steps for each frame; 0: as in the scene */
     const char *on_open;   /* commands at the opening, separated by ';' */
     const char *on_answer; /* commands at the answer, separated by ';' */
-    int print_presses; /* presses of key N before printing; 0: printed_step */
-    unsigned layers;   /* bits of PictureLayer: additions to the picture */
+    int key_presses; /* presses of key N before printing; 0: printed_step */
+    unsigned layers; /* bits of PictureLayer: additions to the picture */
     NextAction next_action; /* effect of the key N after the answer */
     int pause_step;         /* step at which a run pauses; 0: none */
 } LecturePage;

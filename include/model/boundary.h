@@ -45,8 +45,8 @@ typedef struct Boundary {
     double mean_p[2];  /* m, mean of p over the points; a motion that all points
                           share brings none closer to an edge */
     double box_margin; /* m, added to each box at all sides */
-    double widest_edge; /* m, largest width of an edge's box (coordinate 0) */
-    bool sorts_by_y;    /* coordinate 0 of the boxes is y, not x */
+    double max_box_width; /* m, largest width of an edge's box (coordinate 0) */
+    bool sorts_by_y;      /* coordinate 0 of the boxes is y, not x */
     bool has_all_near_edges; /* near_edge had room for all near edges */
     int *near_edge;     /* [8 * nodes] springs of near edges, point by point */
     int *near_list_end; /* [nodes] end of each point's edges in near_edge */
@@ -66,5 +66,5 @@ void boundary_update(Boundary *boundary, const System *system, const double *x,
 /* Returns the next edge that point i, 0 ... point_count-1, may meet.
  *   cursor  in/out, 0 before the first edge and after the last one
  * Returns the spring of the edge; -1 after the last edge. */
-int boundary_next_edge(const Boundary *boundary, const System *system, int i,
+int boundary_near_edge(const Boundary *boundary, const System *system, int i,
                        int *cursor);

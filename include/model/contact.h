@@ -34,9 +34,9 @@ typedef struct Obstacle {
     double n[2];   /* outward unit normal of a wall; not used for balls */
     double radius; /* m, R > 0; not used for walls */
     ObstacleMotion motion;
-    double v[2];     /* m/s, velocity in the present step */
-    double friction; /* coefficient of friction mu >= 0 */
-    int node;        /* node at the centre of a free ball; -1: not free */
+    double v[2];   /* m/s, velocity in the present step */
+    double mu;     /* coefficient of friction mu >= 0 */
+    int ball_node; /* node at the centre of a free ball; -1: not free */
     double configured_o[2]; /* m, o in the options, before any motion */
 } Obstacle;
 
@@ -84,9 +84,8 @@ typedef struct Contact {
     Barrier barrier;
     int obstacle_count;
     Obstacle obstacle[CONTACT_MAX_OBSTACLES];
-    int free_ball_index; /* number of the ball whose centre is a node; -1: none
-                          */
-    ObstaclePush hand;   /* obstacle held by a hand */
+    int free_ball_index; /* ball whose centre is a node; -1: none */
+    ObstaclePush push;   /* obstacle held by a hand */
 } Contact;
 
 /* The sum of W over all pairs of a node and an obstacle; data: Contact.  In
@@ -121,4 +120,4 @@ void push_begin_step(Contact *contact, const System *system, const double *x,
 
 /* Returns the largest fraction of a step's way that the held obstacle may move
  * at once: a ball moves at most half its radius, so that it skips no node. */
-double push_max_step_fraction(const Contact *contact, double h);
+double push_max_move_fraction(const Contact *contact, double h);

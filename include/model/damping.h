@@ -11,8 +11,7 @@
  *   l2' = (l2 + theta |d_n|^2)/(1 + theta),  k' = k (1 + theta) l2'/l2
  *
  * by completing the square: a spring of the slides with other numbers for this
- * step.  Springs that flow (plasticity.h) use theta and E_n in their own law.
- */
+ * step.  Springs that flow (plasticity.h) have theta and E_n in their law. */
 #pragma once
 
 #include "model/system.h"

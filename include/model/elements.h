@@ -21,9 +21,9 @@
  * triangle or a node near a wall, at given positions. */
 typedef struct Element {
     int node_count;                 /* 1 ... 3 */
-    int vector_count;               /* 1: W depends on a; 2: on a and b */
-    int node[3];                    /* [nodes] */
-    const double (*node_weight)[3]; /* [vectors] weights of the x_i in a, b */
+    int vector_count;               /* 1: W depends on a vector a; 2: a, b */
+    int node[3];                    /* [node_count] */
+    const double (*node_weight)[3]; /* [vector_count] weights of nodes */
     int block_index;   /* index of the block in the Hessian; -1: none yet */
     int partner_index; /* obstacle (contact) or spring of the edge
                           (self-contact) */
@@ -39,8 +39,8 @@ typedef struct Element {
  * positions, or their change along a direction.
  *   x  [2n] m, in, positions or a direction
  *   v  [4] m, out, a and b */
-static inline void element_compute_weighted_sums(const Element *element,
-                                                 const double *x, double v[4])
+static inline void element_compute_vectors(const Element *element,
+                                           const double *x, double v[4])
 {
     for (int m = 0; m < element->vector_count; m++) {
         v[2 * m] = v[2 * m + 1] = 0;
@@ -83,7 +83,7 @@ struct ElementKind {
     int (*get_block_nodes)(const EvalPoint *at, int block, int node[3]);
 
     /* Returns the energy W of the element, in joules. */
-    double (*value)(const EvalPoint *at, const Element *element);
+    double (*potential)(const EvalPoint *at, const Element *element);
 
     /* Writes the gradient of W in (a, b) to g. */
     void (*gradient)(const EvalPoint *at, const Element *element, double g[4]);
@@ -101,13 +101,13 @@ struct ElementKind {
 
     /* Returns W((a, b) + alpha P) - W - alpha grad W.P in joules, computed
      * without cancellation.  P [4] is the change of (a, b) along p. */
-    double (*line_remainder)(const EvalPoint *at, const Element *element,
-                             const double P[4], double alpha);
+    double (*taylor_remainder)(const EvalPoint *at, const Element *element,
+                               const double P[4], double alpha);
 
     /* Returns the alpha along P at which about the fraction ELEMENT_LIMIT of
      * the gap or area is used up.  NULL: W exists for s <= 0, too. */
-    double (*max_step)(const EvalPoint *at, const Element *element,
-                       const double P[4]);
+    double (*max_alpha)(const EvalPoint *at, const Element *element,
+                        const double P[4]);
 
     /* Returns mu times the normal force (N), the largest force of friction.
      *   t      [4] out, tangent: the contact slides by t.(da, db)
@@ -133,17 +133,17 @@ ElementIterator elements_begin(const EvalPoint *at, const double *p,
 bool elements_next(ElementIterator *walk);
 
 /* TermKind's functions for terms with elements (term.h). */
-double elements_value(const EvalPoint *at);
+double elements_potential(const EvalPoint *at);
 void elements_gradient(const EvalPoint *at, double *g);
 void elements_add_triplets(const EvalPoint *at, Triplets *triplets);
 int elements_hessian(const EvalPoint *at, Projection projection,
                      const int **slot, const double *q, double *out);
-double elements_line_remainder(const EvalPoint *at, const double *p,
-                               double alpha);
+double elements_taylor_remainder(const EvalPoint *at, const double *p,
+                                 double alpha);
 
 /* Returns an alpha > 0 up to which the gaps and areas of all elements stay
  * positive along p.  INFINITY: no element limits alpha <= 1. */
-double elements_max_step(const EvalPoint *at, const double *p);
+double elements_max_alpha(const EvalPoint *at, const double *p);
 
 /* Whether the energy P exists at x: Element.s of each element is positive.
  * Iterates are tested, too, as rounding can close a gap. */
@@ -151,6 +151,6 @@ bool elements_are_feasible(const EvalPoint *at);
 
 /* First members in the initialiser of each TermKind with elements. */
 #define ELEMENTS(kind)                                                         \
-    .element = &(kind), .value = elements_value,                               \
+    .element = &(kind), .potential = elements_potential,                       \
     .gradient = elements_gradient, .add_triplets = elements_add_triplets,      \
-    .hessian = elements_hessian, .line_remainder = elements_line_remainder
+    .hessian = elements_hessian, .taylor_remainder = elements_taylor_remainder

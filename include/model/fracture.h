@@ -14,8 +14,8 @@
 
 /* A spring that is stretched beyond its strength. */
 typedef struct SpringLoad {
-    double load; /* strain divided by strength, > 1 */
-    int spring;  /* number of the spring */
+    double load;      /* strain divided by strength, > 1 */
+    int spring_index; /* number of the spring */
 } SpringLoad;
 
 typedef struct Fracture {

@@ -10,7 +10,7 @@ extern const TermKind mass_spring_energy;
 /* TermKind's functions for a term with one block for each spring.  The bound of
  * the curvature is the largest k. */
 void mass_spring_add_triplets(const EvalPoint *at, Triplets *triplets);
-double mass_spring_curvature_estimate(const EvalPoint *at);
+double mass_spring_max_stiffness(const EvalPoint *at);
 
 /* Adds factor * d to g [2n] at node e[0], and -factor * d at node e[1]. */
 static inline void spring_add_gradient(const int e[2], double factor,
@@ -26,9 +26,9 @@ static inline void spring_add_gradient(const int e[2], double factor,
  *   q = NULL   triplets ii: xx xy yy, jj: xx xy yy, ij: xx xy yx yy of B to
  *              out[(*slot)[0 ... 9]]; *slot is advanced by 10
  *   otherwise  out += B q; q, out [2n] */
-static inline void mass_spring_add_block(const double H[3], const int e[2],
-                                         const int **slot, const double *q,
-                                         double *out)
+static inline void mass_spring_add_hessian(const double H[3], const int e[2],
+                                           const int **slot, const double *q,
+                                           double *out)
 {
     if (q) {
         int i = 2 * e[0], j = 2 * e[1];

@@ -29,9 +29,9 @@ typedef struct PointEdgePair {
 } PointEdgePair;
 
 typedef struct SelfContact {
-    double d_hat;    /* m, distance at which the barrier begins */
-    double c;        /* J, factor on the barrier of a point and an edge */
-    double friction; /* coefficient of friction mu */
+    double d_hat; /* m, distance at which the barrier begins */
+    double c;     /* J, factor on the barrier of a point and an edge */
+    double mu;    /* coefficient of friction mu */
     Boundary boundary;
     int pair_count;       /* number of pairs in this step */
     int pair_capacity;    /* number of pairs for which `pair` has room */

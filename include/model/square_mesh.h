@@ -21,7 +21,7 @@ typedef struct SquareMesh {
     int rows;       /* number of rows of cells */
     int bodies;     /* number of bodies */
     double side;    /* m, width of a body */
-    double spacing; /* m, distance of neighbouring nodes, side/segments */
+    double spacing; /* m, distance of neighbouring nodes, side/columns */
     int nodes;      /* n, number of nodes of all bodies */
     int springs;    /* number of springs of all bodies */
     int cells;      /* number of cells of all bodies; four triangles each */
@@ -85,9 +85,9 @@ int square_mesh_find_cell(const SquareMesh *shape, const double *x,
  * cell is c; patches at the right and upper side may be smaller.  The patches
  * cover the square once.  Returns whether a patch begins at c.
  *   node  [4] out, anticlockwise from the lower left */
-bool square_mesh_get_patch(const SquareMesh *shape, int c, int cells,
-                           int node[4]);
+bool square_mesh_get_cell_patch(const SquareMesh *shape, int c, int cells,
+                                int node[4]);
 
-/* Writes the nodes of edge k of the outline, 0 ... outline-1.  The edges of a
- * body go anticlockwise from its lower left corner. */
+/* Writes the nodes of edge k of the outline, 0 ... outline_edge_count - 1.  The
+ * edges of a body go anticlockwise from its lower left corner. */
 void square_mesh_get_outline_edge(const SquareMesh *shape, int k, int node[2]);

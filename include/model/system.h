@@ -30,12 +30,12 @@ struct System {
     double *m;   /* [n] kg, > 0 */
     double *l2;  /* [springs] m^2, rest length squared, > 0 */
     double *k;   /* [springs] J/m^2, stiffness; 0: broken or without energy */
-    double gravity[2];      /* m/s^2, acceleration of every node */
-    int *elimination_order; /* [n] place of each node in the elimination */
-    unsigned char *pinned;  /* [n] 1: pinned, 0: free */
-    double *pin_v;          /* [2n] m/s, velocity of pinned nodes; NULL: 0 */
-    int segments;           /* segments a side if there is one square, else 0 */
-    unsigned version;       /* rises with every change of numbers or terms */
+    double gravity[2];        /* m/s^2, acceleration of every node */
+    int *elimination_index;   /* [n] place of each node in the elimination */
+    unsigned char *is_pinned; /* [n] 1: pinned, 0: free */
+    double *pin_v;            /* [2n] m/s, velocity of pinned nodes; NULL: 0 */
+    int segments;     /* segments a side if there is one square, else 0 */
+    unsigned version; /* rises with every change of numbers or terms */
     unsigned pattern_version; /* rises when the Hessian's pattern changes */
     int term_count;           /* number of terms */
     EnergyTerm term[SYSTEM_MAX_TERMS]; /* terms in the order of TermKind.rank */
@@ -43,7 +43,7 @@ struct System {
     EnergyLoss losses[SYSTEM_MAX_TERMS];
 };
 
-/* Allocates the arrays, filled with 0; elimination_order[i] is i.  The list has
+/* Allocates the arrays, filled with 0; elimination_index[i] is i.  The list has
  * the springs' term if springs > 0.  Returns OK or OUT_OF_MEMORY. */
 Status system_create(int nodes, int springs, System *system);
 
@@ -77,7 +77,7 @@ void *system_term_data(const System *system, const TermKind *kind);
 void system_remove_term(System *system, const TermKind *kind);
 
 /* Adds `energy` (J) to the loss of this kind's column of the ledger. */
-void system_book_loss(System *system, const TermKind *kind, double energy);
+void system_add_loss(System *system, const TermKind *kind, double energy);
 
 /* ---- sums over all terms and nodes (system.c) ---------------------------- */
 
@@ -86,7 +86,7 @@ bool system_is_feasible(EvalPoint at);
 
 /* Returns the step alpha along p [2n] m, in, up to which all terms' gaps and
  * areas stay positive; infinite if above 1.  `internal`: no external terms. */
-double system_max_step(EvalPoint at, const double *p, bool internal);
+double system_max_alpha(EvalPoint at, const double *p, bool internal);
 
 /* Whether all nodes can move straight from x to x + p so that no body passes
  * through another one, no cell turns over, and a tenth of each distance and
@@ -127,8 +127,8 @@ static inline double max_or_nan(double a, double b)
     return b <= a || isnan(a) ? a : b;
 }
 
-/* Returns the largest curvature_estimate of all terms (J/m^2). */
-double system_curvature_estimate(const System *system);
+/* Returns the largest max_stiffness of all terms (J/m^2). */
+double system_max_stiffness(const System *system);
 
 /* Returns |g|_(M^-1) = sqrt(sum |g_i|^2/m_i).  g [2n] in. */
 double system_inverse_mass_norm(const System *system, const double *g);

@@ -59,7 +59,7 @@ struct TermKind {
                         const double *number);
 
     /* Columns of the energy ledger: for value(), and for the energy that the
-     * term dissipates (system_book_loss).  NULL: no such column. */
+     * term dissipates (system_add_loss).  NULL: no such column. */
     const char *energy_name, *loss_name;
 
     /* Order of the list.  Equal ranks keep the order in which they were added.
@@ -75,14 +75,14 @@ struct TermKind {
     } rank;
 
     /* Kind of the elements, if the term is a sum over elements (elements.h).
-     * The functions from value to line_remainder, without extend_pattern and
-     * line_polynomial, are then those of elements.c.  A term without elements
-     * has an energy at every x (elements_are_feasible). */
+     * The functions from potential to taylor_remainder, without extend_pattern
+     * and line_polynomial, are then those of elements.c.  A term without
+     * elements has an energy at every x (elements_are_feasible). */
     const ElementKind *element;
 
     /* Returns P(x) >= 0 in joules, not multiplied by weight.  NULL: the term
-     * has no energy and none of the functions up to line_remainder. */
-    double (*value)(const EvalPoint *at);
+     * has no energy and none of the functions up to taylor_remainder. */
+    double (*potential)(const EvalPoint *at);
 
     /* Adds weight grad P(x) to g [2n].  Explicit integrators call it with
      * weight -1 and u NULL to collect forces. */
@@ -115,8 +115,8 @@ struct TermKind {
 
     /* Returns weight (P(x + alpha p) - P(x) - alpha grad P.p), less what
      * line_polynomial has added, without cancellation.  NULL: 0. */
-    double (*line_remainder)(const EvalPoint *at, const double *p,
-                             double alpha);
+    double (*taylor_remainder)(const EvalPoint *at, const double *p,
+                               double alpha);
 
     /* Freezes what stays constant during the step from x and v, for example the
      * normal forces of friction.  Calls system_mark_changed if it changed
@@ -124,13 +124,13 @@ struct TermKind {
     Status (*begin_step)(const TermStep *step);
 
     /* Applies what an accepted step to x and v changes for good: plastic
-     * strain, broken springs.  Books the energy lost (system_book_loss), and
+     * strain, broken springs.  Books the energy lost (system_add_loss), and
      * calls system_mark_changed like begin_step. */
     void (*end_step)(const TermStep *step);
 
     /* Returns an estimate of the Hessian's largest eigenvalue at rest (J/m^2),
      * for springs the largest k; if is_diagonal, an upper bound. */
-    double (*curvature_estimate)(const EvalPoint *at);
+    double (*max_stiffness)(const EvalPoint *at);
 
     /* Frees the allocations that data points to, not data itself. */
     void (*free)(void *data);

@@ -2,8 +2,9 @@
  * before the frame is drawn; pictures and cards only read it.
  *
  * The same contents and size of the paper give the same pixels.  Pointers are
- * not owned; an element whose pointer is NULL is not drawn.  A zeroed struct
- * with one pane is valid.  Texts are in the markup of text.h. */
+ * not owned; an element whose pointer is NULL is not drawn.  The smallest valid
+ * contents are made by frame_create; view is never NULL.  Texts are in the
+ * markup of text.h. */
 #pragma once
 
 #include "picture/layout.h"
@@ -19,7 +20,7 @@ enum {
 
 /* The present line of Algorithm 3. The work of this line and of all lines
  * before it is done: at LINE_SOLVE p is known, at LINE_SEARCH alpha. */
-typedef enum StepLine {
+typedef enum AlgoLine {
     LINE_NONE,     /* between two steps; no line is lit */
     LINE_START,    /* 1  x^i <- x^n */
     LINE_DO,       /* 2  do */
@@ -30,12 +31,12 @@ typedef enum StepLine {
     LINE_TEST,     /* 7  while |p|/h > epsilon */
     LINE_END_STEP, /* 8  x^n+1 <- x^i, v^n+1 <- (x^n+1 - x^n)/h */
     LINE_COUNT
-} StepLine;
+} AlgoLine;
 
 /* The minimisation of a step, or a descent, up to the present line of the
  * algorithm.  The present update is known from LINE_PROJECT on. */
 typedef struct NewtonTrace {
-    StepLine at_line;           /* present line of Algorithm 3 */
+    AlgoLine at_line;           /* present line of Algorithm 3 */
     double h, tolerance;        /* time step (s), tolerance (m/s) */
     int record_count;           /* number of records */
     const NewtonRecord *record; /* [record_count] records of iterations */
@@ -48,11 +49,11 @@ typedef struct NewtonTrace {
     int projected_blocks;  /* number of projected blocks; < 0: unknown */
     const double *x_n;     /* [2n] x^n (m); or NULL */
     const double *x_tilde; /* [2n] x_tilde (m), drawn as a ghost; or NULL */
-    EnergyDifference energy_difference; /* change of E along p; or NULL */
-    const void *difference_data; /* first argument of energy_difference */
-    double first_alpha;          /* first step length tried; 0 stands for 1 */
-    int trials;                  /* number of step lengths tried so far */
-    bool is_accepted;            /* the last trial was accepted */
+    EnergyFunction energy_difference; /* change of E along p; or NULL */
+    const void *difference_data;      /* first argument of energy_difference */
+    double first_alpha; /* first step length tried; 0 stands for 1 */
+    int trials;         /* number of step lengths tried so far */
+    bool is_accepted;   /* the last trial was accepted */
 } NewtonTrace;
 
 enum { MAX_LIVE_VALUES = 160, VALUES_MAX_RUNS = 3 };
@@ -71,7 +72,7 @@ typedef struct LiveValues {
     int count;    /* number of values */
     int next_run; /* run of the values that are added next; 0: all runs */
     /* Colours of the text lines that begin with "#0" to "#3"; run r: "#r". */
-    Colour line_colour[VALUES_MAX_RUNS + 1];
+    Colour text_line_colour[VALUES_MAX_RUNS + 1];
     LiveValue value[MAX_LIVE_VALUES];
 } LiveValues;
 
@@ -81,11 +82,10 @@ enum { MAX_HISTORY_SERIES = 16, HISTORY_MAX_POINTS = 1024 };
 
 /* Quantities over time, for plots. */
 typedef struct History {
-    int series_count; /* number of quantities */
-    const char
-        *name[MAX_HISTORY_SERIES];   /* names; the first energy is the total */
-    int point_count;                 /* number of points in time */
-    double time[HISTORY_MAX_POINTS]; /* s, ascending */
+    int series_count;                     /* number of quantities */
+    const char *name[MAX_HISTORY_SERIES]; /* name[0] is the total energy */
+    int point_count;                      /* number of points in time */
+    double time[HISTORY_MAX_POINTS];      /* s, ascending */
     double value[MAX_HISTORY_SERIES][HISTORY_MAX_POINTS];
 } History;
 
@@ -291,7 +291,7 @@ typedef struct FrameContent {
     bool is_bare;       /* shows pictures without words */
     bool is_stage_only; /* shows the stage alone, as on the web page */
     bool has_document;  /* a web page shows switches, texts and cards */
-    struct Text *fonts; /* fonts; NULL: widths of texts are estimated */
+    struct Font *fonts; /* fonts; NULL: widths of texts are estimated */
     double min_em;      /* pixels, least size of an em; 0: the usual minimum */
     TitleBar title_bar;
     SettingsRow settings;
@@ -345,8 +345,8 @@ int frame_find_list_row(const FrameContent *content, const Layout *layout,
                         double x, double y);
 
 /* Finds the step 0 ... steps that the time line has at pixel column x. */
-long frame_find_bar_step(const FrameContent *content, const Layout *layout,
-                         double x);
+long frame_pick_step(const FrameContent *content, const Layout *layout,
+                     double x);
 
 /* ---- live values --------------------------------------------------------- */
 
@@ -367,7 +367,7 @@ void frame_compute_values(FrameContent *content);
 void frame_expand_texts(FrameContent *content);
 
 /* Returns the live value with this name in the active pane; NaN: unknown. */
-double frame_find_number(FrameContent *content, const char *name);
+double frame_find_value(FrameContent *content, const char *name);
 
 /* Whether an open card of the scene or page draws E along p.
  *   toggled  bit c: card c was opened or closed by hand */

@@ -43,7 +43,7 @@ typedef struct Layout {
     Box card[LAYOUT_MAX_CARDS]; /* the cards; a main card is on the stage */
     Box setting[LAYOUT_MAX_SETTINGS];
     Box chip[LAYOUT_MAX_CHIPS]; /* a chip that does not fit has no width */
-    int chips_left_out;         /* number of chips that do not fit */
+    int omitted_chips;          /* number of chips that do not fit */
     Box step_bars;              /* bars of the steps, inside the time line */
     int cell_count;             /* number of cells of the overview */
     Box cell[LAYOUT_MAX_CELLS]; /* scene's square and name, no heading */

@@ -10,7 +10,7 @@ enum { MAX_WORD_BOXES = 64 };
 
 typedef struct Paper {
     Canvas canvas;
-    Text *text;             /* NULL: no font was found; texts are left out */
+    Font *font;             /* NULL: no font was found; texts are left out */
     double em;              /* pixels */
     double unit;            /* pixels, 1/14 em */
     double min_letter_size; /* ems, least size of normal letters */
@@ -24,7 +24,7 @@ Status paper_create(int width, int height, Paper *paper);
 void paper_free(Paper *paper);
 
 /* Converts ems to whole pixels. */
-int paper_pixels(const Paper *paper, double ems);
+int paper_to_pixels(const Paper *paper, double ems);
 
 /* Keeps the box of words that labels must not cover. */
 void paper_keep_word_box(Paper *paper, Box box);

@@ -33,7 +33,7 @@ typedef struct Card {
     bool starts_closed;     /* shows only its title at first */
     bool needs_line_energy; /* draws the graph of E along the direction p */
     /* place of a main card: the picture's, or below or beside the picture */
-    enum { PLACE_SWAPPED, PLACE_BELOW, PLACE_BESIDE } main_place;
+    enum { SWAPS_PICTURE, BELOW_PICTURE, BESIDE_PICTURE } main_place;
     bool is_only_in_lecture; /* is hidden outside of the lecture */
     const char *words; /* text (live_values.h); unknown lines are left out */
     const struct ListingRow *listing; /* lines of an algorithm (cards.h) */

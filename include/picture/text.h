@@ -28,15 +28,15 @@ typedef struct TextStyle {
     double min_size; /* pixels, least size in superscripts and fractions */
 } TextStyle;
 
-typedef struct Text Text;
+typedef struct Font Font;
 
 /* Opens the fonts: $ELASTO_FONT (a .ttf file; empty: no font at all), then
  * DejaVu Sans from the usual folders.
  *   text  out; NULL: no font was found.  With NULL the functions below draw
  *         nothing and take letters to be 0.6 em wide.
  * Returns OK, OUT_OF_MEMORY. */
-Status text_create(Text **text);
-void text_free(Text *text);
+Status font_create(Font **text);
+void font_free(Font *text);
 
 /* Returns the distance between two lines of words, pixels. */
 double text_line_height(double size);
@@ -45,17 +45,17 @@ double text_line_height(double size);
 typedef struct TextExtent {
     double width, ascent, descent; /* pixels; the width is a whole number */
 } TextExtent;
-TextExtent text_measure(Text *text, const TextStyle *style, const char *markup);
+TextExtent text_measure(Font *text, const TextStyle *style, const char *markup);
 
 /* Counts the bytes of a text, fewer than `room`, that fit into this width.  The
  * text is cut at a blank outside of braces; at least one word fits.
  *   extent  out, extent of the part that fits */
-size_t text_break_line(Text *text, const TextStyle *style, int width,
+size_t text_break_line(Font *text, const TextStyle *style, int width,
                        const char *markup, size_t room, TextExtent *extent);
 
 /* Draws a line of words whose top is at y; fractions reach higher.  Returns the
  * line's width, pixels. */
-int text_draw(Text *text, Canvas *canvas, const TextStyle *style, double x,
+int text_draw(Font *text, Canvas *canvas, const TextStyle *style, double x,
               double y, Align align, const char *markup);
 
 /* Returns the colour with this name of `length` bytes ("warning", "p",
@@ -79,4 +79,4 @@ typedef struct Glyph {
 } Glyph;
 
 /* Finds or draws a letter, valid until the next call; size in pixels. */
-const Glyph *font_get_glyph(Text *text, Face face, int size, uint32_t letter);
+const Glyph *font_get_glyph(Font *text, Face face, int size, uint32_t letter);

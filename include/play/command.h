@@ -19,7 +19,7 @@ typedef enum CommandKind {
 #define ROW(kind, ...) COMMAND_##kind,
 #include "play/command_rows.def"
 #undef ROW
-    COMMAND_KINDS
+    COMMAND_KIND_COUNT
 } CommandKind;
 
 typedef struct Command {
@@ -46,8 +46,8 @@ enum {
     REPEATS = 1,       /* is repeated while the key is held down */
     IN_SCRIPT = 2,     /* is written into the script of a session */
     KEEPS_STEP = 4,    /* does not abandon a step that is being made */
-    REPLACES_LAST = 8, /* in a gesture, replaces the last command of its kind */
-    KEEPS_NOTE = 16    /* does not clear the message below the picture */
+    REPLACES_SAME = 8, /* in a gesture, replaces the last command of its kind */
+    KEEPS_MESSAGE = 16 /* does not clear the message below the picture */
 };
 
 typedef struct CommandRow {
@@ -64,7 +64,7 @@ typedef struct CommandRow {
     const char *chip_labels; /* labels of its chip, by state: "pause|play" */
 } CommandRow;
 
-extern const CommandRow command_rows[COMMAND_KINDS];
+extern const CommandRow command_rows[COMMAND_KIND_COUNT];
 
 /* Returns the command of a key such as "Shift+N", with the key as its text, or
  * COMMAND_NONE.
@@ -82,7 +82,7 @@ Status command_parse(const char *line, Command *command, Message message);
 void command_format(const Command *command, char *line, size_t size);
 
 /* Whether a command replaces `before`, as each new place of a drag does. */
-bool command_replaces_last(const Command *command, const Command *before);
+bool command_replaces(const Command *command, const Command *before);
 
 /* ---- scripts ------------------------------------------------------------- */
 
@@ -96,7 +96,7 @@ bool command_replaces_last(const Command *command, const Command *before);
 typedef struct ScriptLine {
     long due_step; /* step at which the line is obeyed */
     Command command;
-    int gesture; /* id of the command's gesture; 0: not known */
+    int gesture_id; /* id of the command's gesture; 0: not known */
 } ScriptLine;
 
 typedef struct Script {
@@ -106,7 +106,7 @@ typedef struct Script {
 } Script;
 
 /* Appends a line.  A command of the same gesture that the new one replaces
- * (command_replaces_last) is overwritten.  Returns OK, OUT_OF_MEMORY. */
+ * (command_replaces) is overwritten.  Returns OK, OUT_OF_MEMORY. */
 Status script_add(Script *script, long step, const Command *command,
                   int gesture);
 

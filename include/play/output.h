@@ -18,9 +18,9 @@ enum {
 
 /* A file that is written; zeroed: not open. */
 typedef struct OutputFile {
-    FILE *file;                 /* stream; NULL: the output is not open */
-    char name[PATH_BYTES];      /* name as given, for messages */
-    char part_name[PATH_BYTES]; /* NAME.part; "": the file has none */
+    FILE *file;                      /* stream; NULL: the output is not open */
+    char name[PATH_BYTES];           /* name as given, for messages */
+    char part_file_name[PATH_BYTES]; /* NAME.part; "": the file has none */
     char *message; /* [MESSAGE_BYTES] or NULL: "NAME: why" of a failure */
 } OutputFile;
 
@@ -38,15 +38,15 @@ Status output_open(const char *name, char *message, OutputFile *output);
 Status output_close(OutputFile *output, CloseAction keep);
 
 /* Writes "NAME: why" into the message unless the message has a text.  If `why`
- * is NULL, output_explain gives the reason.  Returns `status`. */
-Status output_report(char *message, const char *name, Status status,
-                     const char *why);
+ * is NULL, output_reason gives the reason.  Returns `status`. */
+Status output_fill_message(char *message, const char *name, Status status,
+                           const char *why);
 
 /* Reports FILE_FAILED of an output, and returns it. */
 Status output_report_failure(const OutputFile *output, const char *why);
 
 /* Returns the text of a status; for FILE_FAILED the text of errno. */
-const char *output_explain(Status status);
+const char *output_reason(Status status);
 
 /* Prints a formatted text as one line (replace_control_characters). */
 void print_line(FILE *file, const char *format, ...)
@@ -83,8 +83,8 @@ void table_add_columns(CsvTable *table, const char *names);
 /* Opens a table, and writes the line of names.  Returns as output_open. */
 Status table_open(const char *name, char *message, CsvTable *table);
 
-/* Adds a row, value [columns].  table_check reports whether this failed. */
+/* Adds a row, value [columns].  table_status reports whether this failed. */
 void table_add_row(CsvTable *table, const double *value);
 
 /* Returns FILE_FAILED (message) if a write to an open table has failed. */
-Status table_check(const CsvTable *table);
+Status table_status(const CsvTable *table);

@@ -32,8 +32,7 @@
 /* Bytes for states and samples; beyond them every second state is dropped. */
 #define PAST_BYTES ((size_t)256 << 20)
 
-/* Largest max_coordinate of a drawn step, in units of step 1's max_coordinate.
- */
+/* Largest max_coordinate of a drawn step, as a multiple of step 1's. */
 #define PAST_EXPLODED 10
 
 enum { ALL_PANES = -1 }; /* past_edit edits each pane */
@@ -77,16 +76,16 @@ typedef struct PastEntry {
 
 /* Entries of all panes from one step on. */
 typedef struct Branch {
-    bool from_options; /* starts from options, not from the branch below */
+    bool begins_runs;  /* starts from options, not from the branch below */
     long first_step;   /* step of entry 0 */
     long entry_count;  /* number of entries, at least 1 */
     long capacity;     /* entries that memory is reserved for */
     int copied_count;  /* number of entries from the branch below, 0 ... 2 */
-    long exit_step;    /* step that was shown when the user left the branch */
+    long left_at_step; /* step that was shown when the user left the branch */
     long stride;       /* every stride-th entry stores its state */
     int panes;         /* number of panes */
-    PastEntry *entry;  /* [capacity][panes]; entry[entries] is being made */
-    int gesture;       /* id; a gesture is undone as a whole; 0: none */
+    PastEntry *entry;  /* [capacity][panes]; entry[entry_count] is being made */
+    int gesture_id;    /* id; a gesture is undone as a whole; 0: none */
     Command edit;      /* edit that began the branch */
 } Branch;
 
@@ -97,7 +96,7 @@ typedef struct PastPane {
     const UserControl *control;       /* control of the simulation */
     bool has_state;            /* the simulation has the state of `step` */
     long step;                 /* last step that the pane has finished */
-    bool is_iterating;         /* a step of the simulation has begun */
+    bool is_in_substep;        /* a step of the simulation has begun */
     int substep_count;         /* steps of the simulation since `step` */
     long steps_before_substep; /* steps of the simulation before this substep */
     StepOutcome outcome;       /* outcome of the present step, or of the last */
@@ -117,7 +116,7 @@ typedef enum WorkStage {
 } WorkStage;
 
 typedef struct Past {
-    Branch *branch; /* [branches] branches from the bottom of the stack */
+    Branch *branch; /* [branch_count] branches from the bottom of the stack */
     int branch_count, capacity; /* number of branches; room for branches */
     int branch_index; /* index of the present branch; higher ones are undone */
     long shown_step;  /* step that is shown in all panes */
@@ -186,7 +185,7 @@ Status past_finish_work(Past *past);
 
 /* Undoes one gesture (-1) or redoes one (1); past_do_work then shows the step.
  * Returns the edit that was undone or redone, or NULL. */
-const Command *past_undo(Past *past, int way);
+const Command *past_undo_or_redo(Past *past, int way);
 
 int past_count_panes(const Past *past);
 

@@ -7,8 +7,9 @@
  *   do_work: past_do_work until that step is shown   (obey.c)
  *
  * From key to Newton: player_obey_input, player_obey, do_work, past_do_work,
- * pane_iterate, simulation_advance, time_integrator_advance, newton_minimise.
- */
+ * pane_iterate, simulation_advance, time_integrator_continue, newton_minimise.
+ * In a window do_work returns after SLICE; the next frames go on with the work
+ * (player_make_frame, make_due_steps, player_make_step). */
 #pragma once
 
 #include <signal.h>
@@ -48,7 +49,7 @@ typedef enum ActionAfterWork {
     AFTER_NOTHING,
     AFTER_SHOW_FIRST_LINE, /* show the step's first line of Algorithm 3 */
     AFTER_SHOW_LAST_LINE,  /* show the step's last line of Algorithm 3 */
-    AFTER_SHOW_END,        /* show the step's end; if E exploded, its peak */
+    AFTER_SHOW_STEP_END,   /* show the step's end; if E exploded, its peak */
     AFTER_COMPARE_OUTCOMES /* compare the outcomes before and after an edit */
 } ActionAfterWork;
 
@@ -80,32 +81,31 @@ enum { MAX_QUEUED_COMMANDS = 16 };
  * made: commands that a command has added, and drags during a step. */
 typedef struct CommandQueue {
     Command command[MAX_QUEUED_COMMANDS];
-    int count;                /* number of commands */
-    bool is_from_page;        /* the commands belong to a page */
-    const UserControl *pins;  /* pins to set after the last command, or NULL */
-    char note[SENTENCE_SIZE]; /* message when the queue is empty, or "" */
+    int count;               /* number of commands */
+    bool is_from_page;       /* the commands belong to a page */
+    const UserControl *pins; /* pins to set after the last command, or NULL */
+    char end_note[SENTENCE_SIZE]; /* message when the queue is empty, or "" */
 } CommandQueue;
 
 /* Queue, journal and gestures.  Undo takes back all commands of a gesture. */
 typedef struct Commands {
     CommandQueue queue;
-    int gesture;       /* id of the present gesture, which is undone as one */
-    int gesture_count; /* number of gestures so far, the id of the newest */
-    int drag_gesture;  /* gesture of the last grab or push, and of its drags */
-    Script journal;    /* commands of the session, with undo and redo */
-    CommandKind leave_command; /* command that ends the program if repeated */
-    bool has_refused_line;     /* a line of the script was refused */
+    int gesture_id;      /* id of the present gesture, which is undone as one */
+    int gesture_count;   /* number of gestures so far, the id of the newest */
+    int drag_gesture_id; /* gesture of the last grab or push */
+    Script journal;      /* commands of the session, with undo and redo */
+    CommandKind quit_command; /* command that ends the program if repeated */
+    bool has_refused_line;    /* a line of the script was refused */
 } Commands;
 
 /* The guided tour, page by page. */
 typedef struct Tour {
-    const LecturePage *last_page;     /* page that was last open, or NULL */
+    const LecturePage *tour_page;     /* page that was last open, or NULL */
     const LecturePage *revealed_page; /* page whose answer is shown, or NULL */
     char asked_question[ANSWER_SIZE]; /* question of revealed_page */
     char verdict[VALUE_SIZE]; /* verdict on the guess at the page, or "" */
-    int guess_count,
-        right_guess_count; /* number of guesses; of right guesses */
-    bool is_page_running;  /* a page's commands are running */
+    int guess_count, right_guess_count; /* numbers of guesses and right ones */
+    bool is_page_running;               /* a page's commands are running */
     Options page_options[OPTIONS_MAX_DRAWN_PANES]; /* options of each pane */
 } Tour;
 
@@ -116,8 +116,8 @@ typedef struct WindowFrame {
     FrameContent content;
     History history[LAYOUT_MAX_PANES];
     NewtonTrace trace[LAYOUT_MAX_PANES];
-    char label[LAYOUT_MAX_PANES][LABEL_SIZE];   /* how each pane differs */
-    CommandKind chip_command[LAYOUT_MAX_CHIPS]; /* command of each chip */
+    char pane_label[LAYOUT_MAX_PANES][LABEL_SIZE]; /* how each pane differs */
+    CommandKind chip_command[LAYOUT_MAX_CHIPS];    /* command of each chip */
     int option_count; /* number of options in the row */
     const OptionRow *option[OPTIONS_MAX_ROWS];
 } WindowFrame;
@@ -154,12 +154,12 @@ typedef struct Mouse {
     double grip_offset[2]; /* from the mouse to the dragged obstacle, m */
     bool repins_node;      /* the dragged node is pinned again after the drag */
     bool was_wheel_turn;   /* the last input was a turn of the wheel */
-    int input_gesture;     /* gesture id of the last key, click or wheel turn */
-    Options start_options; /* options at the start of a drag of a number */
+    int input_gesture_id;  /* gesture id of the last key, click or wheel turn */
+    Options drag_options;  /* options at the start of a drag of a number */
 } Mouse;
 
 /* Objects that the user holds or has selected, and the typed text. */
-typedef struct Hands {
+typedef struct InputState {
     Mouse mouse;         /* mouse and its drag */
     bool is_holding;     /* a node or an obstacle is held */
     long last_pull_step; /* step at which the hand last moved what it holds */
@@ -168,7 +168,7 @@ typedef struct Hands {
         added_option_rows; /* bit r: the row of numbers also has option r */
     bool is_typing;        /* a field is open: keys go into `typed` */
     char typed_text[28];   /* typed value, answer, or number of a list's line */
-} Hands;
+} InputState;
 
 typedef struct Player {
     PlayerSetup setup;
@@ -180,12 +180,12 @@ typedef struct Player {
     Commands commands;
     Tour tour;
     Screen screen;
-    Hands hands;
+    InputState input;
     bool is_quitting;         /* the program is asked to end */
     char message[768];        /* why a command was refused, or "" */
     char note[SENTENCE_SIZE]; /* message below the picture, or "" */
     bool is_warning;          /* the note is a warning */
-    bool must_explain; /* the mouse has moved to another part since the note
+    bool explains_hover; /* the mouse has moved to another part since the note
                           was written; a sentence about it replaces the note */
 } Player;
 
@@ -244,7 +244,7 @@ int player_copy_options(const Player *player,
 /* Finishes the files and closes the window; the past can still be read.
  *   status  in, last status of the run; after a failure files stay NAME.part
  * Returns `status` unless it is OK; else OK, OUT_OF_MEMORY or FILE_FAILED. */
-Status player_finish(Player *player, Status status);
+Status player_close_files(Player *player, Status status);
 void player_free(Player *player);
 
 /* ---- the program --------------------------------------------------------- */
@@ -260,7 +260,7 @@ enum ExitCode {
 /* Returns the index, from i on, of the next word of the command line that
  * decides what is simulated, not how long or with which files; 0: no such word.
  * The first call has i = 1, each further call the last index + 1. */
-int player_find_scene_word(const Player *player, int i);
+int player_find_scene_argument(const Player *player, int i);
 
 /* Reads the command line; prints --help, --version or a list, or creates the
  * player.  Prints a failure as one line on standard error.

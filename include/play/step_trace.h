@@ -1,7 +1,6 @@
 /* step_trace.h - the iterates of a step, for cards and for a walk through it.
  *
- * A position is a line of Algorithm 3 at an iterate x^i, where a walk can stop.
- */
+ * A position of a walk is a line of Algorithm 3 at an iterate x^i. */
 #pragma once
 
 #include "picture/frame_content.h"
@@ -27,7 +26,7 @@ bool newton_records_reserve(NewtonRecords *records, int count);
 /* An iterate of Newton's method, with its direction and its line search. */
 typedef struct TraceIterate {
     double *x, *p, *u;  /* [x_length] m, iterate x^i, p^i, x^i - x^n; or NULL */
-    double first_trial; /* alpha, first trial of the line search */
+    double first_alpha; /* alpha, first trial of the line search */
     Quartic polynomial; /* polynomial part of E(x + alpha p) - E(x), J s^2 */
     bool has_remainder; /* E along p has a part that is no polynomial */
     bool has_samples;   /* `energy_samples` is filled */
@@ -41,7 +40,7 @@ typedef enum TimeUnit { UNIT_STEP, UNIT_UPDATE, UNIT_LINE, UNITS } TimeUnit;
 
 typedef struct TracePosition {
     int iterate;      /* index of the iterate in StepTrace */
-    StepLine at_line; /* line of Algorithm 3 */
+    AlgoLine at_line; /* line of Algorithm 3 */
     int trials;       /* trials of the line search so far */
 } TracePosition;
 
@@ -90,7 +89,7 @@ int step_trace_walk(const StepTrace *trace, TimeUnit unit, int position,
 
 /* Returns the index of the last position at iterate i whose line of Algorithm 3
  * is not after `line`; without such a position, the last index of the step. */
-int step_trace_find_position(const StepTrace *trace, int i, StepLine line);
+int step_trace_find_position(const StepTrace *trace, int i, AlgoLine line);
 
 /* Returns the index of the position where E was highest, if E exploded (rose
  * by more than ten times its change in the whole step); else -1. */

@@ -47,7 +47,7 @@ Status create_spring_scene(Simulation *simulation);
 typedef struct MassStep {
     /* Position, velocity, acceleration, SI units, before and after the step. */
     double x[2], v[2], a[2], new_x[2], new_v[2], new_a[2]; /* m, m/s, m/s^2 */
-    bool moves_by_old_v; /* x' = x + h v (forward Euler) */
+    bool uses_old_v; /* x' = x + h v (forward Euler) */
 } MassStep;
 
 /* Computes the next step of a run.
@@ -91,15 +91,15 @@ Status step_descent(Simulation *simulation);
 void descent_update_direction(Simulation *simulation);
 
 /* Returns E or f with derivatives at (x, y), of the parts switched on. */
-LocalModel descent_evaluate(const Simulation *simulation, Projection projection,
-                            double x, double y);
+TaylorModel descent_evaluate(const Simulation *simulation,
+                             Projection projection, double x, double y);
 
 /* Computes p = -H^-1 g with a given projection.
  *   x  [2] m, in
  *   p  [2] m, out
  * Returns g . p, J s^2; NaN if H has no inverse. */
-double descent_direction(const Simulation *simulation, Projection projection,
-                         const double *x, double p[2]);
+double descent_find_p(const Simulation *simulation, Projection projection,
+                      const double *x, double p[2]);
 
 /* Classifies the Hessian without projection: 0 if all its eigenvalues are
  * positive, as at a minimum, and Newton's direction is downhill; 1 if its
@@ -109,14 +109,14 @@ int descent_classify_hessian(const Simulation *simulation, double x, double y);
 
 /* Returns the value of some parts of E at (x, y), J s^2.
  *   parts  enum LandscapePart */
-double landscape_evaluate_parts(const Simulation *simulation, unsigned parts,
-                                double x, double y);
+double landscape_sum_energy_parts(const Simulation *simulation, unsigned parts,
+                                  double x, double y);
 
 /* Creates `dial`: a step makes h 10^(1/10) times longer, up to 10 s; node 0 is
  * at the minimiser. */
 Status create_dial_scene(Simulation *simulation);
 Status step_dial_scene(Simulation *simulation);
-void dial_restart(Simulation *simulation);
+void dial_update_curve(Simulation *simulation);
 
 /* ---- run time against error ---------------------------------------------- */
 
@@ -146,10 +146,10 @@ const IntegratorMethod *race_get_method(int i);
 /* ---- how far the solver can be trusted ----------------------------------- */
 
 /* Returns the time step of a column, s. */
-double envelope_timestep(int column);
+double envelope_get_timestep(int column);
 
 /* Returns the stiffness of a row, J/m^2. */
-double envelope_stiffness(int row);
+double envelope_get_stiffness(int row);
 
 /* Creates `envelope`.  Run 0 is the run of the shown cell of the map, at first
  * of the cell nearest to h and k of the options. */

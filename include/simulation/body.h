@@ -37,7 +37,7 @@ Status body_check_method(const Options *options, Message message);
 /* Checks that the body can start: obstacles have possible numbers, no body
  * overlaps an obstacle or another body, no cell is turned over.
  * Returns OK, INVALID_INPUT with a message, OUT_OF_MEMORY. */
-Status body_check(const Options *options, Message message);
+Status body_check_start(const Options *options, Message message);
 
 /* Reads positions and velocities of a run from options->state, a table that
  * --states wrote, or which of its springs are broken and have yielded from

@@ -10,11 +10,11 @@
 typedef struct UserControl {
     int ref_count; /* number of references; without any the control is freed */
     Options options;
-    int held_node;          /* node that the mouse holds; -1: none */
-    int held_obstacle;      /* obstacle that the mouse holds; -1: none */
-    double target[2];       /* place to which the hand pulls or pushes (m) */
-    int nodes;              /* number of nodes */
-    unsigned char pinned[]; /* [nodes] 1: pinned, 0: free */
+    int held_node;             /* node that the mouse holds; -1: none */
+    int held_obstacle;         /* obstacle that the mouse holds; -1: none */
+    double target[2];          /* place to which the hand pulls or pushes (m) */
+    int nodes;                 /* number of nodes */
+    unsigned char is_pinned[]; /* [nodes] 1: pinned, 0: free */
 } UserControl;
 
 /* Make a control from a simulation, with nothing held, or copy a control.  The
@@ -51,8 +51,8 @@ Status control_apply(Simulation *simulation, const UserControl *control);
  *   moves  false: only checks whether the node can be there
  * Returns OK, or INVALID_INPUT if there is no such node, an obstacle is in the
  * way, or a cell would be turned over. */
-Status simulation_place_node(Simulation *simulation, int node, double x,
-                             double y, bool moves);
+Status simulation_move_node(Simulation *simulation, int node, double x,
+                            double y, bool moves);
 
 /* ---- the state ----------------------------------------------------------- */
 

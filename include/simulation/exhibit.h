@@ -8,25 +8,25 @@
 typedef struct Simulation Simulation;
 
 /* A user's guess where the next step leads, and where the step does lead. */
-typedef struct Prediction {
+typedef struct UserPrediction {
     bool has_guess;    /* the user has made a guess */
     long guess_step;   /* number of steps made before the guess */
     double guess[2];   /* m, the guess */
     double outcome[2]; /* m, where the step does lead */
     double error;      /* m, distance guess to outcome; one unknown: along x */
-} Prediction;
+} UserPrediction;
 
 /* ---- descents: minimisation by Newton's method, update by update --------- */
 
 /* Value, gradient and Hessian (xx, xy, yy) of E at a point, in J s^2 and m.  A
  * function f of one unknown uses g[0] and H[0]; the other numbers are 0. */
-typedef struct LocalModel {
+typedef struct TaylorModel {
     double energy, g[2], H[3]; /* E; gradient; Hessian xx, xy, yy */
     int projected_springs; /* number of springs whose Hessian was projected */
-} LocalModel;
+} TaylorModel;
 
 /* Evaluates a function of one unknown at x. */
-typedef LocalModel ScalarEnergy(const Simulation *simulation, double x);
+typedef TaylorModel ScalarFunction(const Simulation *simulation, double x);
 
 enum { DESCENT_MAX_RECORDS = 256 };
 
@@ -35,13 +35,13 @@ typedef struct Descent {
     int record_count;                         /* number of records */
     NewtonRecord record[DESCENT_MAX_RECORDS]; /* Newton's first iterations */
     double iterate[2];                        /* present iterate (m) */
-    double value;         /* value of the minimised function at the iterate */
-    double start_value;   /* E at the start; one unknown: INFINITY */
-    double direction[2];  /* Newton's direction p at the iterate (m); 0: none */
-    double slope;         /* gradient times p; below 0, E falls along p */
-    bool tests_g;         /* the loop tests |g| (Algorithm 1), not |p|/h */
-    double residual;      /* |g|, or |p|/h (m/s), compared with the tolerance */
-    ScalarEnergy *scalar; /* function of one unknown; NULL: two unknowns */
+    double value;        /* value of the minimised function at the iterate */
+    double start_value;  /* E at the start; INFINITY in one dimension */
+    double direction[2]; /* Newton's direction p at the iterate (m); 0: none */
+    double slope;        /* gradient times p; below 0, E falls along p */
+    bool tests_g;        /* the loop tests |g| (Algorithm 1), not |p|/h */
+    double residual;     /* |g|, or |p|/h (m/s), compared with the tolerance */
+    ScalarFunction *scalar; /* function of one unknown; NULL: two unknowns */
 } Descent;
 
 /* Parts of E in the scene `landscape`, as bits. */
@@ -54,18 +54,17 @@ enum LandscapePart {
 /* The minimiser of E as a function of the time step h. */
 enum { DIAL_POINTS = 41 };
 
-typedef struct DialCurve {
+typedef struct MinimiserCurve {
     double h[DIAL_POINTS];            /* time steps in ascending order (s) */
     double minimiser[DIAL_POINTS][2]; /* m, minimiser for each h */
-} DialCurve;
+} MinimiserCurve;
 
 /* ---- run time against error ---------------------------------------------- */
 
 #define RACE_TIME 0.064 /* s, simulated time of each run */
 
-/* RACE_SHOWN_STEP_SIZE: index of the step size that the table of methods shows.
- */
-enum { RACE_SHOWN_STEP_SIZE = 1, RACE_METHODS = 4, RACE_STEP_SIZES = 7 };
+/* RACE_SHOWN_STEP_INDEX: index of the step size in the table of methods. */
+enum { RACE_SHOWN_STEP_INDEX = 1, RACE_METHODS = 4, RACE_STEP_SIZES = 7 };
 
 /* An explicit run counts as stable if RACE_EXTRA_STEPS further steps, which are
  * not measured, leave the energy below RACE_MAX_ENERGY_RATIO times that of the
@@ -82,26 +81,26 @@ typedef struct RaceResult {
     bool is_stable;        /* the energy stays bounded when the run goes on */
 } RaceResult;
 
-typedef struct Race {
+typedef struct MethodRace {
     int run_count; /* number of runs that were made so far */
     RaceResult result[RACE_METHODS * RACE_STEP_SIZES];
-} Race;
+} MethodRace;
 
 /* ---- how far the solver can be trusted ----------------------------------- */
 
 enum { ENVELOPE_STEPS = 3, ENVELOPE_COLUMNS = 25, ENVELOPE_ROWS = 22 };
 
-typedef struct EnvelopeCell {
+typedef struct ConvergenceCell {
     bool is_known;     /* the run of the cell was made */
-    Status bad_status; /* OK, or why a step failed or did not converge */
+    Status run_status; /* OK, or why a step failed or did not converge */
     int updates;       /* Newton updates of all steps */
-} EnvelopeCell;
+} ConvergenceCell;
 
 /* Whether the square converges, by stiffness (row) and time step (column). */
-typedef struct EnvelopeMap {
-    EnvelopeCell cell[ENVELOPE_ROWS][ENVELOPE_COLUMNS];
+typedef struct ConvergenceMap {
+    ConvergenceCell cell[ENVELOPE_ROWS][ENVELOPE_COLUMNS];
     int shown_column, shown_row; /* cell whose run is shown; -1: none */
-} EnvelopeMap;
+} ConvergenceMap;
 
 /* ---- data of all scenes, points and switches ----------------------------- */
 
@@ -109,11 +108,11 @@ typedef struct EnvelopeMap {
 typedef struct SmallSceneData {
     double exact_start[4]; /* x (m) and v (m/s) where the exact path starts */
     double x_tilde[2];     /* inertial target (m); one unknown uses only [0] */
-    unsigned switches;    /* bit s: 1 if switch s is on; with LAYER_SPRING_KINDS
-                             1 if the springs of kind s are off */
-    DialCurve dial;       /* curve of minimisers in scene `dial` */
-    Race race;            /* runs of scene `race` */
-    EnvelopeMap envelope; /* runs of scene `envelope` */
+    unsigned switches;   /* bit s: 1 if switch s is on; with LAYER_SPRING_KINDS
+                            1 if the springs of kind s are off */
+    MinimiserCurve dial; /* curve of minimisers in scene `dial` */
+    MethodRace race;     /* runs of scene `race` */
+    ConvergenceMap envelope; /* runs of scene `envelope` */
 } SmallSceneData;
 
 /* Lists the points that can be dragged, m.  Returns how many there are. */

@@ -7,8 +7,8 @@
 
 #include "base/status.h"
 
-/* Writes the text of a call into a char array.  The calling function has the
- * parameters (..., const char *format, ...) of printf.
+/* Formats the variable arguments of the calling function as printf does.  The
+ * caller's parameters end with (const char *format, ...).
  *   text  [size] out */
 #define write_formatted(text, size, format)                                    \
     do {                                                                       \

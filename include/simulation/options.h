@@ -68,7 +68,7 @@ typedef struct Options {
             /* height (m), velocity (m/s; 0: no ceiling), lowest height (m) */
             double ceiling[3]; /* values of --ceiling */
             double barrier[2]; /* d_hat (m) and kappa (J/m^2); 0: automatic */
-            double friction, slip_speed, cells, self_contact;
+            double friction, slip_speed, has_cell_energy, has_self_contact;
             double self_friction;  /* friction between bodies; -1: `friction` */
             double material;       /* 0: springs, 1: triangles */
             double young, poisson; /* values of --young, --poisson */
@@ -115,8 +115,8 @@ enum { OPTIONS_MAX_DRAWN_PANES = 6, OPTIONS_MAX_PANES = 64 };
 
 typedef enum OptionKind {
     OPTION_SWITCH,       /* no value: 0, or 1 if the option is given */
-    OPTION_NUMBER,       /* numbers, `count` of them */
-    OPTION_WHOLE_NUMBER, /* whole numbers, `count` of them */
+    OPTION_NUMBER,       /* numbers, `number_count` of them */
+    OPTION_WHOLE_NUMBER, /* whole numbers, `number_count` of them */
     OPTION_NAME,         /* index of one of the row's names */
     OPTION_TEXT,         /* file, folder or list of nodes, not empty */
     OPTION_PAGE,         /* page of the tour; the value may be left out */
@@ -149,12 +149,11 @@ static inline int option_get_name_index(double value)
 }
 
 /* When a changed option takes effect. */
-typedef enum ChangeEffect {
+typedef enum EffectStart {
     EFFECT_NEW_RUN,      /* takes effect in a new run */
     EFFECT_NEXT_STEP,    /* takes effect in the next step */
-    EFFECT_REPEATED_STEP /* takes effect in the present step, which is repeated
-                          */
-} ChangeEffect;
+    EFFECT_REPEATED_STEP /* the present step is repeated with the value */
+} EffectStart;
 
 /* How the window shows an option and changes it by mouse, wheel and keys. */
 typedef struct OptionDisplay {
@@ -177,21 +176,20 @@ typedef struct OptionRow {
     bool is_table;    /* OPTION_TEXT: the file is a CSV table */
     int number_count; /* how many numbers a value has; 0 means 1 */
     unsigned allowed_short_counts;  /* bit n: the first n numbers are enough */
-    const double *omitted_defaults; /* [count] defaults of omitted numbers */
+    const double *omitted_defaults; /* [number_count], for omitted numbers */
     char separator;                 /* separator of the numbers; 0: a comma */
-    int max_repetitions; /* limit of repetitions; 0: only the last value counts
-                          */
+    int max_repetitions; /* limit of repetitions; 0: the last value counts */
     int count_slot;      /* max_repetitions > 0: slot of the number of values */
-    double default_value; /* default, as on the slides */
-    double low, high;     /* range, both ends included */
-    const char *unit;     /* unit of the numbers, or "" if they have none */
-    NameTable names;      /* OPTION_NAME: the values */
-    unsigned needs_any_scene_part; /* bits of ScenePart: the scene needs one of
+    double default_value;     /* default, as on the slides */
+    double low, high;         /* range, both ends included */
+    const char *unit;         /* unit of the numbers, or "" if they have none */
+    NameTable value_names;    /* OPTION_NAME: the values */
+    unsigned needs_any_trait; /* bits of SceneTrait: the scene needs one of
                                       them */
     /* Returns why the option has no effect with the present options, or NULL.
      * The pointer is NULL for options that always have an effect. */
-    const char *(*idle_reason)(const Options *options);
-    ChangeEffect effect;
+    const char *(*get_idle_reason)(const Options *options);
+    EffectStart effect;
     const TermKind *term; /* energy term that the option adds, or NULL */
     const char *label;    /* name in the window, in the markup of text.h; NULL:
                              the option can have no list of values */
@@ -227,8 +225,8 @@ void option_write(const OptionRow *row, double value, char *text, size_t size);
 
 /* Writes an option's value, the last if repeated, in few digits, or "none".
  *   text  [size] out */
-void option_write_short(const OptionRow *row, const Options *options,
-                        char *text, size_t size);
+void option_write_short_value(const OptionRow *row, const Options *options,
+                              char *text, size_t size);
 
 /* Whether a number of the option is not 0, or a repeated option was given. */
 bool option_is_on(const OptionRow *row, const Options *options);
@@ -237,7 +235,7 @@ bool option_is_on(const OptionRow *row, const Options *options);
 bool option_is_equal(const OptionRow *row, const Options *a, const Options *b);
 
 /* Copies all numbers of an option. */
-void option_copy(const OptionRow *row, const Options *from, Options *to);
+void option_copy_value(const OptionRow *row, const Options *from, Options *to);
 
 /* Returns what the window and the page call an option: "h" for timestep. */
 const char *option_get_label(const OptionRow *row);

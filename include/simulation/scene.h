@@ -26,12 +26,12 @@ typedef enum PictureKind {
 } PictureKind;
 
 /* Parts of a scene, as bits.  Options that need a missing part are refused. */
-enum ScenePart {
-    HAS_MESH = 1,            /* a square: segments, side, solver and more */
+enum SceneTrait {
+    HAS_MESH = 1,            /* a square, with the options of mesh and solver */
     HAS_TIME = 2,            /* motion in time, by an integrator */
     HAS_START = 4,           /* a point to start from */
-    HAS_SPRINGS = 8,         /* springs: projection of their Hessian */
-    HAS_MINIMISATION = 16,   /* a minimisation: tolerance, line search */
+    HAS_SPRINGS = 8,         /* springs, with the option of projection */
+    HAS_MINIMISATION = 16,   /* a minimisation, with tolerance, line search */
     HAS_ONE_COORDINATE = 32, /* a start with one coordinate, x */
     HAS_TIMESTEP = 64,       /* a time step h */
     HAS_BODY = 128,          /* a body: options --turn, --at, --pin and more */
@@ -54,11 +54,10 @@ typedef struct SceneBody {
     double aspect;         /* height over width; 0: a square */
     double cell_stiffness; /* stiffness of cells / that of springs; 0: 1/2 */
     double pin_speed;      /* outward speed of pinned nodes, side lengths/s */
-    double notch_ends[2];  /* ends of a slit in the middle line: heights above
+    double notch_ends[2];  /* ends of a slit beside the middle: heights above
                          the  centre, divided by the body's height */
     int runs;              /* number of runs, each with a body; 0 means 1 */
-    double
-        height_between_runs; /* height of run r above r + 1, in side lengths */
+    double run_distance;   /* height of run r above r + 1, in side lengths */
     double friction_factor[3]; /* factors on the runs' friction; 0 means 1 */
     /* Returns a further obstacle, at its start; NULL: no obstacle. */
     struct Obstacle (*make_obstacle)(const struct Options *options);
@@ -70,9 +69,8 @@ typedef struct Scene {
     const char *title;       /* heading above the picture */
     const char *description; /* description, at most 60 letters */
     PictureKind picture;
-    unsigned parts; /* bits of ScenePart: what the scene has */
-    const char
-        *default_options; /* options with other values than on the slides */
+    unsigned traits;             /* bits of SceneTrait: what the scene has */
+    const char *default_options; /* values that differ from the slides */
     /* Fills simulation->system and the mesh, and starts each run
      * (simulation_start_run). */
     Status (*create)(struct Simulation *simulation);
@@ -93,9 +91,9 @@ typedef struct Scene {
     Status (*step)(struct Simulation *simulation);
     /* Computes the next direction again, after the projection or the line
      * search changed.  NULL: the next step computes its direction. */
-    void (*find_direction)(struct Simulation *simulation);
+    void (*update_direction)(struct Simulation *simulation);
     /* Begins the search again after a drag.  NULL: the scene moves in time. */
-    void (*restart)(struct Simulation *simulation);
+    void (*after_drag)(struct Simulation *simulation);
     /* A letter for each point that can be dragged: x for the mass or the
      * iterate, v for the tip of the velocity, t for x_tilde. */
     const char *handle_kinds;

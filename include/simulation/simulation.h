@@ -16,8 +16,9 @@ enum { SIMULATION_MAX_RUNS = 3, SIMULATION_MAX_MODE_NODES = 64 };
  * behind a barrier of energy, such as another body. */
 typedef struct EnergyLedger {
     double start_energy; /* J, total energy at the start */
-    double work; /* J, work of the user's changes of nodes, options and pins */
-    double last_balance;  /* J, total energy minus work, after the last step */
+    double user_work;    /* J, work of the user's changes of nodes, options and
+                            pins */
+    double latest_balance; /* J, total energy minus work, after the last step */
     long gain_steps;      /* steps in which energy grew by more than the work */
     double gained_energy; /* J, energy gained beyond the work in gain_steps */
 } EnergyLedger;
@@ -34,12 +35,12 @@ struct Simulation {
     int current_run;   /* run whose step is being computed */
     Status bad_status; /* OK, or the last other status of this step's runs */
     Descent descent;   /* minimisation; zero in scenes that move in time */
-    SmallSceneData exhibit;  /* data of the small scenes; switches */
-    Prediction prediction;   /* guess where the next step leads */
-    NewtonObserver observer; /* called after each Newton iteration, or NULL */
-    void *observer_data;     /* argument of observer */
-    long steps;              /* steps so far */
-    long unconverged_steps;  /* steps so far that did not converge */
+    SmallSceneData exhibit;    /* data of the small scenes; switches */
+    UserPrediction prediction; /* guess where the next step leads */
+    NewtonObserver observer;   /* called after each Newton iteration, or NULL */
+    void *observer_data;       /* argument of observer */
+    long steps;                /* steps so far */
+    long unconverged_steps;    /* steps so far that did not converge */
     int status_counts[STATUS_COUNT]; /* unconverged steps by their status */
     Status status;                   /* status of the last step */
     bool is_over; /* the scene has ended: a step does nothing */
@@ -120,10 +121,9 @@ NewtonCounters simulation_sum_newton_counters(const Simulation *simulation);
 
 /* Returns when a change of row's option takes effect, usually row->effect.  The
  * result is EFFECT_NEW_RUN for the method of several runs, and in scenes
- * without time, where EFFECT_REPEATED_STEP is kept if the scene has HAS_START.
- */
-ChangeEffect simulation_find_option_effect(const Simulation *simulation,
-                                           const OptionRow *row);
+ * without time; with HAS_START such a scene keeps EFFECT_REPEATED_STEP. */
+EffectStart simulation_find_option_effect(const Simulation *simulation,
+                                          const OptionRow *row);
 
 /* Checks that obstacles of changed options overlap no body at its present
  * place.  Returns OK, or INVALID_INPUT with a message. */
@@ -163,5 +163,5 @@ int simulation_find_shown_point(const Simulation *simulation, double at[2]);
  * mode oscillates, or with more than SIMULATION_MAX_MODE_NODES nodes.
  *   x     [2n] m, in
  *   mode  [2n] out, of length 1 */
-double simulation_find_fastest_mode(const Simulation *simulation,
-                                    const double *x, double *mode);
+double simulation_find_max_omega(const Simulation *simulation, const double *x,
+                                 double *mode);

@@ -91,18 +91,18 @@ static inline double quartic_value(const Quartic *quartic, double alpha)
 typedef struct LineEnergy {
     Quartic polynomial; /* polynomial part of E along p */
     const Iterate *iterate;
-    bool has_remainder; /* has terms with a line_remainder (term.h) */
+    bool has_remainder; /* has terms with a taylor_remainder (term.h) */
 } LineEnergy;
 
 /* Prepares E(x + alpha p) - E(x) from u, x, g, p of the iterate. */
-LineEnergy incremental_potential_prepare_line(const Iterate *iterate);
+LineEnergy make_line_energy(const Iterate *iterate);
 
-/* Returns E(x + alpha p) - E(x), J s^2; an EnergyDifference of the line search.
+/* Returns E(x + alpha p) - E(x), J s^2; an EnergyFunction of the line search.
  *   function  in, the LineEnergy */
 double line_energy_difference(const void *function, double alpha);
 
 /* Returns the largest alpha <= 1 up to which all terms allow x + alpha p. */
-double incremental_potential_max_step(const Iterate *at);
+double incremental_potential_max_alpha(const Iterate *at);
 
 /* Whether every term allows u, x [2n]. */
 bool incremental_potential_is_feasible(const IncrementalPotential *E,

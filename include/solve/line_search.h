@@ -2,7 +2,7 @@
  * backtracking line search).
  *
  * The slides halve alpha while E(x + alpha p) > E(x).  The program computes the
- * difference itself (incremental_potential_prepare_line), so that rounding of
+ * difference itself (make_line_energy), so that rounding of
  * large energies does not hide a small decrease. */
 #pragma once
 
@@ -15,7 +15,7 @@ typedef enum LineSearch {
 } LineSearch;
 
 /* E(x + alpha p) - E(x); NaN counts as "not lower". */
-typedef double (*EnergyDifference)(const void *function, double alpha);
+typedef double (*EnergyFunction)(const void *function, double alpha);
 
 /* Halvings of alpha after which no step is assumed to lower E. */
 enum { LINE_SEARCH_MAX_HALVINGS = 64 };
@@ -25,5 +25,5 @@ enum { LINE_SEARCH_MAX_HALVINGS = 64 };
  *           trial, or 1/2, 1/4, ... of it; 0 after a failure
  *   trials  out, number of energies compared
  * Returns OK, LINE_SEARCH_LIMIT. */
-Status line_search_backtrack(EnergyDifference difference, const void *function,
+Status line_search_backtrack(EnergyFunction difference, const void *function,
                              double *alpha, int *trials);

@@ -20,7 +20,7 @@ typedef enum Solver {
 
 /* Most segments for which AUTO takes newton, whose iterates are those of the
  * slides.  Multigrid is twice as fast at 8 segments, four times from 12 on. */
-enum { AUTO_NEWTON_SEGMENTS = 8 };
+enum { AUTO_NEWTON_MAX_SEGMENTS = 8 };
 
 /* How well the residual of a direction p is known. */
 typedef enum ResidualKind {
@@ -101,20 +101,20 @@ typedef struct FactoredHessian {
 
 /* Data for the rounding errors of a minimisation (rounding.c). */
 typedef struct RoundingChecks {
-    unsigned bounds_version; /* 1 + System.version of min_mass, max_curvature
+    unsigned bounds_version; /* 1 + System.version of min_mass, max_stiffness
                                 and shortest_spring; 0: not computed yet */
     double min_mass;         /* kg, the smallest mass */
-    double max_curvature; /* J/m^2, the largest curvature_estimate of a term */
-    double shortest_spring; /* m, rest length; 1 without springs */
-    bool is_stiff; /* P's weight times max_curvature > 1e5 min_mass; a decrease
+    double max_stiffness;    /* J/m^2, the largest max_stiffness of a term */
+    double shortest_spring;  /* m, rest length; 1 without springs */
+    bool is_stiff; /* P's weight times max_stiffness > 1e5 min_mass; a decrease
                       of E is then computed twice */
-    bool factor_is_inexact; /* P's weight times max_curvature > 1e10 min_mass:
+    bool factor_is_inexact; /* P's weight times max_stiffness > 1e10 min_mass:
                                the residual is only an estimate */
     double start_energy;    /* J s^2, E at the start; NAN: not needed */
     double energy_limit; /* J s^2, upper limit of E: its value at the start plus
                             rounding; INFINITY: no limit */
     double E;            /* J s^2, E at the iterate for
-                            rounding_confirms_change; NAN: not evaluated yet */
+                            energy_confirms_change; NAN: not evaluated yet */
     double E_trial;      /* J s^2, E at the end of the trial step */
     double best_residual;    /* m/s, smallest residual of this minimisation */
     int stagnant_iterations; /* iterations since the smallest residual */
@@ -138,9 +138,8 @@ typedef struct Newton {
     double *u_trial, *x_trial;
     FactoredHessian factored_hessian; /* the Hessian and its factor */
     bool has_gradient;                /* has the gradient at x in iterate.g */
-    bool passes_test;            /* p of the last iteration passes the test */
-    int clamped_iterations_left; /* number of next iterations that must clamp H
-                                  */
+    bool meets_tolerance;        /* p of the last iteration passes the test */
+    int clamped_iterations_left; /* number of next ones that must clamp H */
     RoundingChecks rounding;
     Multigrid *multigrid; /* data of multigrid; NULL: not created yet */
     Solver active_solver; /* solver of the next iteration: NEWTON, MULTIGRID */
@@ -169,18 +168,18 @@ void newton_start(Newton *newton, const double *x_n, const double *u,
  * next pause.  At least one update is made, if one lowers E.  u and x are the
  * last iterate; with a line search E is not higher there than at the start.
  * Returns RUNNING after a pause; OK if the last p passed the test, or if a
- * bound shows that the next p passes (multigrid) or is negligible; otherwise
+ * bound shows that the next p is negligible; otherwise
  * how the minimisation failed. */
 Status newton_minimise(Newton *newton);
 
 /* Large squares take longer for an update and get fewer of them, at least
  * MIN_ITERATION_LIMIT, so that a step ends within seconds. */
-enum { MAX_UPDATES_TIMES_NODES = 250000, MIN_ITERATION_LIMIT = 1000 };
+enum { MAX_NODE_UPDATES = 250000, MIN_ITERATION_LIMIT = 1000 };
 
 /* Returns the limit of iterations: max_iterations, or less on large squares. */
 static inline int newton_iteration_limit(const Newton *newton)
 {
-    int most = MAX_UPDATES_TIMES_NODES / newton->system->nodes;
+    int most = MAX_NODE_UPDATES / newton->system->nodes;
     most = most > MIN_ITERATION_LIMIT ? most : MIN_ITERATION_LIMIT;
     return most < newton->settings.max_iterations
                ? most

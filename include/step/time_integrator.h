@@ -2,8 +2,8 @@
  *
  * A method (methods.c) reads x and v of t_n and fills new_x and new_v of
  * t_n + h, which become x and v if they are finite.  An implicit method
- * minimises E in its stages: set_target writes u_tilde, set_state reads the
- * minimiser.  Newton's observer may pause a step, and time_integrator_advance
+ * minimises E in its stages: set_target writes u_tilde, set_x_v reads the
+ * minimiser.  Newton's observer may pause a step, and time_integrator_continue
  * continues it. */
 #pragma once
 
@@ -16,9 +16,9 @@ typedef struct IntegratorMethod {
     const char *label;       /* name in the window */
     int order;               /* order of accuracy */
     bool supports_all_terms; /* works with every term: only backward Euler */
-    bool dissipates;         /* numerical damping brings motion to rest */
+    bool is_damped;          /* numerical damping brings motion to rest */
     bool only_by_name;       /* is chosen by name only, and skipped by key M */
-    int memory_arrays;       /* number of arrays [2n] kept between steps */
+    int history_arrays;      /* number of arrays [2n] kept between steps */
     int stages; /* minimisations of a step; 0: the method is explicit */
     /* Fills newton->u_tilde, without gravity, and the weight of the integrator
      * for the present stage.  The caller then adds gravity to u_tilde by
@@ -28,16 +28,16 @@ typedef struct IntegratorMethod {
     void (*set_target)(TimeIntegrator *);
     /* Reads newton->iterate.u.  The last stage of an implicit method, and an
      * explicit method, fill new_x and new_v. */
-    void (*set_state)(TimeIntegrator *);
+    void (*set_x_v)(TimeIntegrator *);
 } IntegratorMethod;
 
 /* Time as a number of equal steps since h was last changed.  A sum of steps has
  * wrong last digits: 60 steps of 0.002 s would not be 0.12 s. */
 typedef struct StepClock {
-    double time;        /* s, change_time + steps h */
-    double change_time; /* s, time of the last change of h */
-    double h;           /* s, time step since change_time */
-    long steps;         /* number of steps since the last change of h */
+    double time;          /* s, h_change_time + steps h */
+    double h_change_time; /* s, time of the last change of h */
+    double h;             /* s, time step since h_change_time */
+    long steps;           /* number of steps since the last change of h */
 } StepClock;
 
 struct TimeIntegrator {
@@ -55,12 +55,12 @@ struct TimeIntegrator {
     double *v;       /* [2n] m/s, velocities */
     double *new_x;   /* [2n] m, x at the end of a step; before that workspace */
     double *new_v;   /* [2n] m/s, v at the end; before that workspace */
-    double *memory;  /* [memory_arrays * 2n] data that the method keeps */
-    double memory_h; /* s, time step of `memory`; 0: `memory` is not valid */
-    Newton *newton;  /* NULL for explicit methods */
+    double *history; /* [history_arrays * 2n] data that the method keeps */
+    double history_h; /* s, time step of `memory`; 0: `memory` is not valid */
+    Newton *newton;   /* NULL for explicit methods */
     /* The following members describe an unfinished step. */
     int stage;                 /* 0 ... stages - 1 */
-    Status unconverged_status; /* OK, or why a stage did not converge */
+    Status stage_status;       /* OK, or why a stage did not converge */
     double weight;             /* s^2, factor of the potential P in E */
     double remaining_fraction; /* fraction that is left to move; 0 if blocked */
     int motion_parts_made;     /* number of parts of the motion that are done */
@@ -93,8 +93,8 @@ void time_integrator_free(TimeIntegrator *run);
  * OK; or a status for which status_is_unconverged holds, where the step has the
  * last iterate; or a failure, after which x and v are still those of t_n.  A
  * caller that abandons a step has to restore the terms' data and the walls. */
-Status time_integrator_begin(TimeIntegrator *run);
-Status time_integrator_advance(TimeIntegrator *run);
+Status time_integrator_begin_step(TimeIntegrator *run);
+Status time_integrator_continue(TimeIntegrator *run);
 
-/* Makes a whole step.  Returns as time_integrator_advance does at the end. */
-Status time_integrator_step(TimeIntegrator *run);
+/* Makes a whole step.  Returns as time_integrator_continue does at the end. */
+Status time_integrator_make_step(TimeIntegrator *run);

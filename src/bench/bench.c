@@ -55,18 +55,18 @@ static Options make_slides_options(int segments)
 
 /* A motion for the table `work`.  Every method simulates the same time in 8,
  * 16, 32, ... steps, until a run takes too long or is accurate enough. */
-typedef struct TimedMotion {
+typedef struct BenchMotion {
     const char *name;
     double stiffness;      /* J/m^2 */
     double stretch;        /* factor on all x at the start */
     double spin;           /* angular velocity at the start, rad/s */
     double duration;       /* duration, s */
     int segment_counts[4]; /* segments of each square, then 0 */
-} TimedMotion;
+} BenchMotion;
 
 /* A stiffness 10^4 times as large makes vibrations 100 times as fast.  The last
  * motion suits implicit methods: a stiff square turns and hardly vibrates. */
-static const TimedMotion motions[] = {
+static const BenchMotion motions[] = {
     {"soft", 1e5, 1.1, 0, 0.1, {16, 64, 128, 0}},
     {"stiff", 1e9, 1.1, 0, 0.02, {16, 32, 0}},
     {"spinning", 1e9, 1, 10, 0.1, {16, 0}},
@@ -82,13 +82,13 @@ static const double targets[TARGET_COUNT] = {1e-2, 1e-3, 1e-4, 1e-5, 1e-6};
 static const double first_error = 1e-2;
 
 /* The fastest run with an error below a target. */
-typedef struct FastestRun {
+typedef struct BestMethod {
     const char *name; /* method; NULL: no run met the target */
     double run_ms;    /* run time */
-} FastestRun;
+} BestMethod;
 
 /* Creates a simulation: run 0 is the start of the motion, run 1 its end. */
-static Status create_motion_simulation(const TimedMotion *motion, int segments,
+static Status create_motion_simulation(const BenchMotion *motion, int segments,
                                        Simulation *simulation)
 {
     Options options = make_slides_options(segments);
@@ -113,10 +113,10 @@ static Status create_motion_simulation(const TimedMotion *motion, int segments,
  * so the last p of all steps together change positions by at most
  * steps * tolerance * time / 2.  The bound may equal the expected error of the
  * method, since each step applies its last p and leaves a far smaller error. */
-static Status measure_method(bool quick, const TimedMotion *motion,
+static Status measure_method(bool quick, const BenchMotion *motion,
                              Simulation *simulation,
                              const IntegratorMethod *method,
-                             FastestRun best[TARGET_COUNT])
+                             BestMethod best[TARGET_COUNT])
 {
     int segments = simulation->options.segments;
     double longest = quick ? 0.01 : segments / 64.0 + 0.25;
@@ -141,7 +141,7 @@ static Status measure_method(bool quick, const TimedMotion *motion,
             now.error = INFINITY;
         for (int t = 0; t < TARGET_COUNT; t++)
             if (now.error <= targets[t] && ms < best[t].run_ms)
-                best[t] = (FastestRun){method->name, ms};
+                best[t] = (BestMethod){method->name, ms};
         if (2 * now.processor_time > longest)
             break;
         expected = fmin(now.error, first_error) / (1 << method->order);
@@ -151,12 +151,12 @@ static Status measure_method(bool quick, const TimedMotion *motion,
 
 /* Measures all methods on one motion.  Prints the fastest explicit and the
  * fastest implicit method for each target. */
-static Status measure_motion(bool quick, const TimedMotion *motion,
+static Status measure_motion(bool quick, const BenchMotion *motion,
                              Simulation *simulation)
 {
-    FastestRun best[2][TARGET_COUNT];
+    BestMethod best[2][TARGET_COUNT];
     for (int i = 0; i < 2 * TARGET_COUNT; i++)
-        best[i / TARGET_COUNT][i % TARGET_COUNT] = (FastestRun){NULL, INFINITY};
+        best[i / TARGET_COUNT][i % TARGET_COUNT] = (BestMethod){NULL, INFINITY};
     for (const IntegratorMethod *method = integrator_methods; method->name;
          method++) {
         Status status = measure_method(quick, motion, simulation, method,
@@ -168,7 +168,7 @@ static Status measure_motion(bool quick, const TimedMotion *motion,
            "implicit        ms  implicit/explicit\n",
            motion->name, simulation->options.segments);
     for (int t = 0; t < TARGET_COUNT; t++) {
-        const FastestRun *one = &best[0][t], *other = &best[1][t];
+        const BestMethod *one = &best[0][t], *other = &best[1][t];
         if (one->name && other->name)
             printf("#  %7.0e  %-16s %11.3f  %-14s %8.3f  %8.3g: implicit %s\n",
                    targets[t], one->name, one->run_ms, other->name,
@@ -183,7 +183,7 @@ static Status measure_work_precision(bool quick)
     Status status = STATUS_OK;
     for (int m = 0; m < MOTION_COUNT; m++)
         for (int i = 0; motions[m].segment_counts[i] && !status; i++) {
-            const TimedMotion *motion = &motions[m];
+            const BenchMotion *motion = &motions[m];
             Simulation simulation;
             if (quick && i > 0)
                 break;
@@ -218,8 +218,7 @@ typedef struct ProgramResults {
     double step_ms[START_COUNT];          /* processor time a step */
     double updates_per_step[START_COUNT]; /* number of updates of x per step */
     double end_energy_percent[START_COUNT]; /* % of the energy at the start */
-    long unconverged_steps; /* steps without convergence, of all starts together
-                             */
+    long unconverged_steps; /* number in the runs from all starts */
 } ProgramResults;
 
 /* Makes a step by step_forward of lecture.c, with the springs and masses of a

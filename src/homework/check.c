@@ -28,7 +28,7 @@ enum { TASK_FUNCTIONS };
 /* A function of lecture.c with a frequent mistake, a row of mistakes.txt. */
 typedef struct Mistake {
     int task_index; /* number of the function */
-    TaskFunction *function;
+    TaskFunction *wrong_function;
     const char *sentence; /* sentence for the student; NULL ends the table */
 } Mistake;
 
@@ -53,8 +53,7 @@ enum {
 
 /* Memory that the process of a check shares with its parent. */
 typedef struct SharedMemory {
-    char case_name[MAX_SENTENCE_BYTES]; /* name of the case for messages, or ""
-                                         */
+    char case_name[MAX_SENTENCE_BYTES]; /* for messages, or "" */
     char fault[MAX_SENTENCE_BYTES];     /* description of the fault, or "" */
     bool is_finished;                   /* the check came to its end */
     bool must_fail;                     /* lecture.c calls FAIL in this case */
@@ -93,19 +92,19 @@ static Vec2 *make_random_points(int n, double size)
 /* Meaning of the numbers of a result. */
 typedef enum ResultKind {
     RESULT_NUMBER,
-    RESULT_POINTS,
+    RESULT_GRADIENT,
     RESULT_MATRIX,
-    RESULT_SEARCH,
+    RESULT_LINE_SEARCH,
     RESULT_STATE
 } ResultKind;
 
 typedef struct Task {
-    int index; /* TASK_name of the function, its index in student[] */
+    int task_index; /* TASK_name of the function, its index in student[] */
     const char *name;
     TaskFunction *lecture_function; /* function of lecture.c */
     ResultKind result_kind;         /* kind of the result */
     const char *case_names[5]; /* name of each case for messages, then NULL */
-    int steps; /* calls of step_forward; only the first call gets a table */
+    int step_calls;        /* calls of step_forward; the first gets a table */
     unsigned needed_tasks; /* bit i: the task calls the function of task i */
 } Task;
 
@@ -144,7 +143,7 @@ static void make_random_solid(int case_number, Solid *solid)
 }
 
 /* Makes the start of a step: stretched, in case 1 squeezed, where alpha < 1. */
-static void make_step_start(int case_number, TaskCase *c)
+static void make_step_case(int case_number, TaskCase *c)
 {
     c->solid = square(1, 2, 1000, 1e5);
     c->h = case_number ? 0.05 : 0.004;
@@ -158,7 +157,7 @@ static void make_step_start(int case_number, TaskCase *c)
 
 /* Makes a line search along Newton's direction, along a direction that is far
  * too long, along p = 0, and from E = 0, where every step raises E. */
-static void make_search_case(int case_number, TaskCase *c)
+static void make_line_search_case(int case_number, TaskCase *c)
 {
     static const double length[] = {1, 50, 0, 0};
     search_dir(&c->solid, c->solid.x, c->x_tilde, c->h, c->p);
@@ -174,15 +173,15 @@ static void make_search_case(int case_number, TaskCase *c)
 static void make_arguments(const Task *task, int case_number, TaskCase *c)
 {
     static const double shift[] = {0, -300, 1000, 0}, scale[] = {1, 1e-3, 1, 0};
-    bool searches = task->index == TASK_line_search;
-    for (int r = 0; r < 4 && task->index == TASK_make_psd; r++)
+    bool searches = task->task_index == TASK_line_search;
+    for (int r = 0; r < 4 && task->task_index == TASK_make_psd; r++)
         for (int k = 0; k <= r; k++)
             c->block[r][k] = c->block[k][r] =
                 scale[case_number] *
                 (300 * make_random_number() + (r == k) * shift[case_number]);
     c->h = 0.02;
-    if (task->index == TASK_step_forward)
-        make_step_start(case_number, c);
+    if (task->task_index == TASK_step_forward)
+        make_step_case(case_number, c);
     else
         make_random_solid(searches ? 0 : case_number, &c->solid);
     c->x_tilde = make_random_points(MAX_NODES, 0.7);
@@ -191,7 +190,7 @@ static void make_arguments(const Task *task, int case_number, TaskCase *c)
     c->g = make_random_points(MAX_NODES, 900);
     memcpy(c->g_before, c->g, sizeof c->g_before);
     if (searches)
-        make_search_case(case_number, c);
+        make_line_search_case(case_number, c);
     memcpy(c->x, c->solid.x, (size_t)c->solid.nodes * sizeof *c->x);
     c->H = (cholmod_triplet){.nrow = 2 * (size_t)c->solid.nodes,
                              .ncol = 2 * (size_t)c->solid.nodes,
@@ -227,16 +226,16 @@ static void store_result(const Task *task, const TaskCase *c, FILE *table,
                          double *result)
 {
     size_t bytes = (size_t)c->solid.nodes * sizeof(Vec2);
-    for (int r = 0; r < 4 && task->index == TASK_make_psd; r++)
+    for (int r = 0; r < 4 && task->task_index == TASK_make_psd; r++)
         memcpy(result + r * MAX_UNKNOWNS, c->block[r], sizeof c->block[r]);
-    if (task->index != TASK_make_psd && task->result_kind == RESULT_MATRIX)
+    if (task->task_index != TASK_make_psd && task->result_kind == RESULT_MATRIX)
         store_matrix_entries(c, result);
     for (int i = 0;
-         i < 2 * c->solid.nodes && task->result_kind == RESULT_POINTS; i++)
+         i < 2 * c->solid.nodes && task->result_kind == RESULT_GRADIENT; i++)
         result[i] = (&c->g->x)[i] - (&c->g_before->x)[i];
-    if (task->result_kind == RESULT_SEARCH)
+    if (task->result_kind == RESULT_LINE_SEARCH)
         memcpy(result + 1, c->x_new, bytes);
-    if (task->result_kind == RESULT_SEARCH &&
+    if (task->result_kind == RESULT_LINE_SEARCH &&
         memcmp(c->x, c->solid.x, bytes) != 0)
         set_fault("the function changes x; write to x_new only");
     if (task->result_kind != RESULT_STATE)
@@ -262,28 +261,28 @@ static void call_function(const Task *task, int case_number,
     make_arguments(task, case_number, &c);
     strcpy(shared->case_name, task->case_names[case_number]);
     Solid *solid = &c.solid;
-    if (task->index == TASK_inertia_val)
+    if (task->task_index == TASK_inertia_val)
         *result = AS(inertia_val)(solid, solid->x, c.x_tilde);
-    else if (task->index == TASK_inertia_grad)
+    else if (task->task_index == TASK_inertia_grad)
         AS(inertia_grad)(solid, solid->x, c.x_tilde, c.g);
-    else if (task->index == TASK_inertia_hess)
+    else if (task->task_index == TASK_inertia_hess)
         AS(inertia_hess)(solid, &c.H);
-    else if (task->index == TASK_make_psd)
+    else if (task->task_index == TASK_make_psd)
         AS(make_psd)(c.block);
-    else if (task->index == TASK_spring_val)
+    else if (task->task_index == TASK_spring_val)
         *result = AS(spring_val)(solid, solid->x);
-    else if (task->index == TASK_spring_grad)
+    else if (task->task_index == TASK_spring_grad)
         AS(spring_grad)(solid, solid->x, 0.3, c.g);
-    else if (task->index == TASK_spring_hess)
+    else if (task->task_index == TASK_spring_hess)
         AS(spring_hess)(solid, solid->x, 0.3, &c.H);
-    else if (task->index == TASK_line_search)
+    else if (task->task_index == TASK_line_search)
         *result =
             AS(line_search)(solid, solid->x, c.p, c.x_tilde, c.h, c.x_new);
-    else if (task->index == TASK_residual)
+    else if (task->task_index == TASK_residual)
         *result = AS(residual)(solid, c.p, 0.03);
-    else if (task->index == TASK_explicit_euler)
+    else if (task->task_index == TASK_explicit_euler)
         AS(explicit_euler)(solid, 0.01, case_number == 1);
-    for (int step = 1; step <= task->steps; step++) {
+    for (int step = 1; step <= task->step_calls; step++) {
         if (step > 1)
             strcpy(shared->case_name, "with table = NULL: ");
         AS(step_forward)(solid, c.h, c.tol, step, step > 1 ? NULL : table);
@@ -300,7 +299,7 @@ static void call_function(const Task *task, int case_number,
 
 static const Task tasks[] = {
     {TASK(inertia_val), RESULT_NUMBER, {""}},
-    {TASK(inertia_grad), RESULT_POINTS, {""}},
+    {TASK(inertia_grad), RESULT_GRADIENT, {""}},
     {TASK(inertia_hess), RESULT_MATRIX, {""}},
     {TASK(make_psd),
      RESULT_MATRIX,
@@ -308,13 +307,13 @@ static const Task tasks[] = {
       "a matrix without negative eigenvalues has to stay as it is: ",
       "of zeros: "}},
     {TASK(spring_val), RESULT_NUMBER, {"", "", ""}},
-    {TASK(spring_grad), RESULT_POINTS, {"", "", ""}},
+    {TASK(spring_grad), RESULT_GRADIENT, {"", "", ""}},
     {TASK(spring_hess),
      RESULT_MATRIX,
      {"", "", ""},
      .needed_tasks = BIT(make_psd)},
     {TASK(line_search),
-     RESULT_SEARCH,
+     RESULT_LINE_SEARCH,
      {"along Newton's direction: ", "along a direction that is too long: ",
       "along p = 0, where E stays the same: ", "where no step lowers E: "},
      .needed_tasks = BIT(inertia_val) | BIT(spring_val)},
@@ -340,7 +339,7 @@ static const char *describe_result_number(ResultKind kind, int i)
     bool v = kind == RESULT_STATE && i >= MAX_UNKNOWNS;
     if (kind == RESULT_NUMBER)
         return "the result";
-    if (kind == RESULT_SEARCH && i-- == 0)
+    if (kind == RESULT_LINE_SEARCH && i-- == 0)
         return "alpha";
     if (kind == RESULT_MATRIX)
         snprintf(text, sizeof text, "the number in row %d, column %d",
@@ -385,8 +384,8 @@ static const char *find_mistake(const Task *task, int case_number,
 {
     double other[MAX_RESULT_NUMBERS];
     for (const Mistake *mistake = mistakes; mistake->sentence; mistake++)
-        if (mistake->task_index == task->index &&
-            run_function(task, case_number, mistake->function, other) &&
+        if (mistake->task_index == task->task_index &&
+            run_function(task, case_number, mistake->wrong_function, other) &&
             find_first_difference(yours, other) == MAX_RESULT_NUMBERS)
             return mistake->sentence;
     return NULL;
@@ -449,7 +448,7 @@ static void check_task(const Task *task, int errors)
         shared->must_fail =
             !run_function(task, t, task->lecture_function, truth);
         dup2(errors, STDERR_FILENO);
-        run_function(task, t, student[task->index], yours);
+        run_function(task, t, student[task->task_index], yours);
         if (shared->must_fail)
             set_fault(
                 "the search goes on: call FAIL(1, ...) after 64 halvings");

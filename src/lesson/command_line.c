@@ -61,8 +61,8 @@ static Status refuse_value(const ArgLine *line, const ArgWord *word, int count)
                       instead);
     if (row->kind == OPTION_NAME)
         return refuse(line->message, "--%s: '%.60s' is none of: %s%s",
-                      row->name, text, join_names(row->names).text,
-                      suggest_name(text, "", row->names).text);
+                      row->name, text, join_names(row->value_names).text,
+                      suggest_name(text, "", row->value_names).text);
     if (word->list_text || option_count_values(text, ',') > count)
         append(hint.text, sizeof hint.text,
                "; in '%.60s' a comma ends a number, which has a point",
@@ -84,8 +84,8 @@ static Status apply_option_numbers(const ArgLine *line, const ArgWord *word)
     double number[BODY_OPTION_NUMBERS] = {0};
     double *times = &options->number[row->count_slot];
     int most = row->number_count ? row->number_count : 1, used = 0;
-    bool x_alone = row->needs_any_scene_part == HAS_START &&
-                   (options->scene->parts & HAS_ONE_COORDINATE);
+    bool x_alone = row->needs_any_trait == HAS_START &&
+                   (options->scene->traits & HAS_ONE_COORDINATE);
     int count = x_alone ? 1 : most;
     if ((x_alone && strchr(word->text, ',')) ||
         !option_parse(row, count, word->text, number))
@@ -142,20 +142,19 @@ static Status apply_option_word(const ArgLine *line, const ArgWord *word)
 }
 
 /* Checks that the scene has what the option needs. */
-static Status check_needed_parts(const Options *options, const OptionRow *row,
-                                 Message message)
+static Status check_needed_traits(const Options *options, const OptionRow *row,
+                                  Message message)
 {
     const Scene *scene = options->scene;
-    const char *missing =
-        row->needs_any_scene_part & HAS_MESH       ? "square"
-        : row->needs_any_scene_part & HAS_TIME     ? "time steps"
-        : row->needs_any_scene_part & HAS_TIMESTEP ? "time step to choose"
-        : row->needs_any_scene_part & HAS_SPRINGS  ? "springs"
-        : row->needs_any_scene_part & HAS_START    ? "start to choose"
-        : row->needs_any_scene_part & HAS_BODY     ? "body"
-                                                   : "minimum to find";
-    return !row->needs_any_scene_part ||
-                   (row->needs_any_scene_part & scene->parts)
+    const char *missing = row->needs_any_trait & HAS_MESH   ? "square"
+                          : row->needs_any_trait & HAS_TIME ? "time steps"
+                          : row->needs_any_trait & HAS_TIMESTEP
+                              ? "time step to choose"
+                          : row->needs_any_trait & HAS_SPRINGS ? "springs"
+                          : row->needs_any_trait & HAS_START ? "start to choose"
+                          : row->needs_any_trait & HAS_BODY  ? "body"
+                                                            : "minimum to find";
+    return !row->needs_any_trait || (row->needs_any_trait & scene->traits)
                ? STATUS_OK
                : refuse(message, "--%s: the scene '%s' has no %s", row->name,
                         scene->name, missing);
@@ -166,7 +165,7 @@ Status options_set(Options *options, const OptionRow *row, const char *text,
 {
     const ArgLine line = {.options = options, .message = message};
     char number[32] = "";
-    Status status = check_needed_parts(options, row, message);
+    Status status = check_needed_traits(options, row, message);
     if (!text[0] && !isnan(value))
         option_write(row, value, number, sizeof number);
     const ArgWord word = {row, text[0] ? text : number, NULL, ""};
@@ -181,10 +180,10 @@ Status options_set(Options *options, const OptionRow *row, const char *text,
     /* The integrator must allow the new value.  If the value begins a new run,
      * the body must be able to start. */
     bool is_start = row->effect == EFFECT_NEW_RUN &&
-                    (row->needs_any_scene_part & HAS_SQUARE) &&
-                    (options->scene->parts & HAS_BODY);
+                    (row->needs_any_trait & HAS_SQUARE) &&
+                    (options->scene->traits & HAS_BODY);
     status = body_check_method(options, message);
-    return status || !is_start ? status : body_check(options, message);
+    return status || !is_start ? status : body_check_start(options, message);
 }
 
 /* ---- words -------------------------------------------------------------- */
@@ -418,7 +417,7 @@ static Status check_body_options(ArgLine *line)
 {
     Options *options = line->options;
     bool is_solid = options->material != 0;
-    if (!(options->scene->parts & HAS_BODY))
+    if (!(options->scene->traits & HAS_BODY))
         return STATUS_OK;
     if (check_pinned_nodes(options, line->message) ||
         body_check_method(options, line->message))
@@ -430,11 +429,11 @@ static Status check_body_options(ArgLine *line)
                       "do not yield or tear, and have no damping",
                       options->scene->name);
     if (is_solid)
-        options->cells = 0;
-    if ((options->cells || is_solid || options->self_contact) &&
+        options->has_cell_energy = 0;
+    if ((options->has_cell_energy || is_solid || options->has_self_contact) &&
         !find_word(line, "projection"))
         options->projection = PROJECTION_ON_DEMAND;
-    return body_check(options, line->message);
+    return body_check_start(options, line->message);
 }
 
 /* Stores the words of a line in the options of a pane.  Refuses options that
@@ -448,21 +447,21 @@ static Status apply_argument_line(ArgLine *line, int pane)
         return STATUS_INVALID_INPUT;
     for (int i = 0; i < line->words; i++) {
         const OptionRow *row = line->word[i].row;
-        if (row && options->page && row->needs_any_scene_part)
+        if (row && options->page && row->needs_any_trait)
             return refuse(line->message,
                           "--%s: a page of --lecture has its own value; change "
                           "it in the window, or leave --lecture out",
                           row->name);
-        if (row && (check_needed_parts(options, row, line->message) ||
+        if (row && (check_needed_traits(options, row, line->message) ||
                     apply_option_word(line, &line->word[i])))
             return STATUS_INVALID_INPUT;
     }
     if (options->bodies > 1 && !find_word(line, "self-contact"))
-        options->self_contact = 1; /* bodies touch each other */
+        options->has_self_contact = 1; /* bodies touch each other */
     for (int i = 0; i < line->words; i++) {
         const OptionRow *row = line->word[i].row;
         const char *reason =
-            row && row->idle_reason ? row->idle_reason(options) : NULL;
+            row && row->get_idle_reason ? row->get_idle_reason(options) : NULL;
         if (reason)
             return refuse(line->message, "--%s: %s", row->name, reason);
     }

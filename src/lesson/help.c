@@ -40,12 +40,12 @@ static void describe_option_row(const OptionRow *row, char *words, size_t size)
                                      : "",
              row->unit);
     if (is_name)
-        append(words, size, " %s", join_names(row->names).text);
+        append(words, size, " %s", join_names(row->value_names).text);
     else if (row->kind == OPTION_WHOLE_NUMBER && row->high <= 4096)
         append(words, size, " %g ... %g", row->low, row->high);
     if (is_name && row->default_value >= 0)
         append(words, size, " [%s]",
-               names_get(row->names, (int)row->default_value));
+               names_get(row->value_names, (int)row->default_value));
     else if (row->high > row->low && !row->number_count &&
              row->default_value >= row->low)
         append(words, size, " [%g]", row->default_value);

@@ -63,7 +63,7 @@ static int count_typing_errors(const char *text, const char *name)
 
 /* A name of an option or of a value, and words that mean the same in other
  * programs, in books or in lecture.c, each between two blanks. */
-static const struct Synonyms {
+static const struct SynonymRow {
     const char *name, *synonyms;
 } synonyms[] = {
     {"timestep", " h dt "},

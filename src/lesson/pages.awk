@@ -65,7 +65,7 @@ function put_word(    part)
               quoted(substr(text, length(part[1] part[2]) + 3)) \
               ", .code = (const char *const[]){" \
               code_of(part[1], part[2]) "NULL}," \
-              (part[2] in walk ? ".line_highlight = (const char *const[PAGE_HIGHLIGHT_LENGTH]){" \
+              (part[2] in walk ? ".line_highlight = (const char *const[PAGE_HIGHLIGHT_COUNT]){" \
                                  walk[part[2]] "}," : "")
     else if (word != "" && word != "minutes") # minutes are for readers only
         fail(begins, "'" word " " text "' is nothing that a page has")
@@ -89,9 +89,10 @@ function end_page(    i)
 
 BEGIN {
     split("text run cards look try code claim notes", needed)
-    split("claim answer main_card notes section", same)
+    split("claim main_card notes section", same)
     for (i in same)
         texts[same[i]] = same[i]
+    texts["answer"] = "answer_name"
     texts["cards"] = "open_cards"
     texts["run"] = "command_line"
     texts["try"] = "try"
@@ -103,7 +104,7 @@ BEGIN {
     prose["text"] prose["ask"] prose["look"] prose["try"] prose["notes"]
     read_names(ARGV[1])
     numbers["picture"] = "printed_step"
-    numbers["lines"] = "print_presses"
+    numbers["lines"] = "key_presses"
     numbers["speed"] = "speed"
     numbers["flips"] = "switch_flips"
     numbers["pause"] = "pause_step"

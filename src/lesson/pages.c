@@ -16,12 +16,12 @@ const LecturePage *lecture_find_page(const char *text)
 
 bool page_wants_click(const LecturePage *page)
 {
-    return page && page->answer && strcmp(page->answer, "click") == 0;
+    return page && page->answer_name && strcmp(page->answer_name, "click") == 0;
 }
 
 bool page_wants_number(const LecturePage *page)
 {
-    return page && page->answer && !page_wants_click(page);
+    return page && page->answer_name && !page_wants_click(page);
 }
 
 void lecture_apply_page(const LecturePage *page, Options *options)

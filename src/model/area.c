@@ -37,8 +37,8 @@ void fill_triangle_element(const EvalPoint *at, int t, Element *element)
 }
 
 /* Solves s + alpha J1 + alpha^2 J2 = (1 - ELEMENT_LIMIT) s for alpha > 0. */
-double triangle_max_step(const EvalPoint *at, const Element *element,
-                         const double P[4])
+double triangle_max_alpha(const EvalPoint *at, const Element *element,
+                          const double P[4])
 {
     const Triangles *triangles = at->term->data;
     double J1, J2, most = ELEMENT_LIMIT * element->s;

@@ -56,8 +56,8 @@ static inline void compute_node_differences(const double *x, int i, int j,
 /* ElementKind's functions for terms with Triangles. */
 int count_triangles(const EvalPoint *at);
 int get_triangle_block_nodes(const EvalPoint *at, int t, int node[3]);
-double triangle_max_step(const EvalPoint *at, const Element *element,
-                         const double P[4]);
+double triangle_max_alpha(const EvalPoint *at, const Element *element,
+                          const double P[4]);
 
 /* Makes triangle t an element with a = x_b - x_a, b = x_c - x_a; leaves
  * Element.s as it is. */

@@ -32,7 +32,7 @@ Status boundary_create(const SquareMesh *mesh, Boundary *boundary)
 
 /* ---- points and edges --------------------------------------------------- */
 
-enum { IN_A_TRIANGLE = 1, ON_AN_EDGE = 2 };
+enum { NODE_IN_TRIANGLE = 1, NODE_ON_EDGE = 2 };
 
 /* Triangle 4 c + k is at corner k of cell c.  If both triangles 1 and 3 are
  * solid, but not both 0 and 2, then 1 and 3 count, else the solid ones of 0 and
@@ -55,7 +55,7 @@ static void find_boundary(Boundary *boundary, const System *system)
         bool other = (solid & 5) != 5 && (solid & 10) == 10;
         for (int k = other; k < 4; k += 2)
             for (int i = 0; i < 3 && solid >> k & 1; i++) {
-                boundary->node_role[node[k][i]] |= IN_A_TRIANGLE;
+                boundary->node_role[node[k][i]] |= NODE_IN_TRIANGLE;
                 boundary->spring_triangle_count[side[k][i]]++;
             }
     }
@@ -64,10 +64,10 @@ static void find_boundary(Boundary *boundary, const System *system)
             continue;
         boundary->edge_box[boundary->edge_count++].edge_spring = s;
         for (int end = 0; end < 2; end++)
-            boundary->node_role[system->e[2 * s + end]] |= ON_AN_EDGE;
+            boundary->node_role[system->e[2 * s + end]] |= NODE_ON_EDGE;
     }
     for (int i = 0; i < shape->nodes; i++)
-        if (boundary->node_role[i] != IN_A_TRIANGLE)
+        if (boundary->node_role[i] != NODE_IN_TRIANGLE)
             boundary->point_node[boundary->point_count++] = i;
     boundary->system_version = system->version;
     boundary->has_valid_boxes = false;
@@ -98,7 +98,7 @@ static void compute_boxes(Boundary *boundary, const System *system)
 {
     const double *x = boundary->x, *p = boundary->is_swept ? boundary->p : NULL;
     double *mean = boundary->mean_p;
-    boundary->widest_edge = mean[0] = mean[1] = 0;
+    boundary->max_box_width = mean[0] = mean[1] = 0;
     SweptBox all = empty_box;
     for (int i = 0; i < boundary->point_count; i++) {
         int node = boundary->point_node[i];
@@ -130,8 +130,8 @@ static void compute_boxes(Boundary *boundary, const System *system)
         for (int c = 0; c < 2; c++)
             extend_box(box, c, other->low[c], other->high[c]);
         double wide = box->high[0] - box->low[0];
-        boundary->widest_edge =
-            wide > boundary->widest_edge ? wide : boundary->widest_edge;
+        boundary->max_box_width =
+            wide > boundary->max_box_width ? wide : boundary->max_box_width;
     }
     qsort(boundary->edge_box, (size_t)boundary->edge_count, sizeof(SweptBox),
           compare_box_left_sides);
@@ -143,7 +143,7 @@ static int find_first_edge(const Boundary *boundary, double left)
     int low = 0, high = boundary->edge_count;
     while (low < high) {
         int middle = (low + high) / 2;
-        if (boundary->edge_box[middle].low[0] < left - boundary->widest_edge)
+        if (boundary->edge_box[middle].low[0] < left - boundary->max_box_width)
             low = middle + 1;
         else
             high = middle;
@@ -151,8 +151,8 @@ static int find_first_edge(const Boundary *boundary, double left)
     return low;
 }
 
-/* Returns the result of boundary_next_edge by a search in the sorted boxes. */
-static int search_next_edge(const Boundary *boundary, const System *system,
+/* Returns the result of boundary_near_edge by a search in the sorted boxes. */
+static int search_near_edge(const Boundary *boundary, const System *system,
                             int i, int *cursor)
 {
     int node = boundary->point_node[i];
@@ -197,7 +197,7 @@ void boundary_update(Boundary *boundary, const System *system, const double *x,
     boundary->has_all_near_edges = true;
     for (int i = 0; i < boundary->point_count && boundary->has_all_near_edges;
          i++) {
-        while ((edge = search_next_edge(boundary, system, i, &cursor)) >= 0 &&
+        while ((edge = search_near_edge(boundary, system, i, &cursor)) >= 0 &&
                count < room)
             boundary->near_edge[count++] = edge;
         boundary->near_list_end[i] = count;
@@ -205,11 +205,11 @@ void boundary_update(Boundary *boundary, const System *system, const double *x,
     }
 }
 
-int boundary_next_edge(const Boundary *boundary, const System *system, int i,
+int boundary_near_edge(const Boundary *boundary, const System *system, int i,
                        int *cursor)
 {
     if (!boundary->has_all_near_edges)
-        return search_next_edge(boundary, system, i, cursor);
+        return search_near_edge(boundary, system, i, cursor);
     int first = i > 0 ? boundary->near_list_end[i - 1] : 0;
     int k = *cursor > 0 ? *cursor : first;
     *cursor = k < boundary->near_list_end[i] ? k + 1 : 0;

@@ -28,7 +28,7 @@ static bool cell_get_element(const EvalPoint *at, int t, double way,
     return true;
 }
 
-static double cell_value(const EvalPoint *at, const Element *element)
+static double cell_potential(const EvalPoint *at, const Element *element)
 {
     const CellBarriers *cells = at->term->data;
     return cells->c * barrier_value(element->s / CELL_J_HAT);
@@ -62,8 +62,8 @@ static bool cell_hessian(const EvalPoint *at, const Element *element,
     return changed;
 }
 
-static double cell_line_remainder(const EvalPoint *at, const Element *element,
-                                  const double P[4], double alpha)
+static double cell_taylor_remainder(const EvalPoint *at, const Element *element,
+                                    const double P[4], double alpha)
 {
     const CellBarriers *cells = at->term->data;
     double J1, J2, s = element->s / CELL_J_HAT;
@@ -75,7 +75,7 @@ static double cell_line_remainder(const EvalPoint *at, const Element *element,
 }
 
 /* Returns the curvature of W at J = J_hat if e1 and e2 have rest length. */
-static double cell_curvature_estimate(const EvalPoint *at)
+static double cell_max_stiffness(const EvalPoint *at)
 {
     const CellBarriers *cells = at->term->data;
     return 2 * cells->c / CELL_J_HAT / CELL_J_HAT / cells->triangles.rest_area;
@@ -85,12 +85,12 @@ static const ElementKind triangle = {
     .count_elements = count_triangles,
     .get_element = cell_get_element,
     .get_block_nodes = get_triangle_block_nodes,
-    .value = cell_value,
+    .potential = cell_potential,
     .gradient = cell_gradient,
     .hessian = cell_hessian,
-    .line_remainder = cell_line_remainder,
+    .taylor_remainder = cell_taylor_remainder,
     .count_blocks = count_triangles,
-    .max_step = triangle_max_step,
+    .max_alpha = triangle_max_alpha,
 };
 
 const TermKind cell_energy = {
@@ -98,7 +98,7 @@ const TermKind cell_energy = {
     ELEMENTS(triangle),
     .energy_name = "contact",
     .rank = RANK_CELLS,
-    .curvature_estimate = cell_curvature_estimate,
+    .max_stiffness = cell_max_stiffness,
 };
 
 Status cells_configure(System *system, const SquareMesh *shape,

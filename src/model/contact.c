@@ -10,7 +10,7 @@
 
 const double *obstacle_get_position(const Obstacle *obstacle, const double *x)
 {
-    return obstacle->node < 0 ? obstacle->o : x + 2 * obstacle->node;
+    return obstacle->ball_node < 0 ? obstacle->o : x + 2 * obstacle->ball_node;
 }
 
 NodeGap contact_measure_gap(const Obstacle *obstacle, const double *o,
@@ -40,10 +40,10 @@ Contact *get_contact(const System *system)
 bool contact_includes_pair(const Contact *contact, const System *system,
                            int node, int obstacle)
 {
-    int ball = contact->obstacle[obstacle].node;
-    bool held = system->pinned[node] && !system->pin_v &&
+    int ball = contact->obstacle[obstacle].ball_node;
+    bool held = system->is_pinned[node] && !system->pin_v &&
                 contact->obstacle[obstacle].motion.phase_count == 0;
-    return node != ball && !(held && (ball < 0 || system->pinned[ball]));
+    return node != ball && !(held && (ball < 0 || system->is_pinned[ball]));
 }
 
 double contact_node_radius(const Contact *contact, int node)
@@ -51,7 +51,7 @@ double contact_node_radius(const Contact *contact, int node)
     if (contact->free_ball_index < 0)
         return 0;
     const Obstacle *ball = &contact->obstacle[contact->free_ball_index];
-    return ball->node == node ? ball->radius : 0;
+    return ball->ball_node == node ? ball->radius : 0;
 }
 
 static const Barrier *get_contact_barrier(const EvalPoint *at)
@@ -82,9 +82,9 @@ static bool contact_get_element(const EvalPoint *at, int i, double way,
     if (gap.d >= contact->barrier.d_hat + way)
         return false;
     element->vector_count = 1;
-    element->node_count = other->node < 0 ? 1 : 2;
+    element->node_count = other->ball_node < 0 ? 1 : 2;
     element->node[0] = element->block_index = node;
-    element->node[1] = other->node;
+    element->node[1] = other->ball_node;
     element->partner_index = obstacle;
     element->node_weight = difference;
     element->derivative_factor = 1;
@@ -109,13 +109,13 @@ static int get_contact_block_nodes(const EvalPoint *at, int block, int node[3])
     node[0] = block;
     if (contact->free_ball_index < 0)
         return 1;
-    node[1] = contact->obstacle[contact->free_ball_index].node;
+    node[1] = contact->obstacle[contact->free_ball_index].ball_node;
     if (node[1] == block)
         node[1] += block > 0 ? -1 : 1;
     return 2;
 }
 
-static double contact_value(const EvalPoint *at, const Element *element)
+static double contact_potential(const EvalPoint *at, const Element *element)
 {
     const Barrier *barrier = get_contact_barrier(at);
     return barrier->c * barrier_value(element->s / barrier->d_hat);
@@ -153,8 +153,8 @@ static bool contact_hessian(const EvalPoint *at, const Element *element,
 /* Returns the alpha at which the gap d has shrunk by F d, F = ELEMENT_LIMIT.
  * With D from a ball's centre to the node, |D + alpha P| = |D| - F d becomes
  * a alpha^2 + 2 b alpha + c0 = 0; the smaller root is exact to rounding. */
-static double contact_max_step(const EvalPoint *at, const Element *element,
-                               const double P[4])
+static double contact_max_alpha(const EvalPoint *at, const Element *element,
+                                const double P[4])
 {
     double d = element->s, F = ELEMENT_LIMIT;
     double pn = element->n[0] * P[0] + element->n[1] * P[1];
@@ -172,9 +172,9 @@ static double contact_max_step(const EvalPoint *at, const Element *element,
 /* Along P the distance to the centre of a ball changes by pn + k: pn is the
  * part of P along n, and the part pt across n contributes
  * k = sqrt((r + pn)^2 + pt^2) - (r + pn). */
-static double contact_line_remainder(const EvalPoint *at,
-                                     const Element *element, const double P[4],
-                                     double alpha)
+static double contact_taylor_remainder(const EvalPoint *at,
+                                       const Element *element,
+                                       const double P[4], double alpha)
 {
     const Barrier *barrier = get_contact_barrier(at);
     const double *n = element->n, p0 = alpha * P[0], p1 = alpha * P[1];
@@ -191,7 +191,7 @@ static double contact_line_remainder(const EvalPoint *at,
 }
 
 /* Returns the curvature at the start of the barrier, 2 c/d_hat^2. */
-static double contact_curvature_estimate(const EvalPoint *at)
+static double contact_max_stiffness(const EvalPoint *at)
 {
     const Barrier *barrier = get_contact_barrier(at);
     return 2 * barrier->c / barrier->d_hat / barrier->d_hat;
@@ -206,20 +206,19 @@ static double contact_friction_limit(const EvalPoint *at,
     t[0] = -element->n[1];
     t[1] = element->n[0];
     *speed = t[0] * obstacle->v[0] + t[1] * obstacle->v[1];
-    return obstacle->friction *
-           contact_normal_force(&contact->barrier, element->s);
+    return obstacle->mu * contact_normal_force(&contact->barrier, element->s);
 }
 
 static const ElementKind pairs = {
     .count_elements = count_contact_pairs,
     .get_element = contact_get_element,
     .get_block_nodes = get_contact_block_nodes,
-    .value = contact_value,
+    .potential = contact_potential,
     .gradient = contact_gradient,
     .hessian = contact_hessian,
-    .line_remainder = contact_line_remainder,
+    .taylor_remainder = contact_taylor_remainder,
     .count_blocks = count_contact_blocks,
-    .max_step = contact_max_step,
+    .max_alpha = contact_max_alpha,
     .friction_limit = contact_friction_limit,
 };
 
@@ -228,7 +227,7 @@ const TermKind contact_energy = {
     ELEMENTS(pairs),
     .energy_name = "contact",
     .rank = RANK_CONTACT,
-    .curvature_estimate = contact_curvature_estimate,
+    .max_stiffness = contact_max_stiffness,
     .is_external = true,
 };
 
@@ -248,7 +247,7 @@ Status contact_configure(System *system, const Barrier *barrier, int obstacles,
     contact->free_ball_index = -1;
     memcpy(contact->obstacle, obstacle, (size_t)obstacles * sizeof *obstacle);
     for (int k = 0; k < obstacles; k++)
-        if (obstacle[k].node >= 0)
+        if (obstacle[k].ball_node >= 0)
             contact->free_ball_index = k;
     return STATUS_OK;
 }

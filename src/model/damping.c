@@ -33,7 +33,7 @@ static void damping_end_step(const TermStep *step)
         double change = spring_strain(d2, l2) - data->E_n[s];
         sum += system->k[s] * l2 * data->theta * change * change;
     }
-    system_book_loss(system, &damping, sum);
+    system_add_loss(system, &damping, sum);
 }
 
 static Status damping_configure(System *system, const struct SquareMesh *mesh,

@@ -41,12 +41,12 @@ static void element_assemble_vector(const Element *element, double factor,
     }
 }
 
-double elements_value(const EvalPoint *at)
+double elements_potential(const EvalPoint *at)
 {
     double sum = 0;
     for (ElementIterator walk = elements_begin(at, NULL, 0);
          elements_next(&walk);)
-        sum += walk.kind->value(at, &walk.element);
+        sum += walk.kind->potential(at, &walk.element);
     return sum;
 }
 
@@ -120,7 +120,7 @@ static bool element_add_hessian_product(const ElementIterator *walk,
     const Element *element = &walk->element;
     double H[4][4], v[4], Hv[4] = {0};
     bool changed;
-    element_compute_weighted_sums(element, q, v);
+    element_compute_vectors(element, q, v);
     if (walk->kind->apply_hessian) {
         changed = walk->kind->apply_hessian(walk->eval_point, element,
                                             projection, v, Hv);
@@ -158,25 +158,25 @@ int elements_hessian(const EvalPoint *at, Projection projection,
     return projected;
 }
 
-double elements_line_remainder(const EvalPoint *at, const double *p,
-                               double alpha)
+double elements_taylor_remainder(const EvalPoint *at, const double *p,
+                                 double alpha)
 {
     double sum = 0, P[4];
     for (ElementIterator walk = elements_begin(at, p, alpha);
          elements_next(&walk);) {
-        element_compute_weighted_sums(&walk.element, p, P);
-        sum += walk.kind->line_remainder(at, &walk.element, P, alpha);
+        element_compute_vectors(&walk.element, p, P);
+        sum += walk.kind->taylor_remainder(at, &walk.element, P, alpha);
     }
     return at->weight * sum;
 }
 
-double elements_max_step(const EvalPoint *at, const double *p)
+double elements_max_alpha(const EvalPoint *at, const double *p)
 {
     double smallest = INFINITY, P[4];
     ElementIterator walk = elements_begin(at, p, 1);
-    while (walk.kind->max_step && elements_next(&walk)) {
-        element_compute_weighted_sums(&walk.element, p, P);
-        double alpha = walk.kind->max_step(at, &walk.element, P);
+    while (walk.kind->max_alpha && elements_next(&walk)) {
+        element_compute_vectors(&walk.element, p, P);
+        double alpha = walk.kind->max_alpha(at, &walk.element, P);
         smallest = alpha <= 1 ? fmin(smallest, alpha) : smallest;
     }
     return smallest;
@@ -185,7 +185,7 @@ double elements_max_step(const EvalPoint *at, const double *p)
 bool elements_are_feasible(const EvalPoint *at)
 {
     ElementIterator walk = elements_begin(at, NULL, 0);
-    while (walk.kind->max_step && elements_next(&walk))
+    while (walk.kind->max_alpha && elements_next(&walk))
         if (!(walk.element.s > 0))
             return false;
     return true;

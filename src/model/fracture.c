@@ -27,7 +27,7 @@ static int compare_loads(const void *one, const void *other)
     const SpringLoad *a = one, *b = other;
     if (a->load != b->load)
         return a->load > b->load ? -1 : 1;
-    return a->spring - b->spring;
+    return a->spring_index - b->spring_index;
 }
 
 /* Collects and sorts the candidates, and returns their number. */
@@ -60,7 +60,7 @@ static void fracture_end_step(const TermStep *step)
     double energy = system_potential(system, step->x);
     memset(fracture->has_new_break, 0, (size_t)system->nodes);
     for (int k = 0; k < count; k++) {
-        int s = fracture->candidate[k].spring;
+        int s = fracture->candidate[k].spring_index;
         unsigned char *i = &fracture->has_new_break[system->e[2 * s]];
         unsigned char *j = &fracture->has_new_break[system->e[2 * s + 1]];
         if (*i || *j)
@@ -68,8 +68,8 @@ static void fracture_end_step(const TermStep *step)
         *i = *j = 1;
         system->k[s] = 0;
     }
-    system_book_loss(system, step->term->kind,
-                     energy - system_potential(system, step->x));
+    system_add_loss(system, step->term->kind,
+                    energy - system_potential(system, step->x));
     system_mark_changed(system, false);
 }
 

@@ -7,7 +7,7 @@
 #include "model/self_contact.h"
 
 /* Returns f0(y) in metres. */
-static double friction_value(double y, double e)
+static double friction_potential(double y, double e)
 {
     double a = fabs(y);
     return a < e ? a * a / e * (1 - a / (3 * e)) : a - e / 3;
@@ -58,7 +58,7 @@ static double compute_slip(const SlidingContact *contact, double h,
                            const double *v)
 {
     double vectors[4];
-    element_compute_weighted_sums(&contact->element, v, vectors);
+    element_compute_vectors(&contact->element, v, vectors);
     return h * tangential_component(&contact->element, vectors) -
            contact->obstacle_travel;
 }
@@ -114,9 +114,9 @@ static void friction_end_step(const TermStep *step)
     for (int i = 0; i < friction->contact_count; i++) {
         const SlidingContact *contact = &friction->contact[i];
         double y = compute_slip(contact, step->h, step->v);
-        system_book_loss(step->system, step->term->kind,
-                         contact->element.r * friction_slope(y, friction->e) *
-                             y);
+        system_add_loss(step->system, step->term->kind,
+                        contact->element.r * friction_slope(y, friction->e) *
+                            y);
     }
 }
 
@@ -157,9 +157,10 @@ static int get_slip_block_nodes(const EvalPoint *at, int block, int node[3])
     return source.term->kind->element->get_block_nodes(&source, block, node);
 }
 
-static double slip_value(const EvalPoint *at, const Element *element)
+static double slip_potential(const EvalPoint *at, const Element *element)
 {
-    return element->r * friction_value(element->s, get_friction_data(at)->e);
+    return element->r *
+           friction_potential(element->s, get_friction_data(at)->e);
 }
 
 static void slip_gradient(const EvalPoint *at, const Element *element,
@@ -184,8 +185,8 @@ static bool slip_hessian(const EvalPoint *at, const Element *element,
     return false;
 }
 
-static double slip_line_remainder(const EvalPoint *at, const Element *element,
-                                  const double P[4], double alpha)
+static double slip_taylor_remainder(const EvalPoint *at, const Element *element,
+                                    const double P[4], double alpha)
 {
     return element->r *
            friction_taylor_remainder(element->s,
@@ -197,10 +198,10 @@ static const ElementKind slips = {
     .count_elements = count_sliding_contacts,
     .get_element = slip_get_element,
     .get_block_nodes = get_slip_block_nodes,
-    .value = slip_value,
+    .potential = slip_potential,
     .gradient = slip_gradient,
     .hessian = slip_hessian,
-    .line_remainder = slip_line_remainder,
+    .taylor_remainder = slip_taylor_remainder,
     .count_blocks = count_slip_blocks,
 };
 

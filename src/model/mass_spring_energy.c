@@ -1,7 +1,7 @@
 /* mass_spring_energy.c - energy of all springs (slide MassSpringEnergy.py). */
 #include "model/mass_spring_energy.h"
 
-static double mass_spring_value(const EvalPoint *at)
+static double mass_spring_potential(const EvalPoint *at)
 {
     const System *system = at->system;
     double sum = 0, d[2];
@@ -35,7 +35,7 @@ static int mass_spring_hessian(const EvalPoint *at, Projection projection,
         spring_vector(e, at->x, d);
         projected +=
             spring_hessian(d, at->l2[s], at->weight * at->k[s], projection, H);
-        mass_spring_add_block(H, e, slot, q, out);
+        mass_spring_add_hessian(H, e, slot, q, out);
     }
     return projected;
 }
@@ -69,7 +69,7 @@ void mass_spring_add_triplets(const EvalPoint *at, Triplets *triplets)
     }
 }
 
-double mass_spring_curvature_estimate(const EvalPoint *at)
+double mass_spring_max_stiffness(const EvalPoint *at)
 {
     double most = 0;
     for (int s = 0; s < at->system->springs; s++)
@@ -79,11 +79,11 @@ double mass_spring_curvature_estimate(const EvalPoint *at)
 
 const TermKind mass_spring_energy = {
     .energy_name = "elastic",
-    .value = mass_spring_value,
+    .potential = mass_spring_potential,
     .gradient = mass_spring_gradient,
     .add_triplets = mass_spring_add_triplets,
     .hessian = mass_spring_hessian,
     .line_polynomial = mass_spring_line_polynomial,
-    .curvature_estimate = mass_spring_curvature_estimate,
+    .max_stiffness = mass_spring_max_stiffness,
     .supports_all_integrators = true,
 };

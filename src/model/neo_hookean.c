@@ -32,7 +32,7 @@ static double compute_volume_energy(double J)
 
 /* W = A0 (mu (|F-|^2 + J - 1 - ln J) + lambda/2 (ln J)^2) follows from
  * |F|^2 = 2 J + 2 |F-|^2.  Every summand is positive, so none cancel. */
-static double neo_hookean_value(const EvalPoint *at, const Element *element)
+static double neo_hookean_potential(const EvalPoint *at, const Element *element)
 {
     const NeoHookean *data = at->term->data;
     double plus[2], minus[2], L = math_log(element->s);
@@ -52,8 +52,7 @@ static void compute_stress_factors(const NeoHookean *data, double J,
 }
 
 /* Writes the gradient by dW/dF/A0 = on_plus F+ + on_minus F-
- * (compute_stress_factors), a form with small rounding errors (neo_hookean.h).
- */
+ * (compute_stress_factors), a form with small rounding (neo_hookean.h). */
 static void neo_hookean_gradient(const EvalPoint *at, const Element *element,
                                  double g[4])
 {
@@ -101,9 +100,9 @@ static bool neo_hookean_apply_hessian(const EvalPoint *at,
 
 /* J + alpha J1 + alpha^2 J2 = J (1 + z).  Subtracting the part of degree 1 from
  * ln(1 + z) by log1p_minus_z avoids cancellation. */
-static double neo_hookean_line_remainder(const EvalPoint *at,
-                                         const Element *element,
-                                         const double P[4], double alpha)
+static double neo_hookean_taylor_remainder(const EvalPoint *at,
+                                           const Element *element,
+                                           const double P[4], double alpha)
 {
     const NeoHookean *data = at->term->data;
     double J1, J2, plus[2], minus[2], J = element->s,
@@ -124,7 +123,7 @@ static double neo_hookean_line_remainder(const EvalPoint *at,
 
 /* Returns a bound of the curvature at rest, F = I, where W/A0 has the Hessian
  * mu (I - K) + (lambda + mu) f f^T in F; K and f are those of area.h. */
-static double neo_hookean_curvature_estimate(const EvalPoint *at)
+static double neo_hookean_max_stiffness(const EvalPoint *at)
 {
     const NeoHookean *data = at->term->data;
     return 8 * data->mu + 4 * data->lambda;
@@ -134,12 +133,12 @@ static const ElementKind triangle = {
     .count_elements = count_triangles,
     .get_element = neo_hookean_get_element,
     .get_block_nodes = get_triangle_block_nodes,
-    .value = neo_hookean_value,
+    .potential = neo_hookean_potential,
     .gradient = neo_hookean_gradient,
     .hessian = neo_hookean_hessian,
-    .line_remainder = neo_hookean_line_remainder,
+    .taylor_remainder = neo_hookean_taylor_remainder,
     .count_blocks = count_triangles,
-    .max_step = triangle_max_step,
+    .max_alpha = triangle_max_alpha,
     .apply_hessian = neo_hookean_apply_hessian,
 };
 
@@ -180,5 +179,5 @@ const TermKind neo_hookean_energy = {
     .name = "triangles",
     .configure = neo_hookean_configure,
     .energy_name = "elastic",
-    .curvature_estimate = neo_hookean_curvature_estimate,
+    .max_stiffness = neo_hookean_max_stiffness,
 };

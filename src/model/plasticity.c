@@ -92,7 +92,7 @@ static inline FlowSpring evaluate_flow_spring(const EvalPoint *at, int s)
     return spring;
 }
 
-static double plastic_value(const EvalPoint *at)
+static double plastic_potential(const EvalPoint *at)
 {
     const Plasticity *data = at->term->data;
     double sum = 0;
@@ -140,7 +140,7 @@ static int plastic_hessian(const EvalPoint *at, Projection projection,
         const double H[3] = {factor * (across + difference * d[0] * d[0]),
                              factor * difference * d[0] * d[1],
                              factor * (across + difference * d[1] * d[1])};
-        mass_spring_add_block(H, spring.e, slot, q, out);
+        mass_spring_add_hessian(H, spring.e, slot, q, out);
     }
     return projected;
 }
@@ -172,8 +172,8 @@ static void plastic_line_polynomial(const EvalPoint *at, const double *p,
 /* R_V(e, t) = V(e + t) - V(e) - V'(e) t >= 0 is the integral over s from 0 to t
  * of (t - s) V''(e + s), mirrored so that t >= 0.  V'' is 1 + theta where the
  * spring is elastic, elsewhere 1 + theta - flow.  No summand is negative. */
-static double plastic_line_remainder(const EvalPoint *at, const double *p,
-                                     double alpha)
+static double plastic_taylor_remainder(const EvalPoint *at, const double *p,
+                                       double alpha)
 {
     double sum = 0, B, C;
     for (int s = 0; s < at->system->springs; s++) {
@@ -210,9 +210,9 @@ static void plastic_end_step(const TermStep *step)
             continue;
         data->ep[s] += copysign(gamma, spring.elastic_strain);
         data->kappa[s] += gamma;
-        system_book_loss(system, &plastic_energy,
-                         spring.k * spring.l2 * data->initial_yield_strain *
-                             gamma);
+        system_add_loss(system, &plastic_energy,
+                        spring.k * spring.l2 * data->initial_yield_strain *
+                            gamma);
         changed = true;
     }
     if (changed)
@@ -243,12 +243,12 @@ const TermKind plastic_energy = {
     .configure = plastic_configure,
     .energy_name = "elastic",
     .loss_name = "plastic",
-    .value = plastic_value,
+    .potential = plastic_potential,
     .gradient = plastic_gradient,
     .add_triplets = mass_spring_add_triplets,
     .hessian = plastic_hessian,
     .line_polynomial = plastic_line_polynomial,
-    .line_remainder = plastic_line_remainder,
+    .taylor_remainder = plastic_taylor_remainder,
     .end_step = plastic_end_step,
-    .curvature_estimate = mass_spring_curvature_estimate,
+    .max_stiffness = mass_spring_max_stiffness,
 };

@@ -4,7 +4,7 @@
 #include <math.h>
 
 /* k/2 |x - o|^2 */
-static double pull_value(const EvalPoint *at)
+static double pull_potential(const EvalPoint *at)
 {
     const NodePull *pull = at->term->data;
     double sum = 0;
@@ -53,7 +53,7 @@ static void pull_line_polynomial(const EvalPoint *at, const double *p,
         q[0] += 0.5 * at->weight * pull->k * p[i] * p[i];
 }
 
-static double pull_curvature_estimate(const EvalPoint *at)
+static double pull_max_stiffness(const EvalPoint *at)
 {
     const NodePull *pull = at->term->data;
     return fabs(pull->k);
@@ -61,10 +61,10 @@ static double pull_curvature_estimate(const EvalPoint *at)
 
 /* First members in the initialisers of central_field and hand_energy. */
 #define PULL                                                                   \
-    .value = pull_value, .gradient = pull_gradient, .hessian = pull_hessian,   \
-    .add_triplets = pull_add_triplets, .is_diagonal = true,                    \
-    .line_polynomial = pull_line_polynomial, .is_external = true,              \
-    .curvature_estimate = pull_curvature_estimate,                             \
+    .potential = pull_potential, .gradient = pull_gradient,                    \
+    .hessian = pull_hessian, .add_triplets = pull_add_triplets,                \
+    .is_diagonal = true, .line_polynomial = pull_line_polynomial,              \
+    .is_external = true, .max_stiffness = pull_max_stiffness,                  \
     .supports_all_integrators = true
 
 const TermKind central_field = {PULL, .energy_name = "elastic"};

@@ -19,8 +19,8 @@ static const double STRENGTH = 0.1;
 /* Least gap to pinned nodes, as a fraction of the barrier's width. */
 static const double KEPT = 0.3;
 
-/* Largest numbers of halvings and of unhalved steps in find_free_fraction. */
-enum { MAX_HALVINGS = 8, MAX_PATH_PARTS = 16 };
+/* Largest numbers of halvings and of unhalved steps in free_path_fraction. */
+enum { MAX_MOTION_HALVINGS = 8, MAX_PATH_STEPS = 16 };
 
 /* Writes the displacement in a step of h seconds if nothing is in the way. */
 static void compute_desired_motion(const ObstaclePush *push, const double *o,
@@ -40,7 +40,7 @@ static void compute_desired_motion(const ObstaclePush *push, const double *o,
 static bool obstacle_is_pressed(const Contact *contact, const System *system,
                                 const double *x, const double way[2])
 {
-    int k = contact->hand.obstacle_index;
+    int k = contact->push.obstacle_index;
     const Obstacle *obstacle = &contact->obstacle[k];
     for (int i = 0; i < system->nodes; i++) {
         NodeGap gap = contact_measure_gap(obstacle, obstacle->o, x + 2 * i,
@@ -59,11 +59,12 @@ static bool obstacle_is_pressed(const Contact *contact, const System *system,
 static bool obstacle_has_room(const Contact *contact, const System *system,
                               const double *x, const double o[2])
 {
-    int k = contact->hand.obstacle_index;
+    int k = contact->push.obstacle_index;
     const Obstacle *obstacle = &contact->obstacle[k];
     const double keep = KEPT * contact->barrier.d_hat;
     for (int i = 0; i < system->nodes; i++) {
-        if (!system->pinned[i] || contact_includes_pair(contact, system, i, k))
+        if (!system->is_pinned[i] ||
+            contact_includes_pair(contact, system, i, k))
             continue;
         double before =
             contact_measure_gap(obstacle, obstacle->o, x + 2 * i, 0).d;
@@ -71,7 +72,7 @@ static bool obstacle_has_room(const Contact *contact, const System *system,
         if (after < fmin(before, keep))
             return false;
     }
-    const SquareMesh *shape = &contact->hand.mesh;
+    const SquareMesh *shape = &contact->push.mesh;
     return obstacle->kind == OBSTACLE_WALL ||
            square_mesh_find_cell(shape, x, o, 0, shape->cells) < 0 ||
            square_mesh_find_cell(shape, x, obstacle->o, 0, shape->cells) >= 0;
@@ -79,15 +80,15 @@ static bool obstacle_has_room(const Contact *contact, const System *system,
 
 /* Returns the fraction of the way before the first place without room.  A trial
  * step to a place without room is halved and repeated. */
-static double find_free_fraction(const Contact *contact, const System *system,
+static double free_path_fraction(const Contact *contact, const System *system,
                                  const double *x, const double way[2])
 {
-    const Obstacle *obstacle = &contact->obstacle[contact->hand.obstacle_index];
+    const Obstacle *obstacle = &contact->obstacle[contact->push.obstacle_index];
     double length = math_hypot(way[0], way[1]), free = 0, step = 1;
     if (obstacle->kind == OBSTACLE_BALL)
-        step = fmin(fmax(0.5 * obstacle->radius / length, 1.0 / MAX_PATH_PARTS),
+        step = fmin(fmax(0.5 * obstacle->radius / length, 1.0 / MAX_PATH_STEPS),
                     1);
-    for (int i = 0; i < MAX_HALVINGS && free < 1;) {
+    for (int i = 0; i < MAX_MOTION_HALVINGS && free < 1;) {
         double part = fmin(free + step, 1);
         const double o[2] = {obstacle->o[0] + part * way[0],
                              obstacle->o[1] + part * way[1]};
@@ -104,7 +105,7 @@ static double find_free_fraction(const Contact *contact, const System *system,
 void push_begin_step(Contact *contact, const System *system, const double *x,
                      double h)
 {
-    ObstaclePush *push = &contact->hand;
+    ObstaclePush *push = &contact->push;
     double way[2];
     push->is_blocked = false;
     push->moving_fraction = 0;
@@ -116,14 +117,14 @@ void push_begin_step(Contact *contact, const System *system, const double *x,
     compute_desired_motion(push, obstacle->o, h, way);
     double part = obstacle_is_pressed(contact, system, x, way)
                       ? 0
-                      : find_free_fraction(contact, system, x, way);
+                      : free_path_fraction(contact, system, x, way);
     for (int c = 0; c < 2; c++)
         obstacle->v[c] = part * way[c] / h;
 }
 
-double push_max_step_fraction(const Contact *contact, double h)
+double push_max_move_fraction(const Contact *contact, double h)
 {
-    const Obstacle *obstacle = &contact->obstacle[contact->hand.obstacle_index];
+    const Obstacle *obstacle = &contact->obstacle[contact->push.obstacle_index];
     double length = h * math_hypot(obstacle->v[0], obstacle->v[1]);
     return obstacle->kind == OBSTACLE_BALL && length > 0
                ? 0.5 * obstacle->radius / length

@@ -69,7 +69,7 @@ static Status self_contact_begin_step(const TermStep *step)
     boundary_update(boundary, system, step->x, step->v, step->h, self->d_hat);
     for (int i = 0; i < boundary->point_count && !status; i++)
         while (!status &&
-               (edge = boundary_next_edge(boundary, system, i, &cursor)) >= 0)
+               (edge = boundary_near_edge(boundary, system, i, &cursor)) >= 0)
             status =
                 add_pair(self, (PointEdgePair){boundary->point_node[i], edge});
     int count = self->pair_count - old;
@@ -140,7 +140,7 @@ static int count_point_edge_pairs(const EvalPoint *at)
 }
 
 /* Computes s = (d/d_hat)^2, the normal n and the place r from q and e. */
-static void set_point_edge_distance(const SelfContact *self, Element *element)
+static void compute_pair_distance(const SelfContact *self, Element *element)
 {
     const double *q = element->v, *e = element->v + 2;
     double along = dot2(q, e), length2 = dot2(e, e), d;
@@ -183,7 +183,7 @@ static bool pair_get_element(const EvalPoint *at, int i, double way,
     SelfContact *self = self_contact_data(at);
     Boundary *boundary = &self->boundary;
     int edge;
-    while ((edge = boundary_next_edge(boundary, at->system, i,
+    while ((edge = boundary_near_edge(boundary, at->system, i,
                                       &element->search_cursor)) >= 0) {
         const PointEdgePair pair = {boundary->point_node[i], edge};
         element->vector_count = 2;
@@ -193,7 +193,7 @@ static bool pair_get_element(const EvalPoint *at, int i, double way,
         element->partner_index = edge;
         compute_node_differences(at->x, element->node[0], element->node[2],
                                  element->node[1], element->v);
-        set_point_edge_distance(self, element);
+        compute_pair_distance(self, element);
         if (!boundary->is_swept && element->s >= 1)
             continue;
         if (distance_is_below_rounding(self, element, at->x))
@@ -206,7 +206,7 @@ static bool pair_get_element(const EvalPoint *at, int i, double way,
     return false;
 }
 
-static double pair_energy(const EvalPoint *at, const Element *element)
+static double pair_potential(const EvalPoint *at, const Element *element)
 {
     return self_contact_data(at)->c * barrier_value(element->s);
 }
@@ -259,31 +259,29 @@ static bool pair_hessian(const EvalPoint *at, const Element *element,
 
 /* A quadratic function of a, the part of the step that is done. */
 typedef struct Quadratic {
-    double degree0, degree1, degree2; /* coefficients of 1, a, a^2 */
+    double c0, c1, c2; /* coefficients of 1, a, a^2 */
 } Quadratic;
 
 /* Returns the change of top^2/l in the step (a = 1) without its linear part,
  * which is added to *first.  A negative top counts as 0 unless `always`. */
-static double square_ratio_remainder(Quadratic top, Quadratic l, bool always,
+static double ratio_taylor_remainder(Quadratic top, Quadratic l, bool always,
                                      double *first)
 {
-    double N = top.degree0, change = top.degree1 + top.degree2,
-           end = l.degree0 + l.degree1 + l.degree2;
+    double N = top.c0, change = top.c1 + top.c2, end = l.c0 + l.c1 + l.c2;
     bool starts = always || N > 0, ends = always || N + change > 0;
     if (!starts)
         return ends ? (N + change) * (N + change) / end : 0;
-    double one =
-        (2 * N * top.degree1 - N * N * l.degree1 / l.degree0) / l.degree0;
+    double one = (2 * N * top.c1 - N * N * l.c1 / l.c0) / l.c0;
     *first += one;
     if (!ends)
-        return -N * N / l.degree0 - one;
-    return (2 * N * top.degree2 + change * change -
-            N * N * l.degree2 / l.degree0 - one * (l.degree1 + l.degree2)) /
+        return -N * N / l.c0 - one;
+    return (2 * N * top.c2 + change * change - N * N * l.c2 / l.c0 -
+            one * (l.c1 + l.c2)) /
            end;
 }
 
-static double pair_line_remainder(const EvalPoint *at, const Element *element,
-                                  const double P[4], double alpha)
+static double pair_taylor_remainder(const EvalPoint *at, const Element *element,
+                                    const double P[4], double alpha)
 {
     const SelfContact *self = self_contact_data(at);
     const double *q = element->v, *e = element->v + 2;
@@ -295,11 +293,10 @@ static double pair_line_remainder(const EvalPoint *at, const Element *element,
                             cross(de, dq)};
     const Quadratic low = {-dot2(q, e), -dot2(dq, e) - dot2(q, de),
                            -dot2(dq, de)};
-    const Quadratic high = {-low.degree0 - l.degree0, -low.degree1 - l.degree1,
-                            -low.degree2 - l.degree2};
-    double rest = square_ratio_remainder(side, l, true, &first) +
-                  square_ratio_remainder(low, l, false, &first) +
-                  square_ratio_remainder(high, l, false, &first);
+    const Quadratic high = {-low.c0 - l.c0, -low.c1 - l.c1, -low.c2 - l.c2};
+    double rest = ratio_taylor_remainder(side, l, true, &first) +
+                  ratio_taylor_remainder(low, l, false, &first) +
+                  ratio_taylor_remainder(high, l, false, &first);
     double S = element->s, slope = barrier_slope(S);
     if (S < 1 && S + (first + rest) / d_hat2 >= 1) /* d ends above d_hat */
         return self->c * (-barrier_value(S) - slope * first / d_hat2);
@@ -310,8 +307,8 @@ static double pair_line_remainder(const EvalPoint *at, const Element *element,
 /* Finds the first alpha > 0 at which the point p is on the edge: the quadratic
  * equation e x q = 0 holds, and the place r on the line is in [0, 1].  If p
  * slides along this line, only the other edge at the edge's end has a root. */
-static double pair_max_step(const EvalPoint *at, const Element *element,
-                            const double P[4])
+static double pair_max_alpha(const EvalPoint *at, const Element *element,
+                             const double P[4])
 {
     static const double ENDS = 1e-9; /* tolerance of r at the ends 0, 1 */
     const double *q = element->v, *e = element->v + 2, *dq = P, *de = P + 2;
@@ -334,7 +331,8 @@ static double pair_max_step(const EvalPoint *at, const Element *element,
     return ELEMENT_LIMIT * first;
 }
 
-/* Returns mu times the normal force; the slip along the edge is t.(dq, de). */
+/* Returns the friction limit, mu times the normal force.
+ *   t  out, t.(dq, de) is the slip if the vectors q, e change by dq, de */
 static double pair_friction_limit(const EvalPoint *at, const Element *element,
                                   double t[4], double *speed)
 {
@@ -345,27 +343,27 @@ static double pair_friction_limit(const EvalPoint *at, const Element *element,
     t[2] = element->r * n[1];
     t[3] = -element->r * n[0];
     *speed = 0;
-    return self->friction * pair_force(self, element->s);
+    return self->mu * pair_force(self, element->s);
 }
 
 static const ElementKind near_pairs = {
     .count_elements = count_point_edge_pairs,
     .get_element = pair_get_element,
     .get_block_nodes = get_pair_block_nodes,
-    .value = pair_energy,
+    .potential = pair_potential,
     .gradient = pair_gradient,
     .hessian = pair_hessian,
-    .line_remainder = pair_line_remainder,
+    .taylor_remainder = pair_taylor_remainder,
     .count_blocks = count_pair_blocks,
     .find_elements = gather_near_edges,
-    .max_step = pair_max_step,
+    .max_alpha = pair_max_alpha,
     .friction_limit = pair_friction_limit,
 };
 
 /* ---- the term ----------------------------------------------------------- */
 
 /* Returns the largest eigenvalue of W's Hessian at d = d_hat, 16 c/d_hat^2. */
-static double pair_curvature_estimate(const EvalPoint *at)
+static double pair_max_stiffness(const EvalPoint *at)
 {
     const SelfContact *self = self_contact_data(at);
     return 16 * self->c / (self->d_hat * self->d_hat);
@@ -385,7 +383,7 @@ const TermKind self_contact_energy = {
     .rank = RANK_CONTACT,
     .begin_step = self_contact_begin_step,
     .extend_pattern = self_contact_extend_pattern,
-    .curvature_estimate = pair_curvature_estimate,
+    .max_stiffness = pair_max_stiffness,
     .free = self_contact_free,
 };
 
@@ -403,6 +401,6 @@ Status self_contact_configure(System *system, const SquareMesh *mesh,
         return STATUS_OUT_OF_MEMORY;
     self->d_hat = barrier->d_hat;
     self->c = barrier->c / 8;
-    self->friction = friction;
+    self->mu = friction;
     return STATUS_OK;
 }

@@ -19,7 +19,7 @@ SquareMesh square_mesh_create(int columns, int rows, double side, int bodies)
 
 /* Returns the body of node, cell or edge i; i becomes its number in the body.
  *   total  number of nodes, cells or edges of all bodies */
-static int split_body_and_index(const SquareMesh *shape, int total, int *i)
+static int find_body_and_index(const SquareMesh *shape, int total, int *i)
 {
     int each = total / shape->bodies, body = *i / each;
     *i %= each;
@@ -34,14 +34,14 @@ static int find_node(const SquareMesh *shape, int i, int j)
 
 int square_mesh_find_body(const SquareMesh *shape, int node)
 {
-    return split_body_and_index(shape, shape->nodes, &node);
+    return find_body_and_index(shape, shape->nodes, &node);
 }
 
 /* Node (i, j) rests at (-side/2 + i spacing, -height/2 + j spacing). */
 void square_mesh_rest_position(const SquareMesh *shape, int i, double x[2])
 {
     int stride = find_node(shape, 1, 0);
-    split_body_and_index(shape, shape->nodes, &i);
+    find_body_and_index(shape, shape->nodes, &i);
     double step = shape->spacing;
     double high =
         shape->rows == shape->columns ? shape->side : shape->rows * step;
@@ -51,7 +51,7 @@ void square_mesh_rest_position(const SquareMesh *shape, int i, double x[2])
 
 int square_mesh_get_node_sides(const SquareMesh *shape, int i)
 {
-    split_body_and_index(shape, shape->nodes, &i);
+    find_body_and_index(shape, shape->nodes, &i);
     int stride = find_node(shape, 1, 0), column = i / stride, row = i % stride;
     return (column == 0 ? MESH_LEFT : 0) |
            (column == shape->columns ? MESH_RIGHT : 0) |
@@ -62,8 +62,8 @@ void square_mesh_get_cell(const SquareMesh *shape, int c, int node[4],
                           int spring[6])
 {
     int columns = shape->columns, rows = shape->rows;
-    square_mesh_get_patch(shape, c, 1, node);
-    int first = split_body_and_index(shape, shape->cells, &c);
+    square_mesh_get_cell_patch(shape, c, 1, node);
+    int first = find_body_and_index(shape, shape->cells, &c);
     first *= shape->springs / shape->bodies;
     int a = first + c / rows * (rows + 1) + c % rows;
     int upright = first + find_node(shape, columns, 0) + c;
@@ -103,11 +103,11 @@ int square_mesh_find_cell(const SquareMesh *shape, const double *x,
     return -1;
 }
 
-bool square_mesh_get_patch(const SquareMesh *shape, int c, int cells,
-                           int node[4])
+bool square_mesh_get_cell_patch(const SquareMesh *shape, int c, int cells,
+                                int node[4])
 {
     int columns = shape->columns, rows = shape->rows;
-    int first = split_body_and_index(shape, shape->cells, &c);
+    int first = find_body_and_index(shape, shape->cells, &c);
     first *= shape->nodes / shape->bodies;
     int left = c / rows, low = c % rows;
     int right = left + cells < columns ? left + cells : columns;
@@ -132,7 +132,7 @@ static int get_outline_node(const SquareMesh *shape, int k)
 
 void square_mesh_get_outline_edge(const SquareMesh *shape, int k, int node[2])
 {
-    int first = split_body_and_index(shape, shape->outline_edge_count, &k);
+    int first = find_body_and_index(shape, shape->outline_edge_count, &k);
     first *= shape->nodes / shape->bodies;
     int next = (k + 1) % (shape->outline_edge_count / shape->bodies);
     node[0] = first + get_outline_node(shape, k);

@@ -20,10 +20,10 @@ Status system_create(int nodes, int springs, System *system)
         return STATUS_OUT_OF_MEMORY;
     system->l2 = system->m + n;
     system->k = system->l2 + count;
-    system->elimination_order = system->e + 2 * count;
+    system->elimination_index = system->e + 2 * count;
     for (int i = 0; i < nodes; i++)
-        system->elimination_order[i] = i;
-    system->pinned = (unsigned char *)(system->elimination_order + n);
+        system->elimination_index[i] = i;
+    system->is_pinned = (unsigned char *)(system->elimination_index + n);
     return springs == 0 || system_add_term(system, &mass_spring_energy, 1)
                ? STATUS_OK
                : STATUS_OUT_OF_MEMORY;
@@ -61,18 +61,19 @@ bool system_is_feasible(EvalPoint at)
     return true;
 }
 
-double system_max_step(EvalPoint at, const double *p, bool internal)
+double system_max_alpha(EvalPoint at, const double *p, bool internal)
 {
     double reach = INFINITY;
     for (const TermKind *kind; (kind = eval_point_next_term(&at));)
         if (kind->element && !(kind->is_external && internal))
-            reach = fmin(reach, elements_max_step(&at, p));
+            reach = fmin(reach, elements_max_alpha(&at, p));
     return reach;
 }
 
 bool system_path_is_free(const System *system, const double *x, const double *p)
 {
-    return system_max_step(make_eval_point(system, NULL, NULL, x), p, true) > 1;
+    return system_max_alpha(make_eval_point(system, NULL, NULL, x), p, true) >
+           1;
 }
 
 bool system_has_gravity(const System *system)
@@ -102,15 +103,15 @@ double system_potential(const System *system, const double *x)
     EvalPoint at = make_eval_point(system, x, NULL, x);
     double sum = 0;
     for (const TermKind *kind; (kind = eval_point_next_term(&at));)
-        if (kind->value)
-            sum += kind->value(&at);
+        if (kind->potential)
+            sum += kind->potential(&at);
     return sum;
 }
 
 void system_zero_pinned_entries(const System *system, double *g)
 {
     for (int i = 0; i < system->nodes; i++)
-        if (system->pinned[i])
+        if (system->is_pinned[i])
             g[2 * i] = g[2 * i + 1] = 0;
 }
 
@@ -128,7 +129,7 @@ static bool terms_are_invariant(const System *system, bool turn)
 bool system_falls_freely(const System *system)
 {
     return terms_are_invariant(system, false) &&
-           !memchr(system->pinned, 1, (size_t)system->nodes);
+           !memchr(system->is_pinned, 1, (size_t)system->nodes);
 }
 
 bool system_turns_freely(const System *system, int *pivot)
@@ -136,7 +137,7 @@ bool system_turns_freely(const System *system, int *pivot)
     int pins = 0;
     *pivot = -1;
     for (int i = 0; i < system->nodes; i++)
-        if (system->pinned[i]) {
+        if (system->is_pinned[i]) {
             pins++;
             *pivot = i;
         }
@@ -157,15 +158,15 @@ void system_acceleration(const System *system, const double *x, double *a)
     system_zero_pinned_entries(system, a);
 }
 
-double system_curvature_estimate(const System *system)
+double system_max_stiffness(const System *system)
 {
     /* An EvalPoint with u is inside a step, where damping stiffens springs. */
     const double u = 0;
     EvalPoint at = make_eval_point(system, NULL, &u, NULL);
     double most = 0;
     for (const TermKind *kind; (kind = eval_point_next_term(&at));)
-        if (kind->curvature_estimate)
-            most = max_or_nan(most, kind->curvature_estimate(&at));
+        if (kind->max_stiffness)
+            most = max_or_nan(most, kind->max_stiffness(&at));
     return most;
 }
 

@@ -55,7 +55,7 @@ void system_remove_term(System *system, const TermKind *kind)
 
 /* Adds to the lost energy of the kind's name.  A name that is not in the table
  * yet takes the first free row. */
-void system_book_loss(System *system, const TermKind *kind, double energy)
+void system_add_loss(System *system, const TermKind *kind, double energy)
 {
     EnergyLoss *loss = system->losses;
     while (loss->name && strcmp(loss->name, kind->loss_name) != 0)
@@ -74,7 +74,7 @@ const TermKind *eval_point_next_term(EvalPoint *at)
 
 void add_block_triplets(const System *system, int i, int j, Triplets *triplets)
 {
-    int r = system->elimination_order[i], c = system->elimination_order[j];
+    int r = system->elimination_index[i], c = system->elimination_index[j];
     triplets_add(triplets, 2 * r, 2 * c);
     triplets_add(triplets, 2 * r, 2 * c + 1);
     if (r != c)
@@ -84,7 +84,7 @@ void add_block_triplets(const System *system, int i, int j, Triplets *triplets)
 
 void add_diagonal_triplets(const System *system, int i, Triplets *triplets)
 {
-    int place = system->elimination_order[i];
+    int place = system->elimination_index[i];
     triplets_add(triplets, 2 * place, 2 * place);
     triplets_add(triplets, 2 * place + 1, 2 * place + 1);
 }

@@ -13,7 +13,7 @@ enum { MAX_LINE_WIDTH = 4096 };    /* pixels, largest width of a line */
 enum { MAX_COORDINATE = 1 << 29 }; /* pixels, limit of clamped coordinates */
 
 /* Fixed point numbers have 16 bits before and after the binary point. */
-enum { FIXED_BITS = 16, FIXED_ONE = 1 << FIXED_BITS };
+enum { FRACTION_BITS = 16, FIXED_ONE = 1 << FRACTION_BITS };
 
 /* Blends two colours: below + (above - below) amount / 256.  Red and blue share
  * a multiplication; masks remove bits that one colour puts into the next. */
@@ -206,19 +206,19 @@ bool box_clip_line(const Box *box, double margin, double line[4])
 static inline void blend_column(uint32_t *column, ptrdiff_t across, int low,
                                 int high, Colour colour, uint32_t amount)
 {
-    int row = low >> FIXED_BITS, last = (high - 1) >> FIXED_BITS;
+    int row = low >> FRACTION_BITS, last = (high - 1) >> FRACTION_BITS;
     uint32_t *p = column + row * across;
     if (row == last) {
         *p = blend_pixel(*p, colour,
-                         (uint32_t)(high - low) * amount >> FIXED_BITS);
+                         (uint32_t)(high - low) * amount >> FRACTION_BITS);
         return;
     }
     uint32_t part = (uint32_t)(FIXED_ONE - (low & (FIXED_ONE - 1)));
-    *p = blend_pixel(*p, colour, part * amount >> FIXED_BITS);
+    *p = blend_pixel(*p, colour, part * amount >> FRACTION_BITS);
     for (p += across; ++row < last; p += across)
         *p = blend_pixel(*p, colour, amount);
     part = (uint32_t)(high - last * FIXED_ONE);
-    *p = blend_pixel(*p, colour, part * amount >> FIXED_BITS);
+    *p = blend_pixel(*p, colour, part * amount >> FRACTION_BITS);
 }
 
 /* Loops along axis k: columns, or rows of a steep line; j is the other axis. */
@@ -242,8 +242,8 @@ void canvas_line(Canvas *canvas, double x0, double y0, double x1, double y1,
     double from = line[back + k], slope = d[j] / d[k];
     int start = (int)(from * FIXED_ONE);
     int stop = (int)(line[2 - back + k] * FIXED_ONE);
-    int begin = MAX(start >> FIXED_BITS, first[k]);
-    int end = MIN((stop + FIXED_ONE - 1) >> FIXED_BITS, behind[k]);
+    int begin = MAX(start >> FRACTION_BITS, first[k]);
+    int end = MIN((stop + FIXED_ONE - 1) >> FRACTION_BITS, behind[k]);
     int reach = (int)(0.5 * width * sqrt(1 + slope * slope) * FIXED_ONE);
     int middle =
         (int)((line[back + j] + (begin + 0.5 - from) * slope) * FIXED_ONE);
@@ -258,7 +258,7 @@ void canvas_line(Canvas *canvas, double x0, double y0, double x1, double y1,
         if (i == begin || i + 1 == end) {
             int left = MAX(i * FIXED_ONE, start);
             int right = MIN((i + 1) * FIXED_ONE, stop);
-            amount = (uint32_t)(right - left) * amount >> FIXED_BITS;
+            amount = (uint32_t)(right - left) * amount >> FRACTION_BITS;
         }
         if (low < high)
             blend_column(column, next[j], low, high, colour, amount);

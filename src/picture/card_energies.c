@@ -41,7 +41,7 @@ typedef struct EnergyCurves {
 
 /* Whether quantity s of the history is the energy of run s; otherwise the
  * quantities are the energies of a single run. */
-static bool series_are_runs(const Simulation *simulation)
+static bool has_series_per_run(const Simulation *simulation)
 {
     PictureKind kind = simulation->scene->picture;
     return kind == PICTURE_CIRCLE || kind == PICTURE_MASS;
@@ -57,7 +57,7 @@ static EnergyCurves find_energy_curves(const FrameContent *content)
     EnergyCurve *curve = all.curve;
     const Pane *active = active_pane(content);
     const History *history = active->history;
-    bool runs = series_are_runs(active->simulation);
+    bool runs = has_series_per_run(active->simulation);
     bool is_visible[MAX_HISTORY_SERIES] = {true, true, true};
     double most = 0;
     for (int p = 0; content->panes > 1 && p < content->panes; p++)
@@ -111,7 +111,7 @@ static double find_present_energy(const EnergyCurve *curve)
     double now = simulation_get_time(curve->simulation), size = 0, first = 0;
     int point = find_history_point(history, now),
         last = history->point_count - 1;
-    bool runs = series_are_runs(curve->simulation);
+    bool runs = has_series_per_run(curve->simulation);
     if (point < 0)
         return NAN;
     if (!runs && now > history->time[last] * (1 + 1e-12) &&
@@ -279,7 +279,7 @@ void draw_energies_card(const Plot *card)
     EnergyCurves all = find_energy_curves(card->content);
     Plot rest = *card;
     double last;
-    int room = card->box.height - paper_pixels(card->paper, MIN_PLOT);
+    int room = card->box.height - paper_to_pixels(card->paper, MIN_PLOT);
     bool has_legend = !card->content->has_document;
     bool named = card->content->panes <= 1 ||
                  write_legend(card, &all, true, false) <= room;
@@ -289,7 +289,7 @@ void draw_energies_card(const Plot *card)
     if (has_legend)
         box_cut_off(&rest.box, EDGE_TOP, write_legend(card, &all, named, true));
     Axis energy = make_energies_axis(card->simulation, &all, &last);
-    Axis time = {0, plot_round_up(last), .label = "t in s"};
+    Axis time = {0, plot_nice_number(last), .label = "t in s"};
     Plot plot = plot_create(&rest, time, energy);
     if (all.latest_time < plot.x.high)
         plot_line(&plot, (double[2]){all.latest_time, plot.y.low},
@@ -307,7 +307,7 @@ void draw_energy_budget_card(const Plot *card)
     Energies energies = simulation_get_energies(card->simulation, 0);
     Energy all = {"start + work", 0};
     const Energy *shown[MAX_HISTORY_SERIES + 1] = {&all};
-    int rows = 1, air = paper_pixels(paper, 0.1);
+    int rows = 1, air = paper_to_pixels(paper, 0.1);
     for (int i = 1; i < energies.count; i++) {
         const Energy *row = &energies.energy[i];
         if (strcmp(row->name, "gravity") == 0 || strcmp(row->name, "work") == 0)
@@ -315,8 +315,8 @@ void draw_energy_budget_card(const Plot *card)
         shown[rows++] = row;
         all.value += row->value;
     }
-    int left = box->x + paper_pixels(paper, NAME), high = box->height / rows;
-    double wide = box->width - paper_pixels(paper, NAME + VALUE);
+    int left = box->x + paper_to_pixels(paper, NAME), high = box->height / rows;
+    double wide = box->width - paper_to_pixels(paper, NAME + VALUE);
     double most = fmax(all.value, 1e-300), begin = 0;
     for (int i = 0; i < rows; i++) {
         double value =
@@ -339,7 +339,7 @@ void draw_energy_budget_card(const Plot *card)
 
 /* Draws the radius of each run's orbit on a logarithmic axis.  Marks the step
  * at which the first run's radius has doubled, if h was never changed. */
-void draw_radius_card(const Plot *card)
+void draw_orbit_radius_card(const Plot *card)
 {
     const Simulation *simulation = card->simulation;
     const FrameContent *content = card->content;
@@ -351,7 +351,7 @@ void draw_radius_card(const Plot *card)
         most =
             fmax(most, 1.1 * fabs(log10(vector_length(simulation->run[r].x))));
     Plot plot =
-        plot_create(card, (Axis){0, plot_round_up(last), .label = "t in s"},
+        plot_create(card, (Axis){0, plot_nice_number(last), .label = "t in s"},
                     (Axis){pow(10, -most), pow(10, most), .scale = SCALE_LOG});
     double steps = values_find_number(&card->pane->values, "doubling");
     const double twice[2] = {steps * simulation->options.timestep, 2};

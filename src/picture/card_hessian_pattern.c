@@ -10,7 +10,7 @@ enum { NO_ENTRY, FILL_IN, HESSIAN_ENTRY };
  * node's place in the elimination order. */
 static int find_matrix_row(const System *system, int node, bool natural)
 {
-    return natural ? node : system->elimination_order[node];
+    return natural ? node : system->elimination_index[node];
 }
 
 /* Returns the pattern of the Hessian of the first `springs` springs if natural,
@@ -64,7 +64,7 @@ static void draw_matrix_pattern(const Plot *card, Box square, bool natural,
     unsigned char *block = compute_matrix_pattern(system, natural, springs);
     Canvas *canvas = &card->paper->canvas;
     bool writes = card->simulation->options.next_action == NEXT_ADDS_SPRING;
-    int n = system->nodes, least = paper_pixels(card->paper, 0.35);
+    int n = system->nodes, least = paper_to_pixels(card->paper, 0.35);
     int lit = hover->kind == PICK_SPRING    ? hover->index
               : card->content->lecture.page ? springs - 1
                                             : -1;
@@ -105,14 +105,14 @@ void draw_hessian_pattern_card(const Plot *card)
     Box inside = card->box;
     bool has_list = writes && !card->content->has_document &&
                     inside.height > list_height * paper->em;
-    int line = paper_pixels(paper, 1.4), count = writes ? 1 : 2;
+    int line = paper_to_pixels(paper, 1.4), count = writes ? 1 : 2;
     if (has_list)
         triplets.box = box_cut_off(&inside, EDGE_RIGHT, inside.width / 3);
     int high = inside.height - line;
     int side = (inside.width - count * line) / count;
     side = side < high ? side : high;
     int springs =
-        writes ? find_newest_spring(card->simulation) + 1 : system->springs;
+        writes ? find_added_spring(card->simulation) + 1 : system->springs;
     if (side < 4 * line || system->nodes > side) {
         card_write_hint(card, side < 4 * line ? "enlarge it"
                                               : "too many nodes to draw");

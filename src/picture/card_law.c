@@ -29,16 +29,17 @@ typedef struct DrawnLaw {
     const char *x_label, *y_label;
     const TermKind *law_term;     /* term with the law */
     const TermKind *element_term; /* term with the elements; NULL: springs */
-    double (*evaluate)(const void *now, double x);
+    double (*find_y)(const void *now, double x);
     double axis_low, axis_high; /* ends of the axis, in units of axis_unit */
-    bool is_milli;              /* x_label is in mm or mm/s */
+    bool is_in_mm;              /* x_label is in mm or mm/s */
 } DrawnLaw;
 
 static double element_energy_at(const void *data, double d)
 {
     LawPoint there = *(const LawPoint *)data;
     there.element.s = d;
-    return there.eval.term->kind->element->value(&there.eval, &there.element);
+    return there.eval.term->kind->element->potential(&there.eval,
+                                                     &there.element);
 }
 
 /* Returns the energy per area of the triangle, after it is stretched along its
@@ -65,7 +66,7 @@ static double friction_force_ratio(const void *now, double v)
     return friction_slope(v, ((const LawPoint *)now)->axis_unit);
 }
 
-static double flow_force_at(const void *data, double s)
+static double plastic_force_at(const void *data, double s)
 {
     const LawPoint *now = data;
     return flow_law_slope(now->flow_law, s - now->flow_law.ep_n);
@@ -87,12 +88,12 @@ static const DrawnLaw laws[] = {
     {"triangle", "J", "\u03a8 in J/m\u00b2", &neo_hookean_energy,
      &neo_hookean_energy, triangle_energy_density, 0, 1.5, false},
     {"yield", "strain s", "s \u2212 s_{p}", &plastic_energy, NULL,
-     flow_force_at, -1, 1, false},
+     plastic_force_at, -1, 1, false},
     {"break", "s/s_{c}", "force, 1 at s_{c}", &fracture, NULL,
      breaking_force_ratio, 0, 1.3, false},
 };
 
-static void set_spring_law(LawPoint *now, int s)
+static void find_spring_on_law(LawPoint *now, int s)
 {
     const System *system = now->eval.system;
     const Plasticity *flow = system_term_data(system, &plastic_energy);
@@ -114,8 +115,8 @@ static void set_spring_law(LawPoint *now, int s)
  * force until it breaks, since a neighbour may break first. */
 static double evaluate_law(const DrawnLaw *law, const LawPoint *now)
 {
-    return law->evaluate == breaking_force_ratio ? now->x
-                                                 : law->evaluate(now, now->x);
+    return law->find_y == breaking_force_ratio ? now->x
+                                               : law->find_y(now, now->x);
 }
 
 /* Finds the scene's law, and the point of the most loaded element on its curve.
@@ -133,7 +134,7 @@ static const DrawnLaw *find_law(const Simulation *simulation, LawPoint *most)
         law ? system_find_term(system, law->law_term) : NULL;
     if (!term)
         return NULL;
-    bool rubs = law->evaluate == friction_force_ratio;
+    bool rubs = law->find_y == friction_force_ratio;
     *most = (LawPoint){.eval = make_eval_point(system, x, NULL, x),
                        .axis_unit = 1,
                        .x = NAN,
@@ -146,7 +147,7 @@ static const DrawnLaw *find_law(const Simulation *simulation, LawPoint *most)
         most->axis_unit = get_self_contact(system)->d_hat;
     LawPoint now = *most;
     for (int s = 0; s < system->springs && !law->element_term; s++) {
-        set_spring_law(&now, s);
+        find_spring_on_law(&now, s);
         *most = now.load > most->load ? now : *most;
     }
     if (!law->element_term)
@@ -163,7 +164,7 @@ static const DrawnLaw *find_law(const Simulation *simulation, LawPoint *most)
         now.x = element->s;
         if (rubs) {
             now.load = walk.kind->friction_limit(&now.eval, element, t, &slip);
-            element_compute_weighted_sums(element, v, w);
+            element_compute_vectors(element, v, w);
             for (int i = 0; i < 2 * element->vector_count; i++)
                 slip -= t[i] * w[i];
             mean = force > 0 ? mean : 0;
@@ -180,7 +181,7 @@ bool law_find_contact(const Simulation *simulation, NodeContact *gap)
 {
     LawPoint now;
     const DrawnLaw *law = find_law(simulation, &now);
-    if (!law || isnan(now.x) || law->evaluate != element_energy_at)
+    if (!law || isnan(now.x) || law->find_y != element_energy_at)
         return false;
     bool self = law->element_term == &self_contact_energy;
     gap->d_hat = now.axis_unit;
@@ -194,7 +195,7 @@ bool law_find_contact(const Simulation *simulation, NodeContact *gap)
 }
 
 /* Returns the contact force -dW/dd, N. */
-static double contact_force_at(const LawPoint *now)
+static double find_contact_force(const LawPoint *now)
 {
     const Element *element = &now->element;
     double g[4];
@@ -204,7 +205,7 @@ static double contact_force_at(const LawPoint *now)
 
 /* Finds the ends of a spring's plastic flow on the curve.  Returns false if the
  * spring has not flowed, or has flowed in both directions. */
-static bool find_flow_path(const LawPoint *now, double from[2], double to[2])
+static bool find_plastic_path(const LawPoint *now, double from[2], double to[2])
 {
     const Plasticity *flow =
         system_term_data(now->eval.system, &plastic_energy);
@@ -242,20 +243,20 @@ void list_law_values(const Simulation *simulation, LiveValues *values)
     if (!law)
         return;
     bool self = law->element_term == &self_contact_energy;
-    bool flows = law->evaluate == flow_force_at;
+    bool flows = law->find_y == plastic_force_at;
     bool still = flows && now.flow_law.ep_n == 0;
     double way[2];
     values_add_flag(values, "law", true);
     values_add_flag(values, "unflowed", still);
     values_add_flag(values, "bodies apart", self);
     values_add_flag(values, law->name, !isnan(now.x) && !still);
-    if (law->evaluate == element_energy_at) {
+    if (law->find_y == element_energy_at) {
         const System *system = now.eval.system;
         values_add(values, "c",
                    self ? get_self_contact(system)->c
                         : get_contact(system)->barrier.c);
         values_add(values, "d hat", 1e3 * now.axis_unit);
-        values_add(values, "law force", contact_force_at(&now));
+        values_add(values, "law force", find_contact_force(&now));
     }
     values_add(values, "law x", now.x);
     values_add(values, "law mm", 1e3 * now.x);
@@ -283,25 +284,25 @@ void draw_law_card(const Plot *card)
     double low = law->axis_low * now->axis_unit,
            high = law->axis_high * now->axis_unit;
     double most = both ? 1.4 * now->flow_law.yield_strain
-                       : fmax(law->evaluate(now, 0.9 * low + 0.1 * high),
-                              law->evaluate(now, 0.25 * low + 0.75 * high));
+                       : fmax(law->find_y(now, 0.9 * low + 0.1 * high),
+                              law->find_y(now, 0.25 * low + 0.75 * high));
     double x = now->x, y = evaluate_law(law, now);
     const double rest[2] = {now->flow_law.ep_n, 0};
     const double dot[2] = {fmin(fmax(x, low), high), y};
     most = plot_round_axis_end(1.1 * fmax(most, fabs(y)));
     Plot plot = plot_create(
         card,
-        (Axis){low, high, .shows_milli = law->is_milli, .label = law->x_label},
+        (Axis){low, high, .shows_milli = law->is_in_mm, .label = law->x_label},
         (Axis){both ? -most : -0.02 * most, most, .label = law->y_label});
-    plot_graph(&plot, law->evaluate, now, 2.4, COLOUR_X);
-    if (law->evaluate == element_energy_at && !isnan(x))
+    plot_graph(&plot, law->find_y, now, 2.4, COLOUR_X);
+    if (law->find_y == element_energy_at && !isnan(x))
         plot_line(&plot,
-                  (double[2]){low, y + (x - low) * contact_force_at(now)},
-                  (double[2]){high, y + (x - high) * contact_force_at(now)},
+                  (double[2]){low, y + (x - low) * find_contact_force(now)},
+                  (double[2]){high, y + (x - high) * find_contact_force(now)},
                   1.4, COLOUR_FORCE);
     if (both && rest[0] != 0) {
         double from[2], to[2];
-        if (find_flow_path(now, from, to)) {
+        if (find_plastic_path(now, from, to)) {
             plot_line(&plot, (double[2]){0, 0}, from, 2.4, COLOUR_PLASTIC);
             plot_line(&plot, from, to, 2.4, COLOUR_PLASTIC);
             plot_line(&plot, to, (double[2]){x, y}, 2.4, COLOUR_PLASTIC);

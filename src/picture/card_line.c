@@ -3,7 +3,7 @@
 
 #include "picture/cards.h"
 
-enum { LINE_POINTS = 161 };
+enum { PLOT_POINTS = 161 };
 
 /* The alpha axis ends at AXIS_END times the first trial step, at PAGE_END times
  * with the curve of the projected p.  The E axis ends at MAX_ABOVE times the
@@ -16,12 +16,12 @@ static const double WORDS_WIDTH = 28;  /* ems, a narrower legend has two rows */
 
 /* Changes of E along p as functions of alpha. */
 typedef struct LineCurves {
-    double alpha[LINE_POINTS], exact_E[LINE_POINTS], model_E[LINE_POINTS];
-    double projected_E[LINE_POINTS]; /* E along the projected p; NaN: none */
+    double alpha[PLOT_POINTS], exact_E[PLOT_POINTS], model_E[PLOT_POINTS];
+    double projected_E[PLOT_POINTS]; /* E along the projected p; NaN: none */
     double low, high;                /* ends of the axis of E */
 } LineCurves;
 
-static double line_energy_at(const NewtonTrace *trace, double alpha)
+static double energy_along_p(const NewtonTrace *trace, double alpha)
 {
     double value = trace->energy_difference(trace->difference_data, alpha);
     return isfinite(value) ? value : NAN;
@@ -36,12 +36,12 @@ static void compute_line_curves(const NewtonTrace *trace,
     double end =
         (other ? PAGE_END : AXIS_END) * find_trial_step_length(trace, 1);
     double low = 0, high = 0;
-    for (int i = 0; i < LINE_POINTS; i++) {
-        double alpha = end * i / (LINE_POINTS - 1);
+    for (int i = 0; i < PLOT_POINTS; i++) {
+        double alpha = end * i / (PLOT_POINTS - 1);
         curves->alpha[i] = alpha;
-        curves->exact_E[i] = line_energy_at(trace, alpha);
+        curves->exact_E[i] = energy_along_p(trace, alpha);
         curves->model_E[i] = trace->slope * (alpha - 0.5 * alpha * alpha);
-        curves->projected_E[i] = other ? line_energy_at(other, alpha) : NAN;
+        curves->projected_E[i] = other ? energy_along_p(other, alpha) : NAN;
         low = fmin(low, fmin(curves->exact_E[i], curves->model_E[i]));
         low = fmin(low, curves->projected_E[i]);
         if (!isnan(curves->exact_E[i]))
@@ -87,9 +87,9 @@ static void draw_line_legend(const Plot *card, Box *rest)
 {
     Paper *paper = card->paper;
     int rows = card->box.width / paper->em < WORDS_WIDTH ? 2 : 1;
-    int high = paper_pixels(paper, rows * ROW_HEIGHT), at[2] = {0, 0};
-    TextLine line = text_begin(&card->pane->values, card_line.legend);
-    int air = paper_pixels(paper, 0.4); /* pixels above for superscripts */
+    int high = paper_to_pixels(paper, rows * ROW_HEIGHT), at[2] = {0, 0};
+    TextLine line = lines_begin(&card->pane->values, card_line.legend);
+    int air = paper_to_pixels(paper, 0.4); /* pixels above for superscripts */
     Box words = box_cut_off(rest, EDGE_TOP, high);
     words.y -= air;
     words.height += air;
@@ -101,7 +101,7 @@ static void draw_line_legend(const Plot *card, Box *rest)
 
 /* Draws the curves and the trials.  A page about projection also shows E along
  * the projected p until the first step is made. */
-void draw_line_energy_card(const Plot *card)
+void draw_line_search_card(const Plot *card)
 {
     const Pane *pane = card->pane;
     const NewtonTrace *trace = pane->shown_trace;
@@ -114,30 +114,30 @@ void draw_line_energy_card(const Plot *card)
     }
     bool both = text_has_known_line(&pane->values, "{directions}");
     if (both)
-        descent_direction(card->simulation, PROJECTION_CLAMP, other.start,
-                          other.p);
+        descent_find_p(card->simulation, PROJECTION_CLAMP, other.start,
+                       other.p);
     other.trace.difference_data = &other;
     compute_line_curves(trace, both ? &other.trace : NULL, &curves);
-    Axis x = {0, curves.alpha[LINE_POINTS - 1], .label = "{alpha}"};
+    Axis x = {0, curves.alpha[PLOT_POINTS - 1], .label = "{alpha}"};
     Axis y = {curves.low, curves.high, .label = NULL};
     Plot rest = *card;
     if (!card->content->has_document)
         draw_line_legend(card, &rest.box);
     Plot plot = plot_create(&rest, x, y);
-    plot_curve(&plot, LINE_POINTS, curves.alpha, curves.model_E, 1.3, COLOUR_P);
-    plot_curve(&plot, LINE_POINTS, curves.alpha, curves.projected_E, 2,
+    plot_curve(&plot, PLOT_POINTS, curves.alpha, curves.model_E, 1.3, COLOUR_P);
+    plot_curve(&plot, PLOT_POINTS, curves.alpha, curves.projected_E, 2,
                COLOUR_PROJECT);
-    plot_curve(&plot, LINE_POINTS, curves.alpha, curves.exact_E, 2, COLOUR_X);
+    plot_curve(&plot, PLOT_POINTS, curves.alpha, curves.exact_E, 2, COLOUR_X);
     plot_disc(&plot, (double[2]){0, 0}, 3.5, COLOUR_TEXT);
     double first = find_trial_step_length(trace, 1);
-    double full = line_energy_at(trace, first);
+    double full = energy_along_p(trace, first);
     bool is_main = card->simulation->options.main_card;
     if (trace->trials == 0 && is_main && full > plot.y.high)
         draw_trial_step(&plot, first, full, false);
     for (int t = 0; t < trace->trials; t++) {
         double at = find_trial_step_length(trace, t + 1);
         bool last = t == trace->trials - 1;
-        draw_trial_step(&plot, at, line_energy_at(trace, at),
+        draw_trial_step(&plot, at, energy_along_p(trace, at),
                         last && trace->is_accepted);
     }
 }

@@ -18,8 +18,8 @@ ShownRow listing_make_row(const Pane *pane, const ListingRow *row)
     bool struck = text_has_known_line(values, row->crossed_out_if);
     return (ShownRow){.is_highlighted = trace && trace->at_line == row->at_line,
                       .is_crossed_out = struck,
-                      .text = text_first_line(values, row->text),
-                      .value = text_first_line(
+                      .text = text_find_known_line(values, row->text),
+                      .value = text_find_known_line(
                           values, reached || struck ? row->value : NULL)};
 }
 
@@ -31,11 +31,11 @@ static void draw_listing_row(const Plot *card, Box box, const ListingRow *row,
     const ShownRow now = listing_make_row(card->pane, row);
     char digits[12];
     double size = box.height < 0.95 * PAGE_PITCH * paper->em ? 1 : 1.2;
-    int indent = paper_pixels(paper, 2 + 1.2 * row->is_indented);
+    int indent = paper_to_pixels(paper, 2 + 1.2 * row->is_indented);
     int wide = paper_measure(paper, FACE_REGULAR, 0.88 * size, now.value.text);
-    Box count = {box.x, box.y, paper_pixels(paper, 1.2), box.height};
+    Box count = {box.x, box.y, paper_to_pixels(paper, 1.2), box.height};
     Box room = {box.x + indent, box.y,
-                box.width - indent - wide - paper_pixels(paper, 1.4),
+                box.width - indent - wide - paper_to_pixels(paper, 1.4),
                 box.height};
     bool both = paper_measure(paper, FACE_REGULAR, paper->min_letter_size,
                               now.text.text) <= room.width;
@@ -54,7 +54,7 @@ static void draw_listing_row(const Plot *card, Box box, const ListingRow *row,
                     (Box){room.x, box.y + box.height / 2, text,
                           (int)fmax(1, 1.3 * paper->unit)},
                     COLOUR_GREY);
-    box.width -= paper_pixels(paper, 0.6);
+    box.width -= paper_to_pixels(paper, 0.6);
     if (both)
         paper_write_in_box(paper, FACE_REGULAR, 0.88 * size,
                            now.is_highlighted ? COLOUR_TEXT : COLOUR_FAINT, box,
@@ -63,7 +63,7 @@ static void draw_listing_row(const Plot *card, Box box, const ListingRow *row,
 
 /* Draws the rows that are shown now, from the box `line` downwards; draw NULL:
  * draws nothing.  Returns the number of these rows. */
-static int lay_out_listing(const FrameContent *content, const ListingRow *row,
+static int typeset_listing(const FrameContent *content, const ListingRow *row,
                            const Plot *draw, Box line)
 {
     int count = 0;
@@ -86,17 +86,17 @@ static double find_row_pitch(const FrameContent *content)
 double listing_find_height(const FrameContent *content, double wide, double em)
 {
     return find_row_pitch(content) *
-               lay_out_listing(content, rows_listing, NULL, (Box){0}) +
+               typeset_listing(content, rows_listing, NULL, (Box){0}) +
            2.6;
 }
 
 void card_write_listing(const Plot *card, const ListingRow *row)
 {
     double pitch = card->em * find_row_pitch(card->content);
-    int count = lay_out_listing(card->content, row, NULL, (Box){0});
+    int count = typeset_listing(card->content, row, NULL, (Box){0});
     Box line = card->box;
     line.height = (int)fmin(lround(pitch), line.height / (double)count);
-    lay_out_listing(card->content, row, card, line);
+    typeset_listing(card->content, row, card, line);
 }
 
 /* Fills a row of an update, or the last row, which says why the loop ended. */
@@ -125,7 +125,7 @@ bool residuals_make_row(const FrameContent *content, int row,
 }
 
 /* Draws the table of residuals, and on a high card their plot below. */
-void draw_residual_log_card(const Plot *card)
+void draw_residual_table_card(const Plot *card)
 {
     static const int order[CARD_COLUMNS] = {0, 1, 3, 2};
     Plot above = *card, below = *card;
@@ -137,7 +137,7 @@ void draw_residual_log_card(const Plot *card)
     if (trace && card->box.height > 14 * card->em) {
         above.box = box_cut_off(&below.box, EDGE_TOP,
                                 (int)(TABLE_PART * card->box.height));
-        above.box.height -= paper_pixels(card->paper, 0.7);
+        above.box.height -= paper_to_pixels(card->paper, 0.7);
         draw_residual_card(&below);
     }
     if (trace && trace->record_count > 0)

@@ -6,10 +6,10 @@
 
 /* A text of the card, with a heading on its left side. */
 typedef struct PageText {
-    const char *heading;  /* word in bold letters at the left, or NULL */
-    const char *text;     /* markup with live values, or NULL */
-    Colour colour;        /* colour of the heading */
-    double letter_factor; /* letters' size / size of the page's letters */
+    const char *heading; /* word in bold letters at the left, or NULL */
+    const char *text;    /* markup with live values, or NULL */
+    Colour colour;       /* colour of the heading */
+    double size_ratio;   /* letters' size / size of the page's letters */
 } PageText;
 
 /* Sizes of a page's letters (ems): usual, largest on a wide card, smallest, and
@@ -28,17 +28,17 @@ static const double GAP = 0.35; /* gap between two texts, in line heights */
  *   size  ems, size of the page's letters
  *   room  width for the heading / size of the page's letters
  * Returns the top of the next text. */
-static int lay_out_text(Paper *paper, Box inside, int y, double size,
+static int typeset_text(Paper *paper, Box inside, int y, double size,
                         double room, const PageText *words,
                         const FrameContent *content, bool draw)
 {
-    double letters = size * words->letter_factor, em = letters * paper->em;
+    double letters = size * words->size_ratio, em = letters * paper->em;
     Box box = {inside.x, y, inside.width, 0};
-    TextLine line = text_begin(&active_pane(content)->values, words->text);
+    TextLine line = lines_begin(&active_pane(content)->values, words->text);
     if (words->heading)
         box_cut_off(
             &box, EDGE_LEFT,
-            paper_pixels(paper, room * fmax(size, paper->min_letter_size)));
+            paper_to_pixels(paper, room * fmax(size, paper->min_letter_size)));
     while (text_next_line(&line)) {
         int lines =
             (int)((inside.y + inside.height - box.y) / text_line_height(em));
@@ -58,15 +58,15 @@ static int lay_out_text(Paper *paper, Box inside, int y, double size,
  *   size        ems, size of the letters
  *   keeps_text  the introduction stays beside question and answer
  * Returns the height of all texts in pixels. */
-static int lay_out_page(Paper *paper, Box inside, double size,
+static int typeset_page(Paper *paper, Box inside, double size,
                         const FrameContent *content, bool keeps_text, bool draw)
 {
     const LectureContent *lecture = &content->lecture;
     const LecturePage *page = lecture->page;
     const char *how =
         page_wants_click(page) ? "Click on the picture. N shows the answer."
-        : page->answer ? "Type a number, then Enter. N shows the answer."
-                       : "Say it, then press N or Space.";
+        : page->answer_name ? "Type a number, then Enter. N shows the answer."
+                            : "Say it, then press N or Space.";
     bool asks = lecture->hides_answer;
     const PageText words[] = {
         {NULL, asks || keeps_text || !lecture->question ? page->intro : NULL,
@@ -79,7 +79,7 @@ static int lay_out_page(Paper *paper, Box inside, double size,
         {asks ? "How" : "Try", asks ? how : page->try, COLOUR_HAND, 1}};
     int y = inside.y;
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
-        y = lay_out_text(paper, inside, y, size, HEADING_WIDTH, &words[i],
+        y = typeset_text(paper, inside, y, size, HEADING_WIDTH, &words[i],
                          content, draw);
     return y - (int)(GAP * text_line_height(size * paper->em)) - inside.y;
 }
@@ -93,18 +93,18 @@ static int measure_page(Paper *paper, Box inside, double size,
     LectureContent *lecture = &other.lecture;
     LiveValues *values = &other.pane[other.active_pane_index].values;
     if (!lecture->question)
-        return lay_out_page(paper, inside, size, content, keeps_text, false);
+        return typeset_page(paper, inside, size, content, keeps_text, false);
     lecture->hides_answer = false;
     lecture->heading[0] = '\0';
-    if (lecture->page->answer && !lecture->verdict)
+    if (lecture->page->answer_name && !lecture->verdict)
         lecture->verdict = "0"; /* placeholder for the verdict's line */
     values_add_flag(values, "told", true);
-    int after = lay_out_page(paper, inside, size, &other, keeps_text, false);
+    int after = typeset_page(paper, inside, size, &other, keeps_text, false);
     lecture->hides_answer = true;
     for (int i = 0; i < values->count; i++)
         if (strcmp(values->value[i].name, "told") == 0)
             values->value[i].name = "";
-    int before = lay_out_page(paper, inside, size, &other, keeps_text, false);
+    int before = typeset_page(paper, inside, size, &other, keeps_text, false);
     return before > after ? before : after;
 }
 
@@ -126,7 +126,7 @@ void draw_page_card(const Plot *card)
             keeps_text = false;
         }
     }
-    lay_out_page(card->paper, card->box, size, card->content, keeps_text, true);
+    typeset_page(card->paper, card->box, size, card->content, keeps_text, true);
 }
 
 Box page_draw_claim(Paper *paper, Box inside, const FrameContent *content)
@@ -134,10 +134,10 @@ Box page_draw_claim(Paper *paper, Box inside, const FrameContent *content)
     const PageText words = {"Tested", content->lecture.page->claim,
                             COLOUR_FAINT, 1};
     int high =
-        lay_out_text(paper, inside, 0, 1, TESTED_WIDTH, &words, content, false);
+        typeset_text(paper, inside, 0, 1, TESTED_WIDTH, &words, content, false);
     int top = inside.y + inside.height - high;
-    lay_out_text(paper, inside, top, 1, TESTED_WIDTH, &words, content, true);
-    inside.height -= high + paper_pixels(paper, 0.5);
+    typeset_text(paper, inside, top, 1, TESTED_WIDTH, &words, content, true);
+    inside.height -= high + paper_to_pixels(paper, 0.5);
     return inside;
 }
 
@@ -145,7 +145,7 @@ Box page_draw_claim(Paper *paper, Box inside, const FrameContent *content)
 static double find_card_height(const FrameContent *content, double wide,
                                double em, double size, bool keeps_text)
 {
-    Paper paper = {.text = content->fonts, .em = em, .min_letter_size = 1};
+    Paper paper = {.font = content->fonts, .em = em, .min_letter_size = 1};
     Box box = {0, 0, (int)(wide * em + 0.5), 0};
     const double around = 2.6; /* ems, height of title and margins */
     return measure_page(&paper, box, size, content, keeps_text) / em + around;

@@ -6,7 +6,7 @@
 
 enum {
     SURFACE_CELLS = 96, /* cells of the surface along one side */
-    LINE_PIECES = 24,   /* pieces of a line that follows the surface */
+    CURVE_PIECES = 24,  /* pieces of a line that follows the surface */
     MAX_CONTOURS = 15   /* most contour lines below the rim */
 };
 
@@ -22,12 +22,12 @@ static const Colour LEVEL_COLOUR = 0x90606060u;
 static const double LIGHT[3] = {0.30, -0.45, 0.84}; /* unit vector to light */
 
 /* The surface of E and its projection to pixels. */
-typedef struct Relief {
+typedef struct Surface {
     const Simulation *simulation;
     Plot plot;           /* maps the projected surface (m) to pixels */
     double rim_E;        /* J s^2, E of the rim */
     double contour_step; /* J s^2, distance between two contour lines */
-} Relief;
+} Surface;
 
 /* A corner of the surface's triangles. */
 typedef struct Corner {
@@ -41,22 +41,22 @@ static double compute_rim_energy(const Simulation *simulation)
     unsigned parts = simulation->exhibit.switches;
     double rim = 0;
     if (parts & PART_INERTIA)
-        rim += landscape_evaluate_parts(simulation, PART_INERTIA,
-                                        target[0] + RIM_INERTIA, target[1]);
+        rim += landscape_sum_energy_parts(simulation, PART_INERTIA,
+                                          target[0] + RIM_INERTIA, target[1]);
     if (parts & PART_ELASTICITY)
         rim += RIM_PASS *
-               landscape_evaluate_parts(simulation, PART_ELASTICITY, 0, 0);
+               landscape_sum_energy_parts(simulation, PART_ELASTICITY, 0, 0);
     return rim;
 }
 
-static Corner evaluate_corner(const Relief *relief, double x, double y)
+static Corner evaluate_corner(const Surface *relief, double x, double y)
 {
-    LocalModel E = descent_evaluate(relief->simulation, PROJECTION_NONE, x, y);
-    return (Corner){x, y, E.energy, landscape_is_convex(&E)};
+    TaylorModel E = descent_evaluate(relief->simulation, PROJECTION_NONE, x, y);
+    return (Corner){x, y, E.energy, local_model_is_convex(&E)};
 }
 
 /* Returns the orthographic projection: m to the right and upwards. */
-static Point project_corner(const Relief *relief, const Corner *corner)
+static Point project_corner(const Surface *relief, const Corner *corner)
 {
     double near = TURN[0] * corner->x - TURN[1] * corner->y;
     double height = HEIGHT * corner->E / relief->rim_E;
@@ -85,7 +85,7 @@ static bool find_contour_piece(const Corner corner[3], double E, Corner end[2])
 }
 
 /* Returns the colour: bright in the light, yellow where E is not convex. */
-static Colour shade_surface_face(const Relief *relief, const Corner corner[3])
+static Colour shade_surface_face(const Surface *relief, const Corner corner[3])
 {
     const Corner *o = &corner[0], *a = &corner[1], *b = &corner[2];
     double scale = HEIGHT / relief->rim_E;
@@ -104,7 +104,7 @@ static Colour shade_surface_face(const Relief *relief, const Corner corner[3])
 
 /* Draws the part of a triangle below the rim, with its contour lines.  A face
  * seen from below is left out: the front wall would hide the valleys. */
-static void draw_surface_face(const Relief *relief, const Corner corner[3])
+static void draw_surface_face(const Surface *relief, const Corner corner[3])
 {
     const Plot *plot = &relief->plot;
     Corner inside[4], end[2];
@@ -137,7 +137,7 @@ static void draw_surface_face(const Relief *relief, const Corner corner[3])
 }
 
 /* Draws cell by cell from the far end to the near end (painter's algorithm). */
-static void draw_surface(const Relief *relief)
+static void draw_surface(const Surface *relief)
 {
     Corner column[2][SURFACE_CELLS + 1];
     double side = 2 * REACH / SURFACE_CELLS;
@@ -156,13 +156,13 @@ static void draw_surface(const Relief *relief)
 }
 
 /* Draws the surface's curve above a line of the plane, up to the rim. */
-static void draw_surface_line(const Relief *relief, const double *a,
+static void draw_surface_line(const Surface *relief, const double *a,
                               const double *b, double width, Colour colour)
 {
     Corner before = {.E = NAN};
-    for (int i = 0; i <= LINE_PIECES; i++) {
+    for (int i = 0; i <= CURVE_PIECES; i++) {
         const Point x =
-            point_along(a, (double)i / LINE_PIECES, vector_between(a, b).xy);
+            point_along(a, (double)i / CURVE_PIECES, vector_between(a, b).xy);
         Corner now = evaluate_corner(relief, x.xy[0], x.xy[1]);
         if (before.E <= relief->rim_E && now.E <= relief->rim_E)
             plot_line(&relief->plot, project_corner(relief, &before).xy,
@@ -171,7 +171,7 @@ static void draw_surface_line(const Relief *relief, const double *a,
     }
 }
 
-static void draw_surface_point(const Relief *relief, const double *x,
+static void draw_surface_point(const Surface *relief, const double *x,
                                double radius, Colour colour, const char *word)
 {
     Corner corner = evaluate_corner(relief, x[0], x[1]);
@@ -184,7 +184,7 @@ static void draw_surface_point(const Relief *relief, const double *x,
 }
 
 /* Draws the updates so far, and the next p as a thin line; red if uphill. */
-static void draw_newton_path(const Relief *relief)
+static void draw_newton_path(const Surface *relief)
 {
     const Descent *descent = &relief->simulation->descent;
     const double *x = descent->iterate;
@@ -201,9 +201,9 @@ static void draw_newton_path(const Relief *relief)
 }
 
 /* Draws the curve of the minimiser as h varies, and a dot for the present h. */
-static void draw_dial_curve(const Relief *relief)
+static void draw_dial_curve(const Surface *relief)
 {
-    const DialCurve *dial = &relief->simulation->exhibit.dial;
+    const MinimiserCurve *dial = &relief->simulation->exhibit.dial;
     int points = relief->plot.content->lecture.hides_answer ? 0 : DIAL_POINTS;
     for (int i = 1; i < points; i++)
         draw_surface_line(relief, dial->minimiser[i - 1], dial->minimiser[i], 3,
@@ -213,7 +213,7 @@ static void draw_dial_curve(const Relief *relief)
 }
 
 /* Draws arrows along x, y and E, and writes the distance of the contours. */
-static void draw_relief_axes(const Relief *relief)
+static void draw_relief_axes(const Surface *relief)
 {
     static const char *const names[] = {"x", "y", "J s\u00b2"};
     const Plot *plot = &relief->plot;
@@ -240,9 +240,9 @@ static void draw_relief_axes(const Relief *relief)
 void draw_relief_card(const Plot *card)
 {
     static const double bounds[4] = {-1.62, -0.75, 1.88, 2.2}; /* m */
-    Relief relief = {card->simulation, *card,
-                     compute_rim_energy(card->simulation), 0};
-    relief.contour_step = plot_round_up(relief.rim_E / MAX_CONTOURS);
+    Surface relief = {card->simulation, *card,
+                      compute_rim_energy(card->simulation), 0};
+    relief.contour_step = plot_nice_number(relief.rim_E / MAX_CONTOURS);
     relief.plot.camera = camera_create(card->box, bounds, false, &LENS_FITS);
     draw_surface(&relief);
     draw_relief_axes(&relief);

@@ -9,7 +9,7 @@ bool card_make_row(const FrameContent *content, const Card *card, int row,
                    CardTableRow *cells)
 {
     const LiveValues *values = &active_pane(content)->values;
-    const TextLine heads = text_first_line(values, card->column_heads);
+    const TextLine heads = text_find_known_line(values, card->column_heads);
     size_t length;
     *cells = (CardTableRow){.colour = COLOUR_TEXT};
     for (const char *at = heads.text; *at; cells->columns++) {

@@ -8,7 +8,7 @@
 
 /* Draws E and its parts along the line from x^n (t = 0) to x_tilde (t = 1), and
  * E at x as a dot at the t of the line's nearest point. */
-void draw_step_energy_card(const Plot *card)
+void draw_energy_parts_card(const Plot *card)
 {
     enum {
         POINT_COUNT = 31,
@@ -19,7 +19,7 @@ void draw_step_energy_card(const Plot *card)
         const char *name; /* name of the curve */
         Colour colour;
         int label_index;     /* index of the point with the label */
-        double label_factor; /* height of label / height of curve */
+        double height_ratio; /* height of label / height of curve */
     } parts[] = {{"inertia", COLOUR_X_TILDE, 10, 1},
                  {"h\u00b2 P", COLOUR_SHADED, 20, 0.72},
                  {"E", COLOUR_X, 3, 1}};
@@ -71,7 +71,7 @@ void draw_step_energy_card(const Plot *card)
     for (int k = 0; k < 3; k++) {
         int i = parts[k].label_index;
         plot_label(&plot, 1,
-                   (double[2]){t[i], parts[k].label_factor * part[k][i]},
+                   (double[2]){t[i], parts[k].height_ratio * part[k][i]},
                    parts[k].colour, "%s", parts[k].name);
     }
 }
@@ -99,7 +99,7 @@ void draw_residual_card(const Plot *card)
     }
     bool is_main = card->simulation->options.main_card;
     Axis x = {0.5, fmax(updates + pending, 4) + (is_main ? 0.9 : 0.5),
-              .scale = SCALE_WHOLE, .label = "update"};
+              .scale = SCALE_INTEGER, .label = "update"};
     Axis y = {pow(10, floor(log10(low))), pow(10, ceil(log10(high))),
               .scale = SCALE_LOG, .label = is_main ? "residual, m/s" : NULL};
     Plot plot = plot_create(card, x, y);
@@ -134,7 +134,7 @@ bool updates_make_row(const FrameContent *content, int row, CardTableRow *cells)
     bool now = before && trace->at_line >= LINE_PROJECT &&
                trace->projected_blocks >= 0;
     const NewtonRecord *update = &trace->record[row - 1];
-    StepLine line = row <= made ? LINE_END_STEP : trace->at_line;
+    AlgoLine line = row <= made ? LINE_END_STEP : trace->at_line;
     if (row > made + now)
         return false;
     snprintf(cells->cell[0], CARD_CELL, "%d", row);

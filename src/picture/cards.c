@@ -18,10 +18,10 @@ Box card_find_inner_box(Box card, double em)
 static Box draw_card_frame(Paper *paper, Box box, const char *words,
                            bool closed)
 {
-    int bar = paper_pixels(paper, TITLE_BAR);
+    int bar = paper_to_pixels(paper, TITLE_BAR);
     Box title = {box.x, box.y, box.width, bar};
     Box cross = box_cut_off(&title, EDGE_RIGHT, bar);
-    box_cut_off(&title, EDGE_LEFT, paper_pixels(paper, 0.8));
+    box_cut_off(&title, EDGE_LEFT, paper_to_pixels(paper, 0.8));
     canvas_framed_box(&paper->canvas, box, COLOUR_WHITE, COLOUR_BORDER);
     paper_write_in_box(paper, FACE_BOLD, 0.96,
                        closed ? COLOUR_FAINT : COLOUR_TEXT, title, ALIGN_LEFT,
@@ -126,7 +126,7 @@ double code_find_width(const LecturePage *page)
 static void draw_code(Paper *paper, Box inside, const FrameContent *content)
 {
     const char *const *code = content->lecture.page->code;
-    const char *mark = lecture_find_lit_code(content);
+    const char *mark = lecture_find_highlight(content);
     const double letter = 0.603, high = 1.3, low = 1.17, most = 1.9; /* ems */
     int lines;
     double letters = measure_code_width(content->lecture.page, &lines);
@@ -136,9 +136,9 @@ static void draw_code(Paper *paper, Box inside, const FrameContent *content)
     double wide = floor((cell + 0.49) / letter);
     double size = fmin(wide, inside.height / (low * lines)) / paper->em;
     size = fmax(fmin(size, most), paper->min_letter_size);
-    int line =
-        (int)fmax(fmin(paper_pixels(paper, high * size), inside.height / lines),
-                  low * size * paper->em);
+    int line = (int)fmax(
+        fmin(paper_to_pixels(paper, high * size), inside.height / lines),
+        low * size * paper->em);
     int fit = inside.height / line, lit = 0;
     TextStyle style = {FACE_MONO, size * paper->em, COLOUR_TEXT, true, 0};
     for (int i = 0; i < lines; i++)
@@ -155,7 +155,7 @@ static void draw_code(Paper *paper, Box inside, const FrameContent *content)
             canvas_fill(&paper->canvas, (Box){inside.x, y, inside.width, line},
                         COLOUR_LIT);
         if (k >= fit && words[0])
-            text_draw(paper->text, &paper->canvas, &style, inside.x + air, y,
+            text_draw(paper->font, &paper->canvas, &style, inside.x + air, y,
                       ALIGN_LEFT, words);
     }
 }
@@ -187,7 +187,7 @@ static void draw_code_or_list(Paper *paper, const Layout *layout,
         [COLUMN_KEYS] = "Keys and mouse",
         [COLUMN_OPTIONS] = "Numbers of this scene"};
     bool code = content->column == COLUMN_CODE;
-    Box box = box_inset(layout->column, paper_pixels(paper, 0.9));
+    Box box = box_inset(layout->column, paper_to_pixels(paper, 0.9));
     Box inside = draw_card_frame(
         paper, box,
         code ? content->lecture.page->file : titles[content->column], false);
@@ -208,9 +208,9 @@ void cards_draw(Paper *paper, const Layout *layout, const FrameContent *content)
         Box box = layout->card[i];
         if (box.width < 1)
             continue; /* hidden cards have no width */
-        TextLine title = text_first_line(&active_pane(content)->values,
-                                         picture->cards[i]->title);
-        bool closed = box.height <= paper_pixels(paper, TITLE_BAR) + 1;
+        TextLine title = text_find_known_line(&active_pane(content)->values,
+                                              picture->cards[i]->title);
+        bool closed = box.height <= paper_to_pixels(paper, TITLE_BAR) + 1;
         Box inside = draw_card_frame(paper, box, title.text, closed);
         if (closed || inside.width < 1 || inside.height < 1)
             continue;

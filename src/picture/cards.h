@@ -14,7 +14,7 @@ typedef struct ListingRow {
     /* Conditions for showing and crossing out the row: texts, fulfilled if all
      * values in a line are known.  shown_if NULL: end of the rows. */
     const char *shown_if, *crossed_out_if;
-    StepLine at_line; /* line of Algorithm 3 in this row */
+    AlgoLine at_line; /* line of Algorithm 3 in this row */
     bool is_indented;
     const char *text;
     const char *value; /* text at the right, once the line is executed */
@@ -39,16 +39,16 @@ extern const char text_sentences[], text_methods[], text_states[],
 #pragma GCC diagnostic ignored "-Wunused-parameter"
 
 /* Functions that cards.txt names; picture.h describes each kind. */
-typedef void StageBounds(const Plot *stage, double bounds[4]);
+typedef void StageFindBounds(const Plot *stage, double bounds[4]);
 typedef void StageDraw(Plot *stage);
 typedef void StageAddValues(const Simulation *simulation, LiveValues *values);
-typedef void StagePick(const Plot *stage, double x, double y, Pick *pick);
-typedef int StageEnergies(const Simulation *simulation, Energy *row);
+typedef void StageFindPick(const Plot *stage, double x, double y, Pick *pick);
+typedef int StageGetEnergies(const Simulation *simulation, Energy *row);
 typedef void CardDraw(const Plot *card);
 typedef bool CardMakeRow(const FrameContent *content, int row,
                          CardTableRow *cells);
-typedef double CardHeight(const FrameContent *content, double wide, double em);
-extern StageBounds find_square_bounds, find_circle_bounds, find_mass_bounds,
+typedef double FindHeight(const FrameContent *content, double wide, double em);
+extern StageFindBounds find_square_bounds, find_circle_bounds, find_mass_bounds,
     find_tangent_bounds, find_spring_bounds, find_race_bounds;
 extern StageDraw draw_square_picture, draw_circle_picture, draw_scalar_picture,
     draw_landscape_picture, draw_mass_picture, draw_tangent_picture,
@@ -58,28 +58,28 @@ extern StageAddValues list_square_values, list_circle_values,
     list_scalar_values, list_landscape_values, list_mass_values,
     list_dial_values, list_spring_values, list_race_values,
     list_envelope_values;
-extern StagePick square_pick, circle_pick, tangent_pick, envelope_pick;
-extern StageEnergies square_sample_energies, mass_sample_energies;
-extern CardDraw draw_page_card, draw_residual_log_card, draw_line_energy_card,
-    draw_residual_card, draw_step_energy_card, draw_updates_card,
-    draw_energies_card, draw_energy_budget_card, draw_radius_card,
+extern StageFindPick square_pick, circle_pick, tangent_pick, envelope_pick;
+extern StageGetEnergies square_sample_energies, mass_sample_energies;
+extern CardDraw draw_page_card, draw_residual_table_card, draw_line_search_card,
+    draw_residual_card, draw_energy_parts_card, draw_updates_card,
+    draw_energies_card, draw_energy_budget_card, draw_orbit_radius_card,
     draw_relief_card, draw_eigenvalues_card, draw_tangent_numbers_card,
     draw_law_card, draw_hessian_pattern_card, draw_spring_profile_card,
     draw_race_table_card;
 extern CardMakeRow residuals_make_row, updates_make_row, iterates_make_row,
     race_make_row, energies_make_legend_row;
-extern CardHeight page_find_height, listing_find_height, energies_find_height,
+extern FindHeight page_find_height, listing_find_height, energies_find_height,
     updates_find_height;
 
 /* Returns the height of the page's card in the smallest letters, ems. */
-CardHeight page_find_least_height;
+FindHeight page_find_least_height;
 
 /* Writes the page's claim, which a test checks, at the bottom of the box.
  * Returns the box above the claim. */
 Box page_draw_claim(Paper *paper, Box inside, const FrameContent *content);
 
 /* Whether the Hessian before projection is positive definite. */
-bool landscape_is_convex(const LocalModel *E);
+bool local_model_is_convex(const TaylorModel *E);
 
 /* Adds the values of the scene's law, for the element with the largest load. */
 void list_law_values(const Simulation *simulation, LiveValues *values);
@@ -105,10 +105,10 @@ bool frame_has_card(const FrameContent *content, const char *name);
 
 /* Returns a text: lines of the page's code that contain the text are lit.
  * During Algorithm 3 the text depends on the present line of the algorithm. */
-const char *lecture_find_lit_code(const FrameContent *content);
+const char *lecture_find_highlight(const FrameContent *content);
 
 /* Returns the newest spring: each step adds a spring to the Hessian. */
-int find_newest_spring(const Simulation *simulation);
+int find_added_spring(const Simulation *simulation);
 
 /* Returns the box inside a card, below the title; em in pixels. */
 Box card_find_inner_box(Box card, double em);
@@ -157,7 +157,7 @@ void cards_draw(Paper *paper, const Layout *layout,
 
 /* On a page of the lecture, highlights all pixels in the colour of the term
  * under the mouse, or else of the term that the present line computes. */
-void draw_highlight(Paper *paper, const FrameContent *content);
+void draw_term_highlight(Paper *paper, const FrameContent *content);
 
 /* Draws title bar, settings, time line and chips. */
 void window_rows_draw(Paper *paper, const Layout *layout,

@@ -14,12 +14,12 @@ static Colour colour_of_shade(int shade)
 
 #define COLOUR_REFUSED 0xffe08a1eu
 
-static Colour colour_of_cell(const EnvelopeCell *cell)
+static Colour colour_of_cell(const ConvergenceCell *cell)
 {
     int shade = 0;
     if (!cell->is_known)
         return COLOUR_CHIP;
-    if (cell->bad_status)
+    if (cell->run_status)
         return COLOUR_REFUSED;
     while (shade < ENVELOPE_DARKEST_SHADE && cell->updates > 4 << shade)
         shade++;
@@ -29,8 +29,8 @@ static Colour colour_of_cell(const EnvelopeCell *cell)
 /* Returns the box of a cell, with a gap of a pixel to the next cells. */
 static Box find_cell_box(const Plot *stage, int column, int row)
 {
-    double x = log10(envelope_timestep(column));
-    double y = log10(envelope_stiffness(row));
+    double x = log10(envelope_get_timestep(column));
+    double y = log10(envelope_get_stiffness(row));
     const double low[2] = {x - 0.25, y - 0.5}, high[2] = {x + 0.25, y + 0.5};
     double p[2], q[2];
     plot_to_pixel(stage, low, p);
@@ -58,7 +58,7 @@ static void draw_ratio_line(const Plot *plot, double ratio)
 /* Draws axes, cells, a border around the selected cell, and the ratio lines. */
 void draw_envelope_picture(Plot *stage)
 {
-    const EnvelopeMap *map = &stage->simulation->exhibit.envelope;
+    const ConvergenceMap *map = &stage->simulation->exhibit.envelope;
     Plot plot = plot_create_on_stage(
         stage, (Axis){.scale = SCALE_LOG, .label = "h in s"},
         (Axis){.scale = SCALE_LOG, .label = "k in J/m\u00b2"});
@@ -91,27 +91,27 @@ void envelope_pick(const Plot *stage, double x, double y, Pick *pick)
 
 void list_envelope_values(const Simulation *simulation, LiveValues *values)
 {
-    const EnvelopeMap *map = &simulation->exhibit.envelope;
-    const EnvelopeCell *cell = &map->cell[map->shown_row][map->shown_column];
+    const ConvergenceMap *map = &simulation->exhibit.envelope;
+    const ConvergenceCell *cell = &map->cell[map->shown_row][map->shown_column];
     int known = 0, converged = 0;
     for (int i = 0; i < ENVELOPE_ROWS * ENVELOPE_COLUMNS; i++) {
-        const EnvelopeCell *one =
+        const ConvergenceCell *one =
             &map->cell[i / ENVELOPE_COLUMNS][i % ENVELOPE_COLUMNS];
         known += one->is_known;
-        converged += one->is_known && !one->bad_status;
+        converged += one->is_known && !one->run_status;
     }
-    values->line_colour[0] = colour_of_shade(3);
-    values->line_colour[1] = colour_of_shade(2);
-    values->line_colour[2] = COLOUR_REFUSED;
+    values->text_line_colour[0] = colour_of_shade(3);
+    values->text_line_colour[1] = colour_of_shade(2);
+    values->text_line_colour[2] = COLOUR_REFUSED;
     bool all = known == ENVELOPE_ROWS * ENVELOPE_COLUMNS;
     values_add_flag(values, "all converged", all && converged == known);
     values_add_flag(values, "refused", all && converged < known);
     values_add(values, "known", known > 1 ? known : NAN);
     values_add(values, "converged", converged);
-    values_add(values, "h", envelope_timestep(map->shown_column));
-    values_add(values, "k", envelope_stiffness(map->shown_row));
+    values_add(values, "h", envelope_get_timestep(map->shown_column));
+    values_add(values, "k", envelope_get_stiffness(map->shown_row));
     values_add(values, "steps", ENVELOPE_STEPS);
     values_add(values, "updates", cell->updates);
-    values_add_flag(values, "refused cell", cell->bad_status);
-    values_add_flag(values, "converged cell", !cell->bad_status);
+    values_add_flag(values, "refused cell", cell->run_status);
+    values_add_flag(values, "converged cell", !cell->run_status);
 }

@@ -68,8 +68,8 @@ static void highlight_pixels(Canvas *canvas, Colour colour, int radius)
 }
 
 /* Returns the colour of the nearest term within `reach` pixels; 0: none. */
-static Colour find_term_colour(const Canvas *canvas, const double at[2],
-                               int reach)
+static Colour find_term_colour_at(const Canvas *canvas, const double at[2],
+                                  int reach)
 {
     const Box whole = {0, 0, canvas->width, canvas->height};
     int x = (int)at[0], y = (int)at[1], least = reach * reach + 1;
@@ -91,7 +91,7 @@ static Colour find_term_colour(const Canvas *canvas, const double at[2],
     return best;
 }
 
-void draw_highlight(Paper *paper, const FrameContent *content)
+void draw_term_highlight(Paper *paper, const FrameContent *content)
 {
     static const Colour of_line[LINE_COUNT] = {[LINE_PROJECT] = COLOUR_PROJECT,
                                                [LINE_SOLVE] = COLOUR_P,
@@ -105,8 +105,8 @@ void draw_highlight(Paper *paper, const FrameContent *content)
     if (!content->lecture.page)
         return;
     if (idle && (mouse->zone == ZONE_CARD || stage))
-        colour = find_term_colour(&paper->canvas, mouse->pixel,
-                                  (int)(MOUSE_REACH * paper->em));
+        colour = find_term_colour_at(&paper->canvas, mouse->pixel,
+                                     (int)(MOUSE_REACH * paper->em));
     bool plain = over == PICK_NODE ||
                  (over == PICK_SWITCH && !(layers & LAYER_SPRING_KINDS));
     if (plain || (colour == COLOUR_X && stage) || layers & LAYER_ZERO_CURVES)

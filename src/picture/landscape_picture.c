@@ -16,7 +16,7 @@ static const Colour curve_colour[2] = {0xff009e73u, 0xff0072b2u};
 /* ---- the map ------------------------------------------------------------ */
 
 /* Returns the difference between a value and the nearest contour's level. */
-static double find_contour_difference(double value)
+static double find_distance_to_level(double value)
 {
     double nearest = INFINITY;
     for (int k = 0; k < MAP_LEVEL_COUNT; k++)
@@ -33,12 +33,12 @@ static double find_contour_scale(const Simulation *simulation)
 }
 
 /* Returns E at x, with the Hessian before projection. */
-static LocalModel evaluate_energy(const Simulation *simulation, const double *x)
+static TaylorModel evaluate_model(const Simulation *simulation, const double *x)
 {
     return descent_evaluate(simulation, PROJECTION_NONE, x[0], x[1]);
 }
 
-bool landscape_is_convex(const LocalModel *E)
+bool local_model_is_convex(const TaylorModel *E)
 {
     return E->H[0] > 0 && E->H[0] * E->H[2] > E->H[1] * E->H[1];
 }
@@ -54,12 +54,12 @@ static void draw_contours(const Plot *plot, int i, int j, double value,
     double width = fmax(1, (zero ? 1.8 : 0.6) * plot->paper->unit);
     double reach = 0.5 + 0.5 * width;
     double slope = sqrt(right * right + up * up);
-    double away = zero ? fabs(value) : find_contour_difference(value);
+    double away = zero ? fabs(value) : find_distance_to_level(value);
     if (away > (reach + 1) * slope)
         return;
     for (int k = 0; k < 4; k++) {
         double at = value + (k % 2 - 0.5) * right - (k / 2 - 0.5) * up;
-        away = zero ? fabs(at) : find_contour_difference(at);
+        away = zero ? fabs(at) : find_distance_to_level(at);
         double part = fmin(fmax(reach - away / slope, 0), 1);
         canvas_fill(&plot->paper->canvas, (Box){i + k % 2, j + k / 2, 1, 1},
                     (Colour)(255 * part) << 24 | (colour & 0xffffff));
@@ -80,11 +80,11 @@ static void draw_contour_map(const Plot *plot)
     canvas_fill(canvas, *box, COLOUR_WHITE);
     for (int j = box->y; j < box->y + box->height; j += 2)
         for (int i = box->x; i < box->x + box->width; i += 2) {
-            LocalModel E =
+            TaylorModel E =
                 descent_evaluate(simulation, PROJECTION_NONE,
                                  plot->x.low + (i - box->x + 1) * metre,
                                  plot->y.high - (j - box->y + 1) * metre);
-            if (!landscape_is_convex(&E))
+            if (!local_model_is_convex(&E))
                 canvas_fill(canvas, (Box){i, j, 2, 2}, COLOUR_SHADE);
             draw_contours(plot, i, j, E.energy / e, E.g[0] * metre / e,
                           E.g[1] * metre / e, false, contour);
@@ -105,7 +105,7 @@ static void write_contour_levels(const Plot *plot)
     const Box inside = box_inset(plot->box, (int)plot->em);
     for (double gone = 0; gone < 3; gone += pace) {
         const Point x = point_along(simulation->exhibit.x_tilde, gone, ray);
-        double value = evaluate_energy(simulation, x.xy).energy / e;
+        double value = evaluate_model(simulation, x.xy).energy / e;
         plot_to_pixel(plot, x.xy, place);
         for (int k = 0; k < MAP_LEVEL_COUNT; k++)
             if (before < map_levels[k] && value >= map_levels[k] &&
@@ -152,7 +152,7 @@ static void mark_stationary_points(const Plot *plot)
     for (int i = 0; i < points; i++) {
         double p[2] = {1, 1};
         for (int k = 0; k < 40 && vector_length(p) > 1e-9; k++) {
-            descent_direction(simulation, PROJECTION_NONE, at[i], p);
+            descent_find_p(simulation, PROJECTION_NONE, at[i], p);
             at[i][0] += p[0];
             at[i][1] += p[1];
         }
@@ -178,8 +178,8 @@ static void draw_newton_directions(const Plot *plot, bool both)
     double p[2], slope;
     if (own[0] == 0 && own[1] == 0)
         return;
-    slope = descent_direction(
-        simulation, raw ? PROJECTION_CLAMP : PROJECTION_NONE, from, p);
+    slope = descent_find_p(simulation, raw ? PROJECTION_CLAMP : PROJECTION_NONE,
+                           from, p);
     bool other = both && !alone && point_distance(own, p) > 1e-9;
     Colour colour = slope > 0 ? COLOUR_WARNING
                     : raw     ? COLOUR_PROJECT
@@ -209,7 +209,7 @@ static double find_length_beyond_view(const Plot *plot)
 
 /* Draws minus the gradient of each part of E that is on; an arrow of 1 m is a
  * gradient of 1 kg m, as E is in J s^2. */
-static void draw_force_arrows(const Plot *plot, const LocalModel *E)
+static void draw_force_arrows(const Plot *plot, const TaylorModel *E)
 {
     const Simulation *simulation = plot->simulation;
     const double *x = simulation->descent.iterate, *m = simulation->system.m;
@@ -230,7 +230,7 @@ static void draw_force_arrows(const Plot *plot, const LocalModel *E)
 static double evaluate_energy_parts(const Simulation *simulation,
                                     unsigned parts, const double *x)
 {
-    double value = landscape_evaluate_parts(simulation, parts, x[0], x[1]);
+    double value = landscape_sum_energy_parts(simulation, parts, x[0], x[1]);
     return value < 1e-30 ? 0 : value;
 }
 
@@ -254,9 +254,9 @@ static void add_newton_values(const Simulation *simulation, LiveValues *values)
     int updates = 0;
     memcpy(x, start, sizeof x);
     while (updates < DESCENT_MAX_RECORDS &&
-           vector_length(evaluate_energy(simulation, x).g) >
+           vector_length(evaluate_model(simulation, x).g) >
                simulation->options.tolerance &&
-           descent_direction(simulation, PROJECTION_NONE, x, p) != 0) {
+           descent_find_p(simulation, PROJECTION_NONE, x, p) != 0) {
         for (int k = 0; k < 2; k++)
             x[k] += p[k];
         updates++;
@@ -276,7 +276,7 @@ void list_landscape_values(const Simulation *simulation, LiveValues *values)
     unsigned parts = simulation->exhibit.switches;
     double h = simulation->run[0].h;
     const double *x = descent->iterate;
-    LocalModel E = evaluate_energy(simulation, x);
+    TaylorModel E = evaluate_model(simulation, x);
     values_add_point(values, "place", x);
     values_add_point(values, "x tilde", simulation->exhibit.x_tilde);
     values_add(values, "slope", descent->slope != 0 ? descent->slope : NAN);
@@ -284,7 +284,7 @@ void list_landscape_values(const Simulation *simulation, LiveValues *values)
     bool raw_start = simulation->options.projection == PROJECTION_NONE &&
                      descent->record_count == 0;
     if (parts == PART_BOTH) {
-        LocalModel P =
+        TaylorModel P =
             descent_evaluate(simulation, PROJECTION_CLAMP, x[0], x[1]);
         values_add_matrix(values, projected, P.H, 0);
         values_add_flag(values, "directions",
@@ -317,7 +317,7 @@ void list_landscape_values(const Simulation *simulation, LiveValues *values)
 
 /* If H is positive definite, draws three contours of the quadratic model around
  * its minimum x + p, the largest through x. */
-static void draw_model_ellipses(const Plot *plot, const LocalModel *E)
+static void draw_model_ellipses(const Plot *plot, const TaylorModel *E)
 {
     static const double levels[] = {1, 0.6, 0.25};
     const Descent *descent = &plot->simulation->descent;
@@ -337,7 +337,7 @@ static void draw_model_ellipses(const Plot *plot, const LocalModel *E)
 
 /* Draws the lines on which a linearised component of the gradient is 0, and
  * once the page shows its answer a ring at their crossing. */
-static void draw_linearised_zeros(const Plot *plot, const LocalModel *E)
+static void draw_linearised_zeros(const Plot *plot, const TaylorModel *E)
 {
     const double *x = plot->simulation->descent.iterate;
     for (int k = 0; k < 2; k++) {
@@ -356,7 +356,7 @@ static void draw_linearised_zeros(const Plot *plot, const LocalModel *E)
 }
 
 /* Draws the half plane g . p < 0 of the directions that point downhill. */
-static void draw_downhill_side(const Plot *plot, const LocalModel *E)
+static void draw_downhill_half_plane(const Plot *plot, const TaylorModel *E)
 {
     const double *x = plot->simulation->descent.iterate;
     const double across[2] = {-E->g[1], E->g[0]};
@@ -379,13 +379,13 @@ void draw_landscape_picture(Plot *stage)
     const Simulation *simulation = stage->simulation;
     const LectureContent *lecture = &stage->content->lecture;
     const Descent *descent = &simulation->descent;
-    const LocalModel E = evaluate_energy(simulation, descent->iterate);
+    const TaylorModel E = evaluate_model(simulation, descent->iterate);
     Plot plot = draw_landscape_map(stage);
     unsigned layers = simulation->options.layers;
     bool halves = layers & LAYER_DOWNHILL && !simulation->is_over;
     bool curves = layers & LAYER_ZERO_CURVES;
     if (halves)
-        draw_downhill_side(&plot, &E);
+        draw_downhill_half_plane(&plot, &E);
     for (int i = 0; i < descent->record_count; i++) {
         const NewtonRecord *record = &descent->record[i];
         const double *from = record->x_before, *to = record->x_after;
@@ -425,7 +425,7 @@ void draw_landscape_picture(Plot *stage)
 void draw_dial_picture(Plot *stage)
 {
     const Simulation *simulation = stage->simulation;
-    const DialCurve *dial = &simulation->exhibit.dial;
+    const MinimiserCurve *dial = &simulation->exhibit.dial;
     Plot plot = draw_landscape_map(stage);
     int points = stage->content->lecture.hides_answer ? 0 : DIAL_POINTS;
     for (int i = 1; i < points; i++)

@@ -37,10 +37,10 @@ static const double SETTINGS_PART = 0.75;
 
 /* The column's fraction of the window's width is COLUMN_PART.  The fraction
  * grows up to PAGE_PART (BIG_PART in large type) until a page's texts fit.
- * Code and lists of more than SHORT_LIST_ROWS rows have up to WIDE_PART. */
+ * Code and lists of more than SHORT_LIST_MAX_ROWS rows have up to WIDE_PART. */
 static const double COLUMN_PART = 0.38, PAGE_PART = 0.50, BIG_PART = 0.57,
                     WIDE_PART = 0.75, COLUMN_GROWTH = 0.01;
-enum { SHORT_LIST_ROWS = 30 };
+enum { SHORT_LIST_MAX_ROWS = 30 };
 
 /* An em has 14 pixels in a window of 1000 x 800, is proportional to the smaller
  * one of width/1000 and height/800, and has at least 9 pixels. */
@@ -82,8 +82,8 @@ static int place_boxes(Box room, int lines, int gap, int count,
 
 /* Places as many of the first boxes as fit into one line, and the last box
  * behind them; the others keep no width.  Returns how many of the first fit. */
-static int place_first_and_last(Box room, int gap, int count, const int *width,
-                                Box *box)
+static int place_boxes_keep_last(Box room, int gap, int count, const int *width,
+                                 Box *box)
 {
     int last = count - 1, left = room.x;
     room.width -= width[last] + gap;
@@ -130,7 +130,7 @@ static void place_settings(const SettingsRow *row, Layout *layout, bool low,
         layout->settings_row = room;
         room.x += left;
         room.width -= 2 * left;
-        place_first_and_last(room, gap, row->count, width, box);
+        place_boxes_keep_last(room, gap, row->count, width, box);
         layout->setting_count = row->count;
         return;
     }
@@ -159,13 +159,13 @@ static void place_chips(const ChipRow *chips, bool lecture, Layout *layout)
     room.x = ems_to_pixels(layout, GAP);
     room.width = layout->width - 2 * room.x;
     int fit =
-        place_first_and_last(room, gap, chips->count, width, layout->chip);
+        place_boxes_keep_last(room, gap, chips->count, width, layout->chip);
     layout->chip_count = chips->count;
-    layout->chips_left_out = last - fit;
+    layout->omitted_chips = last - fit;
 }
 
 /* Cuts title bar, settings, time line, chips off.  Returns the rest. */
-static Box place_zones(const FrameContent *content, Layout *layout)
+static Box place_window_rows(const FrameContent *content, Layout *layout)
 {
     Box rest = {0, 0, layout->width, layout->height},
         *bars = &layout->step_bars;
@@ -248,8 +248,8 @@ static int find_card_rows(const FrameContent *content, const Layout *layout,
         bool half = card->fits_half_width ||
                     (card->fits_half_page && content->lecture.page);
         bool on_stage =
-            i == main_card && (card->main_place == PLACE_BELOW ||
-                               (card->main_place == PLACE_BESIDE && !bar));
+            i == main_card && (card->main_place == BELOW_PICTURE ||
+                               (card->main_place == BESIDE_PICTURE && !bar));
         if (sets->hidden_cards >> i & 1 || on_stage)
             continue;
         double least = bar ? 0 : find_min_height(content, layout, i, wide);
@@ -395,8 +395,8 @@ static void place_overview(const FrameContent *content, Layout *layout)
 
 /* Places a card below the panes, at least `least` pixels high, but not higher
  * than CARD_BELOW of the stage. */
-static void place_card_below(const FrameContent *content, Layout *layout,
-                             int card, double least)
+static void place_below_panes(const FrameContent *content, Layout *layout,
+                              int card, double least)
 {
     const Box *stage = &layout->stage;
     double em = layout->em;
@@ -411,7 +411,7 @@ static void place_card_below(const FrameContent *content, Layout *layout,
 
 /* Places the main card of a page on the stage, and the picture in the card's
  * place in the column.  If the column is too low or shows code, the picture
- * stands below the card.  Cards with PLACE_BELOW or PLACE_BESIDE share the
+ * stands below the card.  Cards with BELOW_PICTURE or BESIDE_PICTURE share the
  * stage with the picture. */
 static void place_main_card(const FrameContent *content, Layout *layout)
 {
@@ -424,13 +424,13 @@ static void place_main_card(const FrameContent *content, Layout *layout)
         return;
     const Card *card = active_picture(content)->cards[main_card];
     Box *stage = &layout->pane[0], place = layout->card[main_card];
-    if (card->main_place == PLACE_BELOW) {
-        place_card_below(content, layout, main_card,
-                         (MAIN_CARD_GROWTH * card->min_height + 2 * GAP) *
-                             layout->em);
+    if (card->main_place == BELOW_PICTURE) {
+        place_below_panes(content, layout, main_card,
+                          (MAIN_CARD_GROWTH * card->min_height + 2 * GAP) *
+                              layout->em);
         return;
     }
-    bool beside = card->main_place == PLACE_BESIDE;
+    bool beside = card->main_place == BESIDE_PICTURE;
     if (place.width < 1 && !layout->has_list && !beside)
         return;
     if (beside && PICTURE_PART * stage->width > MIN_BESIDE * layout->em)
@@ -448,7 +448,7 @@ static void place_main_card(const FrameContent *content, Layout *layout)
  * below the picture.  Does nothing if a main or enlarged card exists, or if
  * code is shown in normal type and several switches or panes need the whole
  * stage. */
-static void place_card_without_room(const FrameContent *content, Layout *layout)
+static void place_overflow_card(const FrameContent *content, Layout *layout)
 {
     const Simulation *simulation = active_pane(content)->simulation;
     const Options *options = &simulation->options;
@@ -464,8 +464,8 @@ static void place_card_without_room(const FrameContent *content, Layout *layout)
          (layout->pane_count != 1 || simulation->scene->switch_labels[1])))
         return;
     const Box stage = layout->stage, title = layout->card[folded];
-    place_card_below(content, layout, folded,
-                     layout->has_list ? stage.height - 0.8 * stage.width : 0);
+    place_below_panes(content, layout, folded,
+                      layout->has_list ? stage.height - 0.8 * stage.width : 0);
     Box *first = &layout->card[0]; /* card 0 may grow into the free place */
     if (!layout->has_list && title.y <= first->y + first->height + layout->em)
         first->height = title.y + title.height - first->y;
@@ -485,7 +485,7 @@ Layout layout_create(const FrameContent *content, int width, int height)
         least = fmax(content->min_em, big ? fmin(height / 35.0, width / 54.0)
                                           : fmin(height / 55.0, width / 64.0));
     layout.em = fmax(size, least);
-    layout.stage = place_zones(content, &layout);
+    layout.stage = place_window_rows(content, &layout);
     if (content->sheet.cells > 0) {
         place_overview(content, &layout);
         return layout;
@@ -503,7 +503,7 @@ Layout layout_create(const FrameContent *content, int width, int height)
             if (content->column == COLUMN_CODE)
                 ems = fmin(fmax(code_find_width(content->lecture.page), ems),
                            most);
-            else if (page && content->list.row_count > SHORT_LIST_ROWS)
+            else if (page && content->list.row_count > SHORT_LIST_MAX_ROWS)
                 ems = most;
             layout.stage = whole;
             layout.column = box_cut_off(&layout.stage, EDGE_RIGHT,
@@ -520,7 +520,7 @@ Layout layout_create(const FrameContent *content, int width, int height)
     layout.has_list = page && layout.column.width > 0;
     place_panes(content->panes, &layout);
     place_main_card(content, &layout);
-    place_card_without_room(content, &layout);
+    place_overflow_card(content, &layout);
     return layout;
 }
 

@@ -4,10 +4,10 @@
 
 #include "picture/cards.h"
 
-_Static_assert((int)LINE_COUNT == PAGE_HIGHLIGHT_LENGTH,
+_Static_assert((int)LINE_COUNT == PAGE_HIGHLIGHT_COUNT,
                "walk has a text for each line");
 
-const char *lecture_find_lit_code(const FrameContent *content)
+const char *lecture_find_highlight(const FrameContent *content)
 {
     const LecturePage *page = content->lecture.page;
     const NewtonTrace *trace = active_pane(content)->trace;

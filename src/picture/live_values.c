@@ -49,7 +49,7 @@ void values_add_matrix(LiveValues *values, const char *const names[3],
         values_add(values, names[k], fabs(H[k]) < tiny ? 0 : H[k]);
 }
 
-static void add_window_values(const FrameContent *content, LiveValues *values)
+static void add_view_values(const FrameContent *content, LiveValues *values)
 {
     const LectureContent *lecture = &content->lecture;
     if (lecture->page)
@@ -72,7 +72,7 @@ static void add_setting_values(const Simulation *simulation, LiveValues *values)
     const TimeIntegrator *run = simulation->run;
     const IntegratorMethod *method = run[0].method;
     const Descent *descent = &simulation->descent;
-    bool time = scene->parts & HAS_TIME;
+    bool time = scene->traits & HAS_TIME;
     bool explicit = time && method && method->stages == 0;
     bool backward = method && strcmp(method->name, "backward-euler") == 0;
     bool forward = method && strcmp(method->name, "forward-euler") == 0;
@@ -80,7 +80,7 @@ static void add_setting_values(const Simulation *simulation, LiveValues *values)
                      options->page ? NULL : scene->description);
     bool settles = scene->needs_dissipation && !options->page;
     values_add_flag(values, "grows", settles && forward);
-    values_add_flag(values, "keeps", settles && method && !method->dissipates);
+    values_add_flag(values, "keeps", settles && method && !method->is_damped);
     values_add_flag(values, "searches", scene->step == step_descent);
     values_add(values, "runs", simulation->runs);
     values_add_flag(values, "mixed",
@@ -143,7 +143,7 @@ static void add_trace_values(const Simulation *simulation,
     values_add_flag(values, "given up", trace->has_failed);
     const int count = trace->record_count;
     const NewtonRecord *last = count > 0 ? trace->record + count - 1 : NULL;
-    if (simulation->scene->parts & HAS_TIME && last &&
+    if (simulation->scene->traits & HAS_TIME && last &&
         last->status == STATUS_OK) {
         /* negligible: a bound shows that the next p is small enough; hidden:
          * p was left out, because rounding hides the change of E along p. */
@@ -175,7 +175,7 @@ static double compute_energy_change(const void *function, double alpha)
 {
     const DescentTrace *space = function;
     const Point x = point_along(space->start, alpha, space->p);
-    LocalModel there =
+    TaylorModel there =
         descent_evaluate(space->simulation, PROJECTION_NONE, x.xy[0], x.xy[1]);
     return there.energy - space->start_energy;
 }
@@ -234,14 +234,14 @@ void frame_compute_values(FrameContent *content)
         LiveValues *values = &now->values;
         const Simulation *simulation = now->simulation;
         const Picture *picture = picture_of_scene(simulation->scene);
-        StepLine line = now->trace ? now->trace->at_line : LINE_NONE;
+        AlgoLine line = now->trace ? now->trace->at_line : LINE_NONE;
         now->shown_trace = now->trace;
         if (!now->trace && simulation->scene->step == step_descent)
             now->shown_trace = make_descent_trace(simulation, &now->descent);
         values->count = values->next_run = 0;
         for (int run = 0; run <= VALUES_MAX_RUNS; run++)
-            values->line_colour[run] = COLOUR_TEXT;
-        add_window_values(content, values);
+            values->text_line_colour[run] = COLOUR_TEXT;
+        add_view_values(content, values);
         add_setting_values(simulation, values);
         if ((!line || now->trace->has_failed) && now->step_status &&
             now->step_status != STATUS_INTERRUPTED) {
@@ -281,7 +281,7 @@ double values_find_number(const LiveValues *values, const char *name)
     return one && !one->text ? one->value[0] : NAN;
 }
 
-double frame_find_number(FrameContent *content, const char *name)
+double frame_find_value(FrameContent *content, const char *name)
 {
     frame_compute_values(content);
     return values_find_number(&active_pane(content)->values, name);
@@ -322,7 +322,7 @@ static bool fill_in_values(TextLine *line, const char *text, size_t length)
     if (*from == '#' && from[name] != '{') { /* the line has a colour */
         int run = strncmp(from, "#run ", 5) == 0 ? line->run : from[1] - '0';
         line->colour = run >= 0 && run <= VALUES_MAX_RUNS
-                           ? values->line_colour[run]
+                           ? values->text_line_colour[run]
                            : colour_find_by_name(from + 1, name - 1);
         line->face = from[name] == '*' ? FACE_BOLD : FACE_REGULAR;
         from += name + 1 + (from[name] == '*');
@@ -349,7 +349,7 @@ static bool fill_in_values(TextLine *line, const char *text, size_t length)
     return true;
 }
 
-TextLine text_begin(const LiveValues *values, const char *text)
+TextLine lines_begin(const LiveValues *values, const char *text)
 {
     return (TextLine){.values = values, .next_text = text ? text : ""};
 }
@@ -378,16 +378,16 @@ bool text_next_line(TextLine *line)
     return false;
 }
 
-TextLine text_first_line(const LiveValues *values, const char *text)
+TextLine text_find_known_line(const LiveValues *values, const char *text)
 {
-    TextLine line = text_begin(values, text);
+    TextLine line = lines_begin(values, text);
     text_next_line(&line);
     return line;
 }
 
 bool text_has_known_line(const LiveValues *values, const char *text)
 {
-    TextLine line = text_begin(values, text);
+    TextLine line = lines_begin(values, text);
     return text_next_line(&line);
 }
 
@@ -399,7 +399,7 @@ static void expand_text(const LiveValues *values, const char *text,
 {
     if (!string[0])
         snprintf(string, size, "%.*s", (int)size - 1,
-                 text_first_line(values, text).text);
+                 text_find_known_line(values, text).text);
 }
 
 void frame_expand_texts(FrameContent *content)

@@ -44,12 +44,12 @@ typedef struct TextLine {
 } TextLine;
 
 /* Walks over the lines of a text that have known values (NULL: no lines):
- *     for (TextLine line = text_begin(values, text); text_next_line(&line);)
+ *     for (TextLine line = lines_begin(values, text); text_next_line(&line);)
  * After the last line line.text is empty. */
-TextLine text_begin(const LiveValues *values, const char *text);
+TextLine lines_begin(const LiveValues *values, const char *text);
 bool text_next_line(TextLine *line);
 
 /* Returns the first line that has known values; empty if there is none. */
-TextLine text_first_line(const LiveValues *values, const char *text);
+TextLine text_find_known_line(const LiveValues *values, const char *text);
 /* Whether a text has a line with known values. */
 bool text_has_known_line(const LiveValues *values, const char *text);

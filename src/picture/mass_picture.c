@@ -100,7 +100,7 @@ void find_circle_bounds(const Plot *stage, double bounds[4])
     double most = 0;
     for (int r = 0; r < simulation->runs; r++)
         most = fmax(most, vector_length(simulation->run[r].x));
-    bounds_make_square(CIRCLE_REACH, 1.4 * fmin(most, CIRCLE_MAX), 1.2, bounds);
+    find_centred_view(CIRCLE_REACH, 1.4 * fmin(most, CIRCLE_MAX), 1.2, bounds);
 }
 
 void circle_pick(const Plot *stage, double x, double y, Pick *pick)
@@ -178,7 +178,7 @@ static void draw_complex_plane(const Plot *card)
         for (int k = 0; k < 2; k++)
             if (find_step_eigenvalues(simulation->run[r].method, turn, lambda))
                 most = fmax(most, vector_length(lambda[k]));
-    bounds_make_square(EIGEN_REACH, 1.1 * fmin(most, EIGEN_MAX), 1.2, bounds);
+    find_centred_view(EIGEN_REACH, 1.1 * fmin(most, EIGEN_MAX), 1.2, bounds);
     Plot plot = *card;
     plot.camera = camera_create(card->box, bounds, false, &LENS_FITS);
     for (int k = 0; k < 2; k++) {
@@ -203,8 +203,8 @@ void draw_eigenvalues_card(const Plot *card)
         draw_complex_plane(card);
         return;
     }
-    int wide = paper_pixels(card->paper, NUMBERS_WIDE);
-    int high = paper_pixels(card->paper, NUMBERS_HIGH);
+    int wide = paper_to_pixels(card->paper, NUMBERS_WIDE);
+    int high = paper_to_pixels(card->paper, NUMBERS_HIGH);
     int rest = box->width - wide;
     if (box->height > box->width)
         plane.box = box_cut_off(&numbers.box, EDGE_BOTTOM, box->height - high);
@@ -227,7 +227,7 @@ void list_circle_values(const Simulation *simulation, LiveValues *values)
     for (int r = 0; r < simulation->runs; r++) {
         const TimeIntegrator *run = &simulation->run[r];
         values->next_run = r + 1;
-        values->line_colour[r + 1] = colour_of_name(run->method->name);
+        values->text_line_colour[r + 1] = colour_of_name(run->method->name);
         values_add_flag(values, "many", simulation->runs > 1);
         values_add_words(values, "name", run->method->label);
         values_add(values, "radius", vector_length(run->x));
@@ -270,7 +270,7 @@ void find_mass_bounds(const Plot *stage, double bounds[4])
             most = fmax(most,
                         fmax(fabs(step.new_x[k]), fabs(step.x[k] + step.v[k])));
     }
-    bounds_make_square(MASS_REACH, 1.1 * most, sqrt(2), bounds);
+    find_centred_view(MASS_REACH, 1.1 * most, sqrt(2), bounds);
 }
 
 static Point find_exact_position(const MassStep *step, double h)
@@ -302,13 +302,13 @@ static void draw_step_explanation(Plot *stage, const MassStep *step)
     const Point end = find_exact_position(step, h);
     plot_hollow_disc(stage, end.xy, 6, 3.4, COLOUR_GREY);
     bool first = stage->simulation->steps == 0;
-    if (step->moves_by_old_v && first)
+    if (step->uses_old_v && first)
         draw_step_error(stage, step, 0.5 * h, "with h/2: a quarter");
-    if (step->moves_by_old_v)
+    if (step->uses_old_v)
         draw_step_error(stage, step, h, first ? "\u00bdh\u00b2 a^{n}" : "");
     plot_label(stage, 1, end.xy, COLOUR_FAINT, "exact");
     bool symplectic =
-        !step->moves_by_old_v && stage->simulation->run[0].method->stages == 0;
+        !step->uses_old_v && stage->simulation->run[0].method->stages == 0;
     double turn = 1 - 0.5 * h * h, reach = sqrt(1 - turn * turn);
     const Point side = point_along(step->new_x, -turn, step->x);
     const Point across = point_along(origin, 1 / reach, side.xy);
@@ -337,13 +337,13 @@ static void draw_mass_step(Plot *stage)
         double width;
         Colour colour;
         const char *label;
-    } arrow[] = {{step.x, step.v, 2.6, COLOUR_VELOCITY, "v^{n}"},
-                 {tip.xy, push.xy, 2.6, COLOUR_FORCE,
-                  backward ? "h a^{n+1}" : "h a^{n}"},
-                 {step.x, step.new_v, 1.4, COLOUR_VELOCITY, "v^{n+1}"},
-                 {step.x, to.xy, 4, COLOUR_X,
-                  step.moves_by_old_v ? "h v^{n}" : "h v^{n+1}"},
-                 {step.new_x, step.new_a, 1.6, COLOUR_FORCE, "a^{n+1}"}};
+    } arrow[] = {
+        {step.x, step.v, 2.6, COLOUR_VELOCITY, "v^{n}"},
+        {tip.xy, push.xy, 2.6, COLOUR_FORCE,
+         backward ? "h a^{n+1}" : "h a^{n}"},
+        {step.x, step.new_v, 1.4, COLOUR_VELOCITY, "v^{n+1}"},
+        {step.x, to.xy, 4, COLOUR_X, step.uses_old_v ? "h v^{n}" : "h v^{n+1}"},
+        {step.new_x, step.new_a, 1.6, COLOUR_FORCE, "a^{n+1}"}};
     for (int i = 0; i < 4 + backward; i++)
         plot_arrow(stage, arrow[i].start, arrow[i].vector, 1, arrow[i].width,
                    arrow[i].colour);
@@ -418,16 +418,15 @@ void list_mass_values(const Simulation *simulation, LiveValues *values)
         return;
     values_add_flag(values, "numbers", true);
     values_add_words(values, "at", backward ? "n+1" : "n");
-    values_add_words(values, "by", step.moves_by_old_v ? "n" : "n+1");
+    values_add_words(values, "by", step.uses_old_v ? "n" : "n+1");
     values_add_point(values, "place", step.x);
     values_add_point(values, "v", step.v);
     values_add_point(values, "a", backward ? step.new_a : step.a);
     values_add_point(values, "x next", step.new_x);
     values_add_point(values, "v next", step.new_v);
-    values_add_point(values, "carrying",
-                     step.moves_by_old_v ? step.v : step.new_v);
+    values_add_point(values, "carrying", step.uses_old_v ? step.v : step.new_v);
     double h = simulation->run[0].h;
-    if (!step.moves_by_old_v && !backward) {
+    if (!step.uses_old_v && !backward) {
         /* Symplectic Euler keeps |x|^2 + |v|^2 - h x.v (h < 2: an ellipse). */
         double kept = 2 * compute_energy(step.x, step.v) -
                       h * (step.x[0] * step.v[0] + step.x[1] * step.v[1]);
@@ -436,7 +435,7 @@ void list_mass_values(const Simulation *simulation, LiveValues *values)
     }
     values_add(values, "miss",
                point_distance(step.new_x, find_exact_position(&step, h).xy));
-    if (step.moves_by_old_v) {
+    if (step.uses_old_v) {
         const Point half = point_along(step.x, 0.5 * h, step.v);
         values_add(
             values, "half miss",

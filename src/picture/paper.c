@@ -17,17 +17,17 @@ Status paper_create(int width, int height, Paper *paper)
 {
     *paper = (Paper){.em = PAPER_EM, .unit = 1};
     Status status = canvas_create(width, height, &paper->canvas);
-    return status ? status : text_create(&paper->text);
+    return status ? status : font_create(&paper->font);
 }
 
 void paper_free(Paper *paper)
 {
     canvas_free(&paper->canvas);
-    text_free(paper->text);
+    font_free(paper->font);
     *paper = (Paper){0};
 }
 
-int paper_pixels(const Paper *paper, double ems)
+int paper_to_pixels(const Paper *paper, double ems)
 {
     return (int)floor(ems * paper->em + 0.5);
 }
@@ -50,19 +50,19 @@ int paper_write(Paper *paper, Face face, double size, Colour colour, double x,
     char words[PAPER_TEXT_SIZE];
     TextStyle style = paper_make_style(paper, face, size, colour);
     write_formatted(words, sizeof words, format);
-    return text_draw(paper->text, &paper->canvas, &style, x, y, align, words);
+    return text_draw(paper->font, &paper->canvas, &style, x, y, align, words);
 }
 
 int paper_measure(Paper *paper, Face face, double size, const char *markup)
 {
     TextStyle style = paper_make_style(paper, face, size, 0);
-    return (int)text_measure(paper->text, &style, markup).width;
+    return (int)text_measure(paper->font, &style, markup).width;
 }
 
 int paper_write_in_box(Paper *paper, Face face, double size, Colour colour,
                        Box box, Align align, const char *markup)
 {
-    int air = paper_pixels(paper, 0.35); /* room for superscripts */
+    int air = paper_to_pixels(paper, 0.35); /* room for superscripts */
     Box room = {box.x, box.y - air, box.width, box.height + 2 * air};
     Box before = canvas_set_clip(&paper->canvas, room);
     double least = MIN_FIT * size, wide;
@@ -70,8 +70,8 @@ int paper_write_in_box(Paper *paper, Face face, double size, Colour colour,
            size > least)
         size = fmax(least, 0.99 * size * box.width / wide);
     TextStyle style = paper_make_style(paper, face, size, colour);
-    double over = text_measure(paper->text, &style, markup).ascent -
-                  text_measure(paper->text, &style, "").ascent;
+    double over = text_measure(paper->font, &style, markup).ascent -
+                  text_measure(paper->font, &style, "").ascent;
     double y = fmax(0.5 * box.height - 0.65 * size * paper->em, over);
     int width = paper_write(paper, face, size, colour,
                             box.x + 0.5 * (int)align * box.width, box.y + y,
@@ -88,9 +88,9 @@ void paper_write_on_panel(Paper *paper, Face face, double size, Colour colour,
     write_formatted(words, sizeof words, format);
     int wide = paper_measure(paper, face, size, words);
     int left = pixel_from_coordinate(x) - (int)align * wide / 2;
-    int air = paper_pixels(paper, 0.3);
+    int air = paper_to_pixels(paper, 0.3);
     Box panel = {left - air, pixel_from_coordinate(y), wide + 2 * air,
-                 paper_pixels(paper, 1.36 * size)};
+                 paper_to_pixels(paper, 1.36 * size)};
     canvas_fill(&paper->canvas, panel, COLOUR_PANEL);
     paper_keep_word_box(paper, panel);
     paper_write(paper, face, size, colour, x, y, align, "%s", words);
@@ -104,9 +104,9 @@ void paper_shorten_words(Paper *paper, double size, int width, char *words,
     int rest = width - paper_measure(paper, FACE_REGULAR, size, end);
     TextExtent extent;
     size_t fits =
-        text_break_line(paper->text, &style, width, words, room, &extent);
+        text_break_line(paper->font, &style, width, words, room, &extent);
     if (words[fits])
-        fits = text_break_line(paper->text, &style, rest, words, room, &extent);
+        fits = text_break_line(paper->font, &style, rest, words, room, &extent);
     if (words[fits])
         snprintf(words + fits, room - fits, "%s", end);
 }
@@ -116,10 +116,10 @@ int paper_write_paragraph(Paper *paper, Face face, double size, Colour colour,
 {
     char part[PAPER_TEXT_SIZE];
     TextStyle style = paper_make_style(paper, face, size, colour);
-    double y = box.y, above = text_measure(paper->text, &style, "").ascent;
+    double y = box.y, above = text_measure(paper->font, &style, "").ascent;
     for (int line = 1; *markup && (line <= lines || lines == 0); line++) {
         TextExtent extent;
-        size_t count = text_break_line(paper->text, &style, box.width, markup,
+        size_t count = text_break_line(paper->font, &style, box.width, markup,
                                        sizeof part, &extent);
         if (count == 0)
             break;
@@ -127,7 +127,7 @@ int paper_write_paragraph(Paper *paper, Face face, double size, Colour colour,
         if (lines > 0) {
             snprintf(part, sizeof part, "%.*s%s", (int)count, markup,
                      *next && line == lines ? "\u2026" : "");
-            text_draw(paper->text, &paper->canvas, &style, box.x,
+            text_draw(paper->font, &paper->canvas, &style, box.x,
                       y + extent.ascent - above, ALIGN_LEFT, part);
         }
         markup = next;

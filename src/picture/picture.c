@@ -165,9 +165,9 @@ static void draw_switches(const Plot *stage)
 
 /* Draws the user's guess as a cross, with a vertical line if only x is guessed,
  * and a dashed line from the guess to the outcome of the step. */
-static void draw_guess(const Plot *stage)
+static void draw_user_guess(const Plot *stage)
 {
-    const Prediction *guess = &stage->simulation->prediction;
+    const UserPrediction *guess = &stage->simulation->prediction;
     const Box *box = &stage->box;
     Canvas *canvas = &stage->paper->canvas;
     double unit = stage->paper->unit, arm = 7 * unit, at[2], came[2], point[2];
@@ -226,8 +226,8 @@ enum { LABEL_LINE_SIZE = 4 * VALUE_SIZE };
 
 /* Copies the first parts of a label that fit into a line [LABEL_LINE_SIZE].
  * A comma or semicolon ends a part.  Returns the rest of the label. */
-static const char *cut_label_line(const Plot *stage, const char *label,
-                                  char *line)
+static const char *break_label_line(const Plot *stage, const char *label,
+                                    char *line)
 {
     int room = (int)(stage->box.width - stage->em);
     char *end;
@@ -258,7 +258,7 @@ static void draw_pane_label(const Plot *stage, const char *label)
     char line[MAX_LABEL_LINES][LABEL_LINE_SIZE];
     int lines = 0, wide = 0;
     while (*label && lines < MAX_LABEL_LINES) {
-        label = cut_label_line(stage, label, line[lines]);
+        label = break_label_line(stage, label, line[lines]);
         int own = paper_measure(paper, FACE_BOLD, 1, line[lines++]);
         wide = own > wide ? own : wide;
     }
@@ -283,7 +283,7 @@ static void draw_pane(Paper *paper, const Layout *layout,
     if (content->lecture.page && stage.box.height < MIN_TEXT * paper->em)
         stage.has_text = false;
     picture->draw(&stage);
-    TextLine line = text_begin(&stage.pane->values, picture->legend);
+    TextLine line = lines_begin(&stage.pane->values, picture->legend);
     while (stage.has_text && text_next_line(&line))
         plot_legend(&stage, line.colour, "%s", line.text);
     if (stage_shows_scale_bar(&stage))
@@ -291,7 +291,7 @@ static void draw_pane(Paper *paper, const Layout *layout,
     if (!picture->draws_handles)
         stage_draw_handles(&stage);
     draw_switches(&stage);
-    draw_guess(&stage);
+    draw_user_guess(&stage);
     if (layout->pane_count > 1 && stage.pane->label)
         draw_pane_label(&stage, stage.pane->label);
     if (picture->draw_hover_note && stage.has_text &&
@@ -315,7 +315,7 @@ static void draw_sheet_cell(Paper *paper, Box box, const SheetCell *cell,
     canvas_fill(&paper->canvas, inside, chosen ? COLOUR_VALUE : COLOUR_BORDER);
     canvas_fill(&paper->canvas, box_inset(inside, chosen ? 2 : 1),
                 COLOUR_WHITE);
-    layout.pane[0] = box_inset(inside, paper_pixels(paper, 0.3));
+    layout.pane[0] = box_inset(inside, paper_to_pixels(paper, 0.3));
     if (cell->simulation) {
         FrameContent content;
         frame_create(cell->simulation, &content);
@@ -340,9 +340,9 @@ static void prepare_paper(Paper *paper, double em, const FrameContent *content)
 void frame_draw_card(Paper *paper, const FrameContent *content, int card)
 {
     prepare_paper(paper, content->min_em, content);
-    Box inside = box_inset(paper->canvas.clip, paper_pixels(paper, 0.4));
+    Box inside = box_inset(paper->canvas.clip, paper_to_pixels(paper, 0.4));
     card_draw(paper, inside, content, card);
-    draw_highlight(paper, content);
+    draw_term_highlight(paper, content);
 }
 
 void frame_draw(Paper *paper, const FrameContent *content)
@@ -369,7 +369,7 @@ void frame_draw(Paper *paper, const FrameContent *content)
         cards_draw(paper, &layout, content);
     }
     if (!sheet)
-        draw_highlight(paper, content);
+        draw_term_highlight(paper, content);
     if (!content->is_stage_only)
         window_rows_draw(paper, &layout, content);
 }

@@ -22,7 +22,7 @@ static const double Y_NUMBER_WIDTH = 3.1;  /* ems, width of the numbers of y */
 static const double X_NUMBER_GAP = 0.25;   /* ems, gap above the numbers of x */
 static const double ARROW_HEAD = 0.62;     /* ems, length of arrow heads */
 
-double plot_round_up(double value)
+double plot_nice_number(double value)
 {
     double power = pow(10, floor(log10(value)));
     double part = value / power * (1 - 1e-12);
@@ -31,7 +31,7 @@ double plot_round_up(double value)
 
 double plot_round_axis_end(double value)
 {
-    double step = plot_round_up(value / PLOT_MAX_Y_INTERVALS);
+    double step = plot_nice_number(value / PLOT_MAX_Y_INTERVALS);
     return step * ceil(value / step * (1 - 1e-12));
 }
 
@@ -95,7 +95,7 @@ static int find_ticks(const Axis *axis, bool upright, double ems, double *ticks)
     double intervals = fmin(room, (upright ? 1 : 2) * PLOT_MAX_Y_INTERVALS);
     double low = axis_find_coordinate(axis, axis->low),
            high = axis_find_coordinate(axis, axis->high);
-    double step = plot_round_up((high - low) / intervals);
+    double step = plot_nice_number((high - low) / intervals);
     if (!(high - low > 0) || !isfinite(high - low))
         return 0;
     if (axis->scale == SCALE_LOG) /* step: a whole number of decades */
@@ -108,8 +108,8 @@ static int find_ticks(const Axis *axis, bool upright, double ems, double *ticks)
     return count;
 }
 
-static void write_tick(const Plot *plot, Colour colour, double x, double y,
-                       Align align, const char *words)
+static void write_axis_text(const Plot *plot, Colour colour, double x, double y,
+                            Align align, const char *words)
 {
     paper_write(plot->paper, FACE_REGULAR, TICK_SIZE, colour, x, y, align, "%s",
                 words);
@@ -139,24 +139,24 @@ static void draw_axes(const Plot *plot)
         canvas_fill(&paper->canvas,
                     (Box){box->x, (int)floor(at[1] + 1e-9), box->width, thin},
                     zero ? COLOUR_BORDER : COLOUR_GRID);
-        write_tick(plot, COLOUR_FAINT, box->x - 0.35 * em,
-                   at[1] - 0.65 * TICK_SIZE * em, ALIGN_RIGHT,
-                   format_tick(&plot->y, ticks[i]).text);
+        write_axis_text(plot, COLOUR_FAINT, box->x - 0.35 * em,
+                        at[1] - 0.65 * TICK_SIZE * em, ALIGN_RIGHT,
+                        format_tick(&plot->y, ticks[i]).text);
     }
     if (y_label && box->height > 1.6 * TICK_SIZE * em)
-        write_tick(plot, COLOUR_TEXT, right, box->y + 0.1 * em, ALIGN_RIGHT,
-                   y_label);
+        write_axis_text(plot, COLOUR_TEXT, right, box->y + 0.1 * em,
+                        ALIGN_RIGHT, y_label);
     if (x_label) {
-        write_tick(plot, COLOUR_TEXT, right, below, ALIGN_RIGHT, x_label);
-        end -= measure_label(paper, x_label) + paper_pixels(paper, 0.5);
+        write_axis_text(plot, COLOUR_TEXT, right, below, ALIGN_RIGHT, x_label);
+        end -= measure_label(paper, x_label) + paper_to_pixels(paper, 0.5);
     }
     count = find_ticks(&plot->x, false, box->width / em, ticks);
     for (int i = 0; i < count; i++) {
         NumberText number = format_tick(&plot->x, ticks[i]);
         plot_to_pixel(plot, (double[2]){ticks[i], plot->y.low}, at);
         if (at[0] + measure_label(paper, number.text) / 2 <= end)
-            write_tick(plot, COLOUR_FAINT, at[0], below, ALIGN_CENTRE,
-                       number.text);
+            write_axis_text(plot, COLOUR_FAINT, at[0], below, ALIGN_CENTRE,
+                            number.text);
     }
 }
 
@@ -167,15 +167,15 @@ static Box find_box_inside_axes(const Plot *outer, const Axis *y, double above,
 {
     Paper *paper = outer->paper;
     Box box = outer->box;
-    double ticks[PLOT_MAX_TICKS], left = paper_pixels(paper, Y_NUMBER_WIDTH);
+    double ticks[PLOT_MAX_TICKS], left = paper_to_pixels(paper, Y_NUMBER_WIDTH);
     int count = find_ticks(y, true, box.height / paper->em, ticks);
     for (int i = 0; i < count; i++)
         left = fmax(left, measure_label(paper, format_tick(y, ticks[i]).text) +
-                              paper_pixels(paper, 0.4));
+                              paper_to_pixels(paper, 0.4));
     box.x += (int)left;
-    box.y += paper_pixels(paper, above);
-    box.width -= (int)left + paper_pixels(paper, 0.6);
-    box.height -= paper_pixels(paper, above + below);
+    box.y += paper_to_pixels(paper, above);
+    box.width -= (int)left + paper_to_pixels(paper, 0.6);
+    box.height -= paper_to_pixels(paper, above + below);
     box.width = box.width < 1 ? 1 : box.width;
     box.height = box.height < 1 ? 1 : box.height;
     return box;
@@ -426,8 +426,8 @@ bool plot_pick_point(const Plot *plot, int count, const double *at,
     return found;
 }
 
-void bounds_make_square(double least, double needed, double factor,
-                        double bounds[4])
+void find_centred_view(double least, double needed, double factor,
+                       double bounds[4])
 {
     while (least < needed && least < 1e100)
         least *= factor;

@@ -17,7 +17,7 @@
 typedef struct Axis {
     double low, high; /* high > low; both > 0 on a logarithmic axis */
     /* places of the ticks: any, whole numbers, powers of ten */
-    enum { SCALE_LINEAR, SCALE_WHOLE, SCALE_LOG } scale;
+    enum { SCALE_LINEAR, SCALE_INTEGER, SCALE_LOG } scale;
     bool shows_milli; /* numbers at the ticks are 1000 times the values */
     /* Markup; x: below the axis at the right end, y: above the upper end. */
     const char *label;
@@ -89,7 +89,7 @@ static inline double vector_length(const double *d)
 }
 
 /* Rounds value > 0 up to 1, 2 or 5 times a power of ten. */
-double plot_round_up(double value);
+double plot_nice_number(double value);
 
 /* Rounds value > 0 up to the last tick of an axis that begins at 0. */
 double plot_round_axis_end(double value);
@@ -114,8 +114,8 @@ bool plot_pick_point(const Plot *plot, int count, const double *at,
 /* Finds bounds of a square around the origin.  Half a side is `least` metres,
  * multiplied by `factor` until half a side is at least `needed` metres: a view
  * that grows by steps seldom moves. */
-void bounds_make_square(double least, double needed, double factor,
-                        double bounds[4]);
+void find_centred_view(double least, double needed, double factor,
+                       double bounds[4]);
 
 /* ---- shapes; the phase of dashes is that of canvas_dashes ---------------- */
 

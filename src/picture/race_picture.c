@@ -13,7 +13,7 @@ static const double TARGET_ERROR = 0.01; /* m, largest accepted error */
  * Errors below 1e-8 m and above 10 m may be outside. */
 void find_race_bounds(const Plot *stage, double bounds[4])
 {
-    const Race *race = &stage->simulation->exhibit.race;
+    const MethodRace *race = &stage->simulation->exhibit.race;
     bool over_h = stage->simulation->exhibit.switches;
     bounds[0] = over_h ? -1.8 : -3.4;
     bounds[1] = -7.4;
@@ -37,7 +37,7 @@ void find_race_bounds(const Plot *stage, double bounds[4])
 void draw_race_picture(Plot *stage)
 {
     const Simulation *simulation = stage->simulation;
-    const Race *race = &simulation->exhibit.race;
+    const MethodRace *race = &simulation->exhibit.race;
     double named[RACE_METHODS][2]; /* place of the name; NaN: none */
     bool over_h = simulation->exhibit.switches;
     bool wide = stage->has_text && stage->box.width > NAMES_WIDTH * stage->em;
@@ -83,7 +83,7 @@ void list_race_values(const Simulation *simulation, LiveValues *values)
 {
     static const char *const names[2][2] = {{"explicit", "explicit ms"},
                                             {"implicit", "implicit ms"}};
-    const Race *race = &simulation->exhibit.race;
+    const MethodRace *race = &simulation->exhibit.race;
     bool all = race->run_count == RACE_METHODS * RACE_STEP_SIZES;
     for (int i = 0; i < 2; i++) {
         const RaceResult *best = NULL, *at = race->result;
@@ -118,13 +118,13 @@ static void format_cell(char cell[CARD_CELL], const char *sign, double value)
  * by which the error falls from h to h/2 and from h/2 to h/4. */
 bool race_make_row(const FrameContent *content, int row, CardTableRow *cells)
 {
-    const Race *race = &active_pane(content)->simulation->exhibit.race;
+    const MethodRace *race = &active_pane(content)->simulation->exhibit.race;
     int method = row - 1;
     if (row == 0 || row > RACE_METHODS)
         return row == 0;
     const IntegratorMethod *shown = race_get_method(method);
     const RaceResult *point =
-        &race->result[RACE_SHOWN_STEP_SIZE * RACE_METHODS + method];
+        &race->result[RACE_SHOWN_STEP_INDEX * RACE_METHODS + method];
     char(*cell)[CARD_CELL] = cells->cell;
     cells->colour = colour_of_name(shown->name);
     snprintf(cell[0], CARD_CELL, "%s", shown->label);

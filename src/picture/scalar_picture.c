@@ -19,12 +19,12 @@ typedef struct ScalarUpdate {
     double x0, x1, f, slope, curvature;
     double alpha; /* step length; 0: unknown, or all lengths were refused */
     int refused_count;     /* number of refused trials alpha = 1, 1/2, ... */
-    int iterate;           /* index of the iterate x0 */
-    bool is_made;          /* false: the update is only predicted */
+    int iterate_index;     /* index of the iterate x0 */
+    bool is_recorded;      /* false: the update is only predicted */
     bool shows_derivative; /* draws f' and tangent, not f and model */
 } ScalarUpdate;
 
-static LocalModel evaluate_scalar_model(const Simulation *simulation, double x)
+static TaylorModel evaluate_scalar_model(const Simulation *simulation, double x)
 {
     return descent_evaluate(simulation, PROJECTION_NONE, x, 0);
 }
@@ -41,10 +41,10 @@ static ScalarUpdate find_scalar_update(const Simulation *simulation, int i)
         update.x0 = record->x_before[0];
         update.alpha = record->alpha;
         update.refused_count = record->trials - (record->alpha > 0);
-        update.iterate = i;
-        update.is_made = true;
+        update.iterate_index = i;
+        update.is_recorded = true;
     }
-    LocalModel at = evaluate_scalar_model(simulation, update.x0);
+    TaylorModel at = evaluate_scalar_model(simulation, update.x0);
     update.f = at.energy;
     update.slope = at.g[0];
     update.curvature = at.H[0];
@@ -56,7 +56,7 @@ static ScalarUpdate find_scalar_update(const Simulation *simulation, int i)
 static double evaluate_f(const void *data, double x)
 {
     const ScalarUpdate *update = data;
-    LocalModel at = evaluate_scalar_model(update->simulation, x);
+    TaylorModel at = evaluate_scalar_model(update->simulation, x);
     return update->shows_derivative ? at.g[0] : at.energy;
 }
 
@@ -80,7 +80,7 @@ static double get_iterate(const Descent *descent, int i)
 /* ---- function, model and iterates ---------------------------------------- */
 
 /* Draws the model (or tangent), and a line from its minimum (or zero) to f. */
-static void draw_scalar_model(const Plot *plot, const ScalarUpdate *update,
+static void draw_newton_model(const Plot *plot, const ScalarUpdate *update,
                               double width, double radius, Colour colour)
 {
     const double low[2] = {update->x1, evaluate_model_at(update, update->x1)};
@@ -100,7 +100,7 @@ static void draw_iteration(const Plot *plot, const ScalarUpdate *update,
     bool right = x1 > plot->x.high, left = x1 < plot->x.low;
     plot_graph(plot, evaluate_f, update, 2.4, COLOUR_X);
     if (model)
-        draw_scalar_model(plot, update, 1.6, 6, COLOUR_P);
+        draw_newton_model(plot, update, 1.6, 6, COLOUR_P);
     const double edge[2] = {right ? plot->x.high : plot->x.low,
                             0.2 * plot->y.low};
     if (model && !update->shows_derivative && isfinite(x1) && (left || right))
@@ -138,7 +138,7 @@ void draw_scalar_picture(Plot *stage)
     Plot plot = plot_create_on_stage(stage, (Axis){.label = "x"}, (Axis){0});
     for (int i = 0; whole && i + 1 < simulation->descent.record_count; i++) {
         ScalarUpdate earlier = find_scalar_update(simulation, i);
-        draw_scalar_model(&plot, &earlier, 1.4, 4, pale);
+        draw_newton_model(&plot, &earlier, 1.4, 4, pale);
     }
     draw_iteration(&plot, &update, !stage->content->lecture.hides_answer);
 }
@@ -163,8 +163,8 @@ void list_scalar_values(const Simulation *simulation, LiveValues *values)
     double next = x + (update.alpha > 0 ? update.alpha : 1) * p;
     bool tangent = simulation->scene->picture == PICTURE_TANGENT;
     values_add_flag(values, "tangent", tangent);
-    values_add(values, "number", update.iterate);
-    values_add(values, "next number", update.iterate + 1);
+    values_add(values, "number", update.iterate_index);
+    values_add(values, "next number", update.iterate_index + 1);
     values_add_flag(values, "refused lengths", update.refused_count > 0);
     values_add(values, "iterate", x);
     values_add(values, "next", next);
@@ -185,7 +185,7 @@ void list_scalar_values(const Simulation *simulation, LiveValues *values)
 void find_tangent_bounds(const Plot *stage, double bounds[4])
 {
     double x = stage->simulation->descent.iterate[0];
-    bounds_make_square(TANGENT_REACH, 1.05 * fabs(x), 2, bounds);
+    find_centred_view(TANGENT_REACH, 1.05 * fabs(x), 2, bounds);
 }
 
 /* Makes the plot of g in the upper half (0) or of E in the lower half (1), with
@@ -195,7 +195,7 @@ static Plot create_tangent_plot(const Plot *stage, int half)
     const Descent *descent = &stage->simulation->descent;
     double high = half ? 2 : 4;
     for (int i = 0; i <= descent->record_count; i++) {
-        LocalModel at =
+        TaylorModel at =
             evaluate_scalar_model(stage->simulation, get_iterate(descent, i));
         high = fmax(high, half ? at.energy : fabs(at.g[0]));
     }
@@ -224,7 +224,7 @@ void draw_tangent_picture(Plot *stage)
     bool asked = stage->content->lecture.hides_answer;
     for (int half = 0; half < 2; half++) {
         update.shows_derivative = half == 0;
-        draw_iteration(&plot[half], &update, update.is_made || !asked);
+        draw_iteration(&plot[half], &update, update.is_recorded || !asked);
     }
     if (!stage->has_text)
         return;
@@ -246,7 +246,7 @@ static double find_scalar_root(const Simulation *simulation)
     double x = simulation->descent.iterate[0], p = INFINITY;
     for (int i = 0; i < ROOT_MAX_UPDATES && fabs(p) > 1e-14 * fmax(1, fabs(x));
          i++) {
-        LocalModel at = evaluate_scalar_model(simulation, x);
+        TaylorModel at = evaluate_scalar_model(simulation, x);
         p = -at.g[0] / at.H[0];
         x += p;
     }
@@ -254,7 +254,7 @@ static double find_scalar_root(const Simulation *simulation)
 }
 
 /* Writes a double with 12 decimals, or 10 digits if large. */
-static void write_digits(double x, char text[DIGITS_TEXT_SIZE])
+static void format_decimals(double x, char text[DIGITS_TEXT_SIZE])
 {
     bool plain = fabs(x) < 1e4;
     snprintf(text, DIGITS_TEXT_SIZE, plain ? "%s%.12f" : "%s%.9e",
@@ -270,8 +270,8 @@ bool iterates_make_row(const FrameContent *content, int row,
     int right = 0;
     if (row == 0 || row > simulation->descent.record_count + 1)
         return row == 0;
-    write_digits(find_scalar_root(simulation), root);
-    write_digits(get_iterate(&simulation->descent, row - 1), x);
+    format_decimals(find_scalar_root(simulation), root);
+    format_decimals(get_iterate(&simulation->descent, row - 1), x);
     while (x[right] && x[right] == root[right])
         right++;
     snprintf(cells->cell[0], CARD_CELL, "#x{x^{%d}}", row - 1);
@@ -291,7 +291,7 @@ static void draw_iterates(const Plot *card)
     for (int i = first;
          card_make_row(card->content, &card_tangent_numbers, i + 1, &cells);
          i++) {
-        int y = card->box.y + paper_pixels(paper, pitch * (i - first));
+        int y = card->box.y + paper_to_pixels(paper, pitch * (i - first));
         int right = (int)strcspn(cells.cell[1], "#");
         char words[2 * CARD_CELL];
         snprintf(words, sizeof words, "%s  ", cells.cell[0]);
@@ -300,8 +300,8 @@ static void draw_iterates(const Plot *card)
                  cells.cell[1]);
         int end = paper_measure(paper, FACE_REGULAR, size, words);
         canvas_fill(&paper->canvas,
-                    (Box){card->box.x + left, y + paper_pixels(paper, 0.28),
-                          end - left, paper_pixels(paper, 1.2)},
+                    (Box){card->box.x + left, y + paper_to_pixels(paper, 0.28),
+                          end - left, paper_to_pixels(paper, 1.2)},
                     right > 0 ? COLOUR_LIT : COLOUR_WHITE);
         paper_write(paper, FACE_REGULAR, size, COLOUR_TEXT, card->box.x, y,
                     ALIGN_LEFT, "%s  %s", cells.cell[0], cells.cell[1]);
@@ -313,7 +313,7 @@ void draw_tangent_numbers_card(const Plot *card)
 {
     Plot left = *card, right = *card;
     right.box = box_cut_off(&left.box, EDGE_RIGHT,
-                            paper_pixels(card->paper, ITERATES_WIDE));
+                            paper_to_pixels(card->paper, ITERATES_WIDE));
     card_write_text(&left, &card->pane->values, card_tangent_numbers.words);
     draw_iterates(&right);
 }

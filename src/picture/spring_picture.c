@@ -14,7 +14,7 @@ static const double origin[2] = {0, 0};
 void find_spring_bounds(const Plot *stage, double bounds[4])
 {
     const double *x = stage->simulation->run[0].x;
-    bounds_make_square(SPRING_REACH, 1.1 * vector_length(x), sqrt(2), bounds);
+    find_centred_view(SPRING_REACH, 1.1 * vector_length(x), sqrt(2), bounds);
 }
 
 static SpringValues evaluate_spring(const double d[2], const System *system)
@@ -184,8 +184,8 @@ void list_spring_values(const Simulation *simulation, LiveValues *values)
 typedef double SpringFunction(const void *system, double d);
 
 /* Draws of_p over the length, and of_root if the switch is on; dots at d. */
-static Plot draw_length_functions(const Plot *card, double d, Axis y,
-                                  SpringFunction *of_p, SpringFunction *of_root)
+static Plot draw_length_graphs(const Plot *card, double d, Axis y,
+                               SpringFunction *of_p, SpringFunction *of_root)
 {
     const System *system = &card->simulation->system;
     double reach = fmax(1.5, 1.1 * fabs(d)) * sqrt(system->l2[0]);
@@ -216,15 +216,15 @@ void draw_spring_profile_card(const Plot *card)
         upper.box =
             box_cut_off(&lower.box, EDGE_TOP, (int)(0.55 * card->box.height));
     if (!low || page)
-        draw_length_functions(&lower, d,
-                              (Axis){-most, most, .label = "force in N"},
-                              force_at_length, root_force_at_length);
+        draw_length_graphs(&lower, d,
+                           (Axis){-most, most, .label = "force in N"},
+                           force_at_length, root_force_at_length);
     if (low && page)
         return;
     const Axis y = {0, 1.12 * fmax(tip, energy_at_length(system, d)),
                     .label = NULL};
-    Plot plot = draw_length_functions(&upper, d, y, energy_at_length,
-                                      root_energy_at_length);
+    Plot plot = draw_length_graphs(&upper, d, y, energy_at_length,
+                                   root_energy_at_length);
     if (both) {
         plot_label(&plot, 1, (double[2]){0, root_energy_at_length(system, 0)},
                    COLOUR_GHOST, "P_{r} = 2k (|d| \u2212 l)\u00b2");

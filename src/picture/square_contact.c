@@ -28,7 +28,7 @@ static double compute_contact_force(const SquarePen *pen, const EvalPoint *at,
     if (friction && grip > 0) {
         double speed = ((const Friction *)friction->data)->slip_speed;
         double slip = -carry;
-        element_compute_weighted_sums(element, pen->v, v);
+        element_compute_vectors(element, pen->v, v);
         for (int i = 0; i < 2 * element->vector_count; i++)
             slip += t[i] * v[i];
         rub = -grip * friction_slope(slip * h, speed * h);
@@ -42,8 +42,8 @@ static double compute_contact_force(const SquarePen *pen, const EvalPoint *at,
 /* Draws the contact forces of one kind on the nodes of a run.
  *   factor  m/N, length of an arrow over its force; 0: draws nothing
  *   most    N, in and out, the largest force so far */
-static void draw_term_forces(const SquarePen *pen, bool between_bodies,
-                             double factor, double *most)
+static void draw_contact_forces(const SquarePen *pen, bool between_bodies,
+                                double factor, double *most)
 {
     const System *system = pen->system;
     EvalPoint at = make_eval_point(system, NULL, NULL, pen->x);
@@ -78,13 +78,13 @@ void square_draw_forces(const SquarePen *pen, int runs)
     Plot *stage = pen->stage;
     double most = 0; /* N, the largest force */
     for (int i = 0; i < 2 * runs; i++)
-        draw_term_forces(&pen[i / 2], i % 2, 0, &most);
+        draw_contact_forces(&pen[i / 2], i % 2, 0, &most);
     if (most == 0 || !isfinite(most))
         return;
-    double round = plot_round_up(most);
+    double round = plot_nice_number(most);
     double factor = FORCE_ARROW * stage->em / stage->camera.scale[0] / round;
     for (int i = 2 * runs - 1; i >= 0; i--)
-        draw_term_forces(&pen[i / 2], i % 2, factor, &most);
+        draw_contact_forces(&pen[i / 2], i % 2, factor, &most);
     plot_legend(stage, COLOUR_FORCE, "contact force \u2264 %s N",
                 format_number(round).text);
     if (system_find_term(pen->system, &friction_energy) ||
@@ -92,7 +92,7 @@ void square_draw_forces(const SquarePen *pen, int runs)
         plot_legend(stage, COLOUR_FORCE, "\u25cf sticks   \u25cb slides");
 }
 
-void square_write_friction(const SquarePen *pen)
+void square_draw_mu_label(const SquarePen *pen)
 {
     const Plot *stage = pen->stage;
     const Obstacle *wall = &pen->contact->obstacle[0];
@@ -114,7 +114,7 @@ void square_write_friction(const SquarePen *pen)
     }
     if (seen)
         plot_label(stage, 2, at, COLOUR_TEXT, "\u03bc = %s tan %s\u00b0",
-                   format_number(wall->friction / fabs(slope)).text,
+                   format_number(wall->mu / fabs(slope)).text,
                    format_number(fabs(atan(slope)) / DEGREE).text);
 }
 

@@ -79,12 +79,12 @@ static void draw_mouse_note(const Plot *stage, const LiveValues *values,
     double middle = stage->box.x + 0.5 * stage->box.width, mouse[2];
     double size = fmax(NOTE_SIZE, paper->min_letter_size);
     double wide = NOTE_WIDTH * paper->em;
-    int margin = paper_pixels(paper, 0.7), high = 2 * margin;
-    for (TextLine line = text_begin(values, text); text_next_line(&line);) {
+    int margin = paper_to_pixels(paper, 0.7), high = 2 * margin;
+    for (TextLine line = lines_begin(values, text); text_next_line(&line);) {
         wide = fmax(wide, paper_measure(paper, line.face, size, line.text));
         high += paper_write_paragraph(paper, line.face, size, line.colour, *box,
                                       0, line.text);
-        high += paper_pixels(paper, 0.2 * size);
+        high += paper_to_pixels(paper, 0.2 * size);
     }
     plot_to_pixel(stage, stage->content->view->hovered_part.point, mouse);
     box->width = (int)wide + 2 * margin;
@@ -119,7 +119,8 @@ static void describe_node(Plot *stage, const Pane *pane, int node)
     }
     free(f);
     values_add(&values, "node", node);
-    values_add_words(&values, "pinned", system->pinned[node] ? ", pinned" : "");
+    values_add_words(&values, "pinned",
+                     system->is_pinned[node] ? ", pinned" : "");
     values_add(&values, "mass", system->m[node]);
     values_add_point(&values, "place", x);
     values_add_point(&values, "velocity", v);
@@ -127,7 +128,7 @@ static void describe_node(Plot *stage, const Pane *pane, int node)
     values_add_point(&values, "inertia", tilde);
     values_add_words(&values, "pin",
                      !simulation_is_draggable(simulation) ? NULL
-                     : system->pinned[node]               ? "frees"
+                     : system->is_pinned[node]            ? "frees"
                                                           : "pins");
     draw_mouse_note(stage, &values, text_node);
 }

@@ -28,14 +28,14 @@ static double find_strain_range(const Simulation *simulation, const double *ep)
         most = fmax(most, fabs(ep[s]));
     if (!ep && simulation->scene->strain_colour_max > 0)
         return simulation->scene->strain_colour_max;
-    return plot_round_up(fmax(0.5 * most, 0.05));
+    return plot_nice_number(fmax(0.5 * most, 0.05));
 }
 
 static bool node_is_fixed(const SquarePen *pen, int node)
 {
     const SquareMesh *mesh = &pen->simulation->mesh;
-    return pen->fixed_bodies && node < mesh->nodes &&
-           pen->fixed_bodies >> square_mesh_find_body(mesh, node) & 1;
+    return pen->fixed_body_mask && node < mesh->nodes &&
+           pen->fixed_body_mask >> square_mesh_find_body(mesh, node) & 1;
 }
 
 SquarePen square_pen_create(Plot *stage, int run)
@@ -56,15 +56,15 @@ SquarePen square_pen_create(Plot *stage, int run)
         .shade_strain = find_strain_range(simulation, NULL),
         .ep = plasticity ? plasticity->ep : NULL,
         .contact = get_contact(system),
-        .fixed_bodies = mesh->bodies > 1 ? (1u << mesh->bodies) - 1 : 0};
+        .fixed_body_mask = mesh->bodies > 1 ? (1u << mesh->bodies) - 1 : 0};
     double unit = stage->paper->unit;
     double seen =
         content->view->lens.zoom * stage->box.width / stage->camera.scale[0];
     if (seen > FLOWN_VIEW * mesh->side) /* the nodes have flown apart */
         pen.spacing *= seen / mesh->side;
-    for (int i = 0; pen.fixed_bodies && i < mesh->nodes; i++)
-        if (!system->pinned[i])
-            pen.fixed_bodies &= ~(1u << square_mesh_find_body(mesh, i));
+    for (int i = 0; pen.fixed_body_mask && i < mesh->nodes; i++)
+        if (!system->is_pinned[i])
+            pen.fixed_body_mask &= ~(1u << square_mesh_find_body(mesh, i));
     pen.width = fmax(fmin(fmax(0.06 * pen.spacing / unit, 1.1), 1.9), 1 / unit);
     pen.node_radius = NODE_RADIUS * pen.spacing / unit;
     if (!content->is_bare)
@@ -145,7 +145,7 @@ static bool face_is_folded(const double *x, const int node[4])
 
 /* Whether all springs of a cell are unbroken.
  *   node  [4] out, nodes of the cell */
-static bool cell_is_whole(const Simulation *simulation, int cell, int node[4])
+static bool cell_is_intact(const Simulation *simulation, int cell, int node[4])
 {
     int spring[6], broken = 0;
     square_mesh_get_cell(&simulation->mesh, cell, node, spring);
@@ -158,7 +158,7 @@ int pane_count_folded_cells(const Pane *pane)
 {
     int folded = 0, node[4];
     for (int c = 0; c < pane->simulation->mesh.cells; c++)
-        folded += cell_is_whole(pane->simulation, c, node) &&
+        folded += cell_is_intact(pane->simulation, c, node) &&
                   face_is_folded(pane_get_positions(pane), node);
     return folded;
 }
@@ -195,7 +195,7 @@ int square_fill_cells(const SquarePen *pen, bool all)
         fill_face(pen, face, node_is_fixed(pen, n[0]) ? COLOUR_SOLID : colour);
     }
     for (int c = 0; !solid && c < pen->simulation->mesh.cells; c++) {
-        if (!cell_is_whole(pen->simulation, c, node))
+        if (!cell_is_intact(pen->simulation, c, node))
             continue;
         bool over = face_is_folded(pen->x, node);
         folded += over;
@@ -237,10 +237,10 @@ void square_draw_faces(const SquarePen *pen)
     double side = wide * mesh->spacing;
     int node[4];
     for (int cell = 0; cell < mesh->cells; cell++)
-        if (square_mesh_get_patch(mesh, cell, wide, node))
+        if (square_mesh_get_cell_patch(mesh, cell, wide, node))
             fill_face(pen, node, choose_face_colour(pen, node, side, cell));
     for (int cell = 0; cell < mesh->cells; cell++)
-        if (square_mesh_get_patch(mesh, cell, 1, node) &&
+        if (square_mesh_get_cell_patch(mesh, cell, 1, node) &&
             face_is_folded(pen->x, node))
             fill_face(pen, node, COLOUR_FOLDED);
     square_draw_outline(pen, pen->x, false, COLOUR_X);
@@ -258,11 +258,11 @@ void square_draw_nodes(const SquarePen *pen)
     for (int i = 0; i < system->nodes; i++) {
         if (radius >= 0.5 * pen->width && !node_is_fixed(pen, i))
             plot_disc(pen->stage, pen->x + 2 * i, radius, colour);
-        if (system->pinned[i] && !node_is_fixed(pen, i))
+        if (system->is_pinned[i] && !node_is_fixed(pen, i))
             plot_draw_pin(pen->stage, pen->x + 2 * i, radius);
     }
     for (int k = 0;
-         pen->fixed_bodies && k < pen->simulation->mesh.outline_edge_count;
+         pen->fixed_body_mask && k < pen->simulation->mesh.outline_edge_count;
          k++) {
         int node[2];
         square_mesh_get_outline_edge(&pen->simulation->mesh, k, node);

@@ -20,8 +20,8 @@ typedef struct SquarePen {
     const double *ep;       /* [springs] plastic strain; NULL: no plasticity */
     const Contact *contact; /* NULL: the scene has no contact */
     bool shows_projected;   /* springs with a projected block are coloured */
-    unsigned fixed_bodies;  /* bit b: body b is pinned everywhere and drawn like
-                               a wall; 0 for a single body */
+    unsigned fixed_body_mask; /* bit b: body b is pinned everywhere and drawn
+                              like a wall; 0 for a single body */
 } SquarePen;
 
 SquarePen square_pen_create(Plot *stage, int run);
@@ -56,7 +56,7 @@ void square_draw_obstacles(const SquarePen *pen);
 
 /* If the first wall slopes, writes its coefficient of friction as a multiple of
  * the slope, below the wall and right of the body. */
-void square_write_friction(const SquarePen *pen);
+void square_draw_mu_label(const SquarePen *pen);
 
 /* Draws the forces of contact and friction of all runs as arrows that end at
  * their nodes, with their scale in the legend.  A disc marks a node that

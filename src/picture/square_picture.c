@@ -74,8 +74,8 @@ static Extent find_seen_extent(const Plot *stage, const Extent *view)
  *   at, radius  m, circle
  *   reach       distance from the middle up to which the whole circle is shown,
  *               in half widths or heights of the seen part */
-static void widen_to_circle(const Extent *seen, const double at[2],
-                            double radius, double reach, Extent *view)
+static void widen_view_to_circle(const Extent *seen, const double at[2],
+                                 double radius, double reach, Extent *view)
 {
     double far = 0;
     for (int k = 0; k < 2; k++)
@@ -102,7 +102,7 @@ static void widen_to_circle(const Extent *seen, const double at[2],
  * (wide enough for the mouse), and the place to which a script pulls.  The
  * pushed obstacle is always in reach, and with shows_all_obstacles every
  * obstacle. */
-static void widen_to_obstacles(const Plot *stage, Extent *view)
+static void widen_view_to_obstacles(const Plot *stage, Extent *view)
 {
     const Simulation *simulation = stage->simulation;
     const Options *options = &simulation->options;
@@ -111,20 +111,20 @@ static void widen_to_obstacles(const Plot *stage, Extent *view)
     const Extent seen = find_seen_extent(stage, view);
     double air = 0.04 * fmin(view->half_size[0], view->half_size[1]);
     if (hand->is_held && !stage->content->view->drag_bounds.is_dragging)
-        widen_to_circle(&seen, hand->target, air, PULL_REACH, view);
+        widen_view_to_circle(&seen, hand->target, air, PULL_REACH, view);
     for (int k = 0; contact && k < options->grounds + options->balls; k++) {
         const Obstacle *obstacle = &contact->obstacle[k];
-        bool held = contact->hand.is_held && contact->hand.obstacle_index == k;
+        bool held = contact->push.is_held && contact->push.obstacle_index == k;
         bool seeks_all = held || stage->content->view->lens.shows_all_obstacles;
         NodeGap gap =
             contact_measure_gap(obstacle, obstacle->o, seen.middle, 0);
         const Point foot = point_along(seen.middle, -gap.d, gap.n);
         if (obstacle->kind == OBSTACLE_BALL)
-            widen_to_circle(&seen, obstacle->o, obstacle->radius + air,
-                            seeks_all ? INFINITY : BALL_REACH, view);
+            widen_view_to_circle(&seen, obstacle->o, obstacle->radius + air,
+                                 seeks_all ? INFINITY : BALL_REACH, view);
         else
-            widen_to_circle(&seen, foot.xy, 3 * air,
-                            seeks_all ? INFINITY : GROUND_REACH, view);
+            widen_view_to_circle(&seen, foot.xy, 3 * air,
+                                 seeks_all ? INFINITY : GROUND_REACH, view);
     }
 }
 
@@ -217,7 +217,7 @@ void find_square_bounds(const Plot *stage, double bounds[4])
             : 1;
     view.half_size[0] *= grown;
     view.half_size[1] *= grown * fmin(low, 1);
-    widen_to_obstacles(stage, &view);
+    widen_view_to_obstacles(stage, &view);
     for (int k = 0; k < 2; k++) {
         bounds[k] = view.middle[k] - view.half_size[k];
         bounds[2 + k] = view.middle[k] + view.half_size[k];
@@ -272,7 +272,7 @@ static void mark_part_under_mouse(const SquarePen *pen)
     bool over = hover->pane_index == plot_pane_index(stage);
     bool writes = pen->simulation->options.next_action == NEXT_ADDS_SPRING;
     int lit = hover->kind == PICK_SPRING ? hover->index
-              : writes                   ? find_newest_spring(pen->simulation)
+              : writes                   ? find_added_spring(pen->simulation)
                                          : -1;
     if (over && hover->kind == PICK_NODE && hover->index < system->nodes)
         plot_ring(stage, pen->x + 2 * (size_t)hover->index,
@@ -303,7 +303,7 @@ static void mark_part_under_mouse(const SquarePen *pen)
 
 /* Draws the layers below the springs: rest shape, cells, ghosts.  Returns the
  * number of folded cells. */
-static int draw_below_springs(const SquarePen *pen)
+static int draw_lower_layers(const SquarePen *pen)
 {
     const Pane *pane = pen->stage->pane;
     const NewtonTrace *trace = pane->trace;
@@ -422,7 +422,7 @@ static void compute_rest_positions(const Simulation *simulation, double *x)
 }
 
 /* Draws a page's arrows: forces on the nodes, or displacements from rest. */
-static void draw_page_arrows(const SquarePen *pen)
+static void draw_field_arrows(const SquarePen *pen)
 {
     unsigned layers = pen->simulation->options.layers;
     const System *system = pen->system;
@@ -454,7 +454,7 @@ static void draw_springs_by_kind(const SquarePen *pen)
 {
     const System *system = pen->system;
     int newest = exhibit_find_spring_kind(pen->simulation,
-                                          find_newest_spring(pen->simulation));
+                                          find_added_spring(pen->simulation));
     bool wide = pen->simulation->options.layers & LAYER_SPRING_KINDS;
     for (int s = 0; s < system->springs; s++) {
         int kind = exhibit_find_spring_kind(pen->simulation, s);
@@ -555,7 +555,7 @@ void draw_square_picture(Plot *stage)
         square_draw_nodes(&pen[r]);
     }
     if (!content->is_bare)
-        folded = draw_below_springs(pen);
+        folded = draw_lower_layers(pen);
     bool cuts = layers & LAYER_FILLED_CELLS,
          solid = cuts && content->lecture.hides_answer;
     if (cuts)
@@ -570,7 +570,7 @@ void draw_square_picture(Plot *stage)
     else
         square_draw_faces(pen);
     if (!content->is_bare)
-        draw_page_arrows(pen);
+        draw_field_arrows(pen);
     if (!solid)
         square_draw_nodes(pen);
     if (content->is_bare)
@@ -578,7 +578,7 @@ void draw_square_picture(Plot *stage)
     square_draw_forces(pen, runs);
     for (int r = 0; r < runs && runs > 1; r++)
         if (pen[r].contact)
-            square_write_friction(&pen[r]);
+            square_draw_mu_label(&pen[r]);
     if (simulation->mesh.side * stage->camera.scale[0] < 4 &&
         !scene_sets_view(simulation))
         mark_tiny_square(stage);
@@ -601,7 +601,7 @@ void draw_square_picture(Plot *stage)
 
 /* ---- live values --------------------------------------------------------- */
 
-int find_newest_spring(const Simulation *simulation)
+int find_added_spring(const Simulation *simulation)
 {
     int last = simulation->system.springs - 1;
     return simulation->steps < last ? (int)simulation->steps : last;
@@ -610,12 +610,12 @@ int find_newest_spring(const Simulation *simulation)
 /* Adds values of the spring that the present step puts into the matrix: entries
  * xx, xy, yy of B = h^2 H, kg (H: projected 2x2 Hessian), and the numbers of
  * the four rows of its block [[B, -B], [-B, B]]. */
-static void add_block_values(const Simulation *simulation, LiveValues *values)
+static void add_hessian_values(const Simulation *simulation, LiveValues *values)
 {
     static const char *const names[] = {"Bxx", "Bxy", "Byy"};
     static const char *const rows[] = {"row 1", "row 2", "row 3", "row 4"};
     const System *system = &simulation->system;
-    int s = find_newest_spring(simulation);
+    int s = find_added_spring(simulation);
     const int *e = system->e + 2 * s;
     double d[2], H[3], l2 = system->l2[s], h = simulation->options.timestep;
     double k = h * h * system->k[s];
@@ -669,11 +669,11 @@ void list_square_values(const Simulation *simulation, LiveValues *values)
     values_add(values, "stretch", options->stretch);
     values_add(values, "h", options->timestep);
     if (options->next_action == NEXT_ADDS_SPRING)
-        add_block_values(simulation, values);
+        add_hessian_values(simulation, values);
     list_law_values(simulation, values);
     if (options->layers & LAYER_MODES && nodes <= SIMULATION_MAX_MODE_NODES) {
         compute_rest_positions(simulation, start);
-        double omega = simulation_find_fastest_mode(simulation, start, mode);
+        double omega = simulation_find_max_omega(simulation, start, mode);
         values_add(values, "h limit", 2 / omega);
     }
     if (options->layers & LAYER_FORCES && nodes <= MAX_NUMBERED_NODES)

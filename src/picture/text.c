@@ -13,7 +13,7 @@ enum {
     FONT_PATH_SIZE = 512
 };
 
-struct Text {
+struct Font {
     FT_Library freetype;
     FT_Face font[FACE_COUNT];
     int glyph_count;
@@ -64,13 +64,13 @@ static FT_Error open_font(FT_Library library, Face face, const char *given,
     return error;
 }
 
-Status text_create(Text **text)
+Status font_create(Font **text)
 {
     const char *given = getenv("ELASTO_FONT");
     *text = NULL;
     if (given && given[0] == '\0')
         return STATUS_OK;
-    Text *made = calloc(1, sizeof *made);
+    Font *made = calloc(1, sizeof *made);
     errno = 0;
     if (!made || FT_Init_FreeType(&made->freetype)) {
         free(made);
@@ -88,11 +88,11 @@ Status text_create(Text **text)
     if (made->font[FACE_REGULAR] && !out_of_memory)
         *text = made;
     else
-        text_free(made);
+        font_free(made);
     return out_of_memory ? STATUS_OUT_OF_MEMORY : STATUS_OK;
 }
 
-static void forget_glyphs(Text *text)
+static void forget_glyphs(Font *text)
 {
     for (int i = 0; i < TEXT_MAX_GLYPHS; i++)
         free(text->glyph_table[i].mask);
@@ -100,7 +100,7 @@ static void forget_glyphs(Text *text)
     text->glyph_count = 0;
 }
 
-void text_free(Text *text)
+void font_free(Font *text)
 {
     if (!text)
         return;
@@ -112,7 +112,7 @@ void text_free(Text *text)
 /* ---- letters ------------------------------------------------------------ */
 
 /* Renders a letter; a letter that FreeType cannot render is blank. */
-static Glyph render_glyph(Text *text, Face face, int size, uint32_t letter)
+static Glyph render_glyph(Font *text, Face face, int size, uint32_t letter)
 {
     Glyph glyph = {.advance = (int)(FONT_GUESSED * size)};
     FT_Face font = text->font[face];
@@ -138,7 +138,7 @@ static Glyph render_glyph(Text *text, Face face, int size, uint32_t letter)
     return glyph;
 }
 
-const Glyph *font_get_glyph(Text *text, Face face, int size, uint32_t letter)
+const Glyph *font_get_glyph(Font *text, Face face, int size, uint32_t letter)
 {
     uint64_t key =
         (uint64_t)letter << 16 | (uint64_t)size << 4 | ((uint64_t)face + 1);

@@ -30,7 +30,7 @@ static const double ROW_GAP = 0.22;    /* space between rows of a matrix */
 static const double RULE_WIDTH = 0.07; /* width of a fraction's line */
 
 typedef struct Pen {
-    Text *text;
+    Font *font;
     Canvas *canvas; /* NULL: the pen only measures */
     TextStyle style;
     double x, y;        /* pixels, position on the baseline */
@@ -81,12 +81,12 @@ static void typeset_letter(Pen *pen, uint32_t letter)
     int size = (int)(em + 0.5), base = (int)floor(pen->y + 0.5);
     bool mark = letter >= 0x300 && letter < 0x370;
     pen_extend(pen, pen->y - LETTER_ASCENT * em, pen->y + LETTER_DESCENT * em);
-    if (!pen->text) {
+    if (!pen->font) {
         pen->x += mark ? 0 : FONT_GUESSED * em;
         return;
     }
     const Glyph *glyph =
-        font_get_glyph(pen->text, mark ? FACE_BOLD : pen->style.face,
+        font_get_glyph(pen->font, mark ? FACE_BOLD : pen->style.face,
                        mark ? (int)(MARK_SIZE * em + 0.5) : size, letter);
     int x = (int)floor(pen->x + 0.5) + glyph->left, y = base + glyph->top;
     if (mark) {
@@ -108,7 +108,7 @@ static void typeset_letter(Pen *pen, uint32_t letter)
 
 static TextExtent measure_markup(const Pen *like, MarkupPart part, int depth)
 {
-    Pen pen = {.text = like->text, .style = like->style};
+    Pen pen = {.font = like->font, .style = like->style};
     typeset_markup(&pen, part, depth);
     return (TextExtent){pen.x, -pen.top, pen.bottom};
 }
@@ -124,8 +124,8 @@ static void typeset_markup_at(Pen *pen, double x, double y, MarkupPart part,
     pen_extend(pen, inner.top, inner.bottom);
 }
 
-static void draw_rule(const Pen *pen, double x0, double y0, double x1,
-                      double y1)
+static void draw_stroke(const Pen *pen, double x0, double y0, double x1,
+                        double y1)
 {
     if (pen->canvas)
         canvas_line(pen->canvas, x0, y0, x1, y1,
@@ -185,7 +185,7 @@ static void typeset_fraction(Pen *pen, MarkupPart part, int depth)
                       y - thin - a.descent, above, depth);
     typeset_markup_at(&small, left + 0.5 * (wide - b.width),
                       y + thin + b.ascent, below, depth);
-    draw_rule(pen, left, y, left + wide, y);
+    draw_stroke(pen, left, y, left + wide, y);
     pen_extend(pen, small.top, small.bottom);
     pen->x = left + wide + thin;
 }
@@ -243,9 +243,9 @@ static void typeset_matrix(Pen *pen, MarkupPart part, int depth)
     for (int side = 0; side < 2; side++) { /* the brackets */
         double x = floor(side ? right : pen->x + SPACE * em) + 0.5;
         double in = x + (side ? -0.2 : 0.2) * em;
-        draw_rule(pen, x, top - 0.5, x, bottom + 0.5);
-        draw_rule(pen, x, top, in, top);
-        draw_rule(pen, x, bottom, in, bottom);
+        draw_stroke(pen, x, top - 0.5, x, bottom + 0.5);
+        draw_stroke(pen, x, top, in, top);
+        draw_stroke(pen, x, bottom, in, bottom);
     }
     pen_extend(pen, top, bottom);
     pen->x = right + 1.5 * SPACE * em;
@@ -308,7 +308,7 @@ bool text_is_markup_brace(const char *text, const char *brace)
 }
 
 /* Sets the letter or command at the start of a part.  Returns its end. */
-static const char *typeset_first_part(Pen *pen, MarkupPart part, int depth)
+static const char *typeset_first_token(Pen *pen, MarkupPart part, int depth)
 {
     const char *at = part.start, *brace = at;
     bool plain = pen->style.is_plain || depth >= MAX_FORMULA_DEPTH;
@@ -330,7 +330,7 @@ static const char *typeset_first_part(Pen *pen, MarkupPart part, int depth)
 static void typeset_markup(Pen *pen, MarkupPart part, int depth)
 {
     while (part.start < part.end)
-        part.start = typeset_first_part(pen, part, depth);
+        part.start = typeset_first_token(pen, part, depth);
 }
 
 /* ---- lines -------------------------------------------------------------- */
@@ -352,18 +352,18 @@ static TextExtent find_line_extent(const Pen *pen)
                         pen->bottom > below ? pen->bottom + air : below};
 }
 
-TextExtent text_measure(Text *text, const TextStyle *style, const char *markup)
+TextExtent text_measure(Font *text, const TextStyle *style, const char *markup)
 {
-    Pen pen = {.text = text, .style = *style};
+    Pen pen = {.font = text, .style = *style};
     if (style->size >= MIN_TEXT_SIZE && style->size <= MAX_TEXT_SIZE)
         typeset_markup(&pen, whole_markup(markup), 0);
     return find_line_extent(&pen);
 }
 
-size_t text_break_line(Text *text, const TextStyle *style, int width,
+size_t text_break_line(Font *text, const TextStyle *style, int width,
                        const char *markup, size_t room, TextExtent *extent)
 {
-    Pen pen = {.text = text, .style = *style};
+    Pen pen = {.font = text, .style = *style};
     MarkupPart rest = whole_markup(markup);
     size_t fits = 0;
     for (int depth = 0;;) {
@@ -379,21 +379,21 @@ size_t text_break_line(Text *text, const TextStyle *style, int width,
         }
         if (ends)
             return fits;
-        const char *next = typeset_first_part(&pen, rest, 0);
+        const char *next = typeset_first_token(&pen, rest, 0);
         for (; rest.start < next; rest.start++)
             depth += (*rest.start == '{') - (*rest.start == '}');
     }
 }
 
 /* Letters start at whole pixels.  Text far outside the canvas is left out. */
-int text_draw(Text *text, Canvas *canvas, const TextStyle *style, double x,
+int text_draw(Font *text, Canvas *canvas, const TextStyle *style, double x,
               double y, Align align, const char *markup)
 {
     int width = (int)text_measure(text, style, markup).width;
     double start = x - 0.5 * (int)align * width;
     if (!text || width == 0 || !(fabs(x) < 1e6) || !(fabs(y) < 1e6))
         return width;
-    Pen pen = {.text = text,
+    Pen pen = {.font = text,
                .canvas = canvas,
                .style = *style,
                .x = floor(start + 0.5),

@@ -71,7 +71,7 @@ static void draw_setting(Paper *paper, Box box, const Setting *setting,
     Colour colour = setting->is_off ? COLOUR_GREY : COLOUR_VALUE;
     if (selected || over)
         canvas_framed_box(&paper->canvas,
-                          box_inset(box, paper_pixels(paper, 0.1)),
+                          box_inset(box, paper_to_pixels(paper, 0.1)),
                           selected ? COLOUR_LIT : COLOUR_CHIP,
                           selected ? COLOUR_BORDER : COLOUR_CHIP);
     box_cut_off(&box, EDGE_LEFT, (int)(0.4 * em));
@@ -96,8 +96,8 @@ static long count_time_line_steps(const FrameContent *content)
     return steps > MIN_TIME_LINE_STEPS ? steps : MIN_TIME_LINE_STEPS;
 }
 
-long frame_find_bar_step(const FrameContent *content, const Layout *layout,
-                         double x)
+long frame_pick_step(const FrameContent *content, const Layout *layout,
+                     double x)
 {
     const Box *bars = &layout->step_bars;
     double step =
@@ -173,7 +173,7 @@ static void draw_chips(Paper *paper, const Layout *layout,
     for (int i = 0; i < layout->chip_count; i++) {
         const Chip *chip = &content->chips.chip[i];
         Box box = layout->chip[i];
-        bool all = layout->chips_left_out > 0 && i == layout->chip_count - 1;
+        bool all = layout->omitted_chips > 0 && i == layout->chip_count - 1;
         bool over = mouse->zone == ZONE_CHIP && mouse->index == i;
         const char *label = all ? "all \u2026" : chip->label;
         int key = paper_measure(paper, FACE_BOLD, size, chip->key);

@@ -30,7 +30,7 @@ static int draw_text_line(Paper *paper, Box box, double size,
     const double air = 0.2, empty = 0.6; /* ems */
     int high = paper_write_paragraph(paper, line->face, size, line->colour, box,
                                      draw ? INT_MAX : 0, line->text);
-    return high + paper_pixels(paper, size * (high > 0 ? air : empty));
+    return high + paper_to_pixels(paper, size * (high > 0 ? air : empty));
 }
 
 void card_write_text(const Plot *card, const LiveValues *values,
@@ -41,7 +41,7 @@ void card_write_text(const Plot *card, const LiveValues *values,
     double height = 0, size = 1;
     if (card->content->lecture.page) /* larger letters for an audience */
         size = box.width > MAIN_CARD_WIDTH * paper->em ? 1.6 : 1.2;
-    const TextLine begin = text_begin(values, text);
+    const TextLine begin = lines_begin(values, text);
     for (TextLine line = begin; text_next_line(&line);) {
         int width = paper_measure(paper, line.face, 1, line.text);
         height += draw_text_line(paper, box, 1, &line, false);
@@ -60,19 +60,19 @@ int card_write_lines(const Plot *card, int at[2], double size, double gap,
     int width = paper_measure(paper, line->face, size, line->text);
     if (at[0] > 0 && at[0] + width > card->box.width) {
         at[0] = 0;
-        at[1] += paper_pixels(paper, 1.35 * size);
+        at[1] += paper_to_pixels(paper, 1.35 * size);
     }
     if (draw)
         paper_write_on_panel(paper, line->face, size, line->colour,
                              card->box.x + at[0], card->box.y + at[1],
                              ALIGN_LEFT, "%s", line->text);
-    at[0] += width + paper_pixels(paper, gap);
-    return at[1] + paper_pixels(paper, 1.5 * size);
+    at[0] += width + paper_to_pixels(paper, gap);
+    return at[1] + paper_to_pixels(paper, 1.5 * size);
 }
 
 void card_write_hint(const Plot *card, const char *text)
 {
-    TextLine line = text_first_line(&card->pane->values, text);
+    TextLine line = text_find_known_line(&card->pane->values, text);
     paper_write_in_box(card->paper, FACE_REGULAR, 0.92, COLOUR_GREY, card->box,
                        ALIGN_CENTRE, line.text);
 }
@@ -83,14 +83,14 @@ void plot_draw_scale_bar(const Plot *plot)
 {
     Paper *paper = plot->paper;
     double scale = plot->camera.scale[0];
-    double metres = plot_round_up(SCALE_PART * plot->box.width / scale);
+    double metres = plot_nice_number(SCALE_PART * plot->box.width / scale);
     double length = metres * scale;
-    Box line = {plot->box.x + paper_pixels(paper, 1),
-                plot->box.y + plot->box.height - paper_pixels(paper, 0.9),
+    Box line = {plot->box.x + paper_to_pixels(paper, 1),
+                plot->box.y + plot->box.height - paper_to_pixels(paper, 0.9),
                 (int)length, (int)(1.5 * paper->unit) + 1};
     if (!(length > 4) || !isfinite(length) || length > 0.6 * plot->box.width)
         return;
-    canvas_fill(&paper->canvas, box_inset(line, -paper_pixels(paper, 0.3)),
+    canvas_fill(&paper->canvas, box_inset(line, -paper_to_pixels(paper, 0.3)),
                 COLOUR_PANEL);
     paper_write_on_panel(paper, FACE_REGULAR, 0.85, COLOUR_FAINT,
                          line.x + 0.5 * length, line.y - 1.4 * paper->em,
@@ -158,7 +158,7 @@ void plot_label(const Plot *plot, int points, const double *at, Colour colour,
         Box place = {(int)(p[0] + to[0] * (apart + 0.5 * wide) - 0.5 * wide),
                      (int)(p[1] + to[1] * (apart + 0.5 * high) - 0.5 * high),
                      wide, high};
-        Box wider = box_inset(place, -paper_pixels(paper, LABEL_MARGIN));
+        Box wider = box_inset(place, -paper_to_pixels(paper, LABEL_MARGIN));
         double cost =
             plot_find_label_cost(plot, wider) + COST_FAR * far + COST_LATER * i;
         if (cost < least) {

@@ -7,9 +7,9 @@ Status obey_toggle_pin(Player *player, const Command *command)
 {
     long node = command->number;
     const Simulation *simulation = player_get_simulation(player);
-    if (!(simulation->scene->parts & HAS_MESH) || simulation->scene->step)
+    if (!(simulation->scene->traits & HAS_MESH) || simulation->scene->step)
         return player_refuse(player, "only nodes of a square can be pinned");
-    bool pinned = simulation->system.pinned[node];
+    bool pinned = simulation->system.is_pinned[node];
     Command change = {.kind = COMMAND_PIN, .number = node, .x = !pinned};
     Status status = player_edit_step(player, &change, ALL_PANES, false);
     if (!status)
@@ -19,7 +19,7 @@ Status obey_toggle_pin(Player *player, const Command *command)
 }
 
 /* Takes hold of a node or an obstacle without moving it. */
-Status obey_take_hold(Player *player, const Command *command)
+Status obey_grab_or_push(Player *player, const Command *command)
 {
     const Simulation *simulation = player_get_simulation(player);
     bool pulls = command->kind == COMMAND_GRAB;
@@ -35,7 +35,7 @@ Status obey_take_hold(Player *player, const Command *command)
     change.x = place[0];
     change.y = place[1];
     Status status = player_edit_step(player, &change, ALL_PANES, false);
-    player->hands.is_holding = player->hands.is_holding || !status;
+    player->input.is_holding = player->input.is_holding || !status;
     if (!status && player_is_stopped(player))
         player_notify(player,
                       "paused: the hand %s as soon as time goes on (Space, N)",
@@ -49,8 +49,8 @@ Status obey_place_node(Player *player, const Command *command)
         return player_refuse(player, "nothing to be placed here");
     for (int p = 0; p < past_count_panes(&player->past); p++) {
         Simulation *simulation = &player->past.pane[p].simulation;
-        if (simulation_place_node(simulation, (int)command->number, command->x,
-                                  command->y, false))
+        if (simulation_move_node(simulation, (int)command->number, command->x,
+                                 command->y, false))
             return player_refuse(player,
                                  "no room for it there: an obstacle, a "
                                  "body, or a cell that would turn over");
@@ -77,17 +77,17 @@ Status obey_drag_or_release(Player *player, const Command *command)
     if (!control_is_holding(
             past_get_control(&player->past, player->active_pane)))
         return player_refuse(player, "the hand holds nothing");
-    player->hands.is_holding = command->kind == COMMAND_DRAG;
-    player->hands.last_pull_step = player->past.shown_step;
+    player->input.is_holding = command->kind == COMMAND_DRAG;
+    player->input.last_pull_step = player->past.shown_step;
     return player_edit_step(player, command, ALL_PANES, false);
 }
 
 /* Moves a handle or flips a switch.  Moving the start leads back to step 0. */
-Status obey_drag_handle(Player *player, const Command *command)
+Status obey_handle_or_switch(Player *player, const Command *command)
 {
     Past *past = &player->past;
     Status status = STATUS_OK;
-    unsigned needs = player_get_simulation(player)->scene->parts;
+    unsigned needs = player_get_simulation(player)->scene->traits;
     long step = past->shown_step;
     int now = past->branch_index;
     if (command->kind == COMMAND_HANDLE && (needs & HAS_START) &&
@@ -99,6 +99,6 @@ Status obey_drag_handle(Player *player, const Command *command)
     if (!status)
         status = player_edit_step(player, command, ALL_PANES, false);
     if (past->branch_index > now)
-        past->branch[now].exit_step = step; /* undo returns to `step` */
+        past->branch[now].left_at_step = step; /* undo returns to `step` */
     return status;
 }

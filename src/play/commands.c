@@ -11,7 +11,7 @@
 #include "play/output.h"
 #include "lesson/command_line.h"
 
-const CommandRow command_rows[COMMAND_KINDS] = {
+const CommandRow command_rows[COMMAND_KIND_COUNT] = {
 #define ROW(kind, function, ...) [COMMAND_##kind] = {__VA_ARGS__},
 #include "play/command_rows.def"
 #undef ROW
@@ -27,7 +27,7 @@ static bool key_types_text(const char *key)
 }
 
 /* Whether a list of keys, "A|B", has this key. */
-static bool row_includes_key(const char *keys, const char *key)
+static bool keys_include(const char *keys, const char *key)
 {
     size_t length = strlen(key);
     for (const char *at = keys; at && length > 0; at = strchr(at, '|')) {
@@ -44,10 +44,10 @@ static bool row_includes_key(const char *keys, const char *key)
 Command command_from_key(const char *key, bool repeats, KeyScope scope)
 {
     Command command = {.kind = COMMAND_NONE};
-    for (int i = COMMAND_KINDS - 1; i > 0 && !command.kind; i--) {
+    for (int i = COMMAND_KIND_COUNT - 1; i > 0 && !command.kind; i--) {
         const CommandRow *row = &command_rows[i];
         unsigned listens = row->key_scope ? row->key_scope : SCOPE_PLAY;
-        if (!(listens & scope) || !row_includes_key(row->keys, key))
+        if (!(listens & scope) || !keys_include(row->keys, key))
             continue;
         if (repeats && !(row->flags & REPEATS))
             break;
@@ -68,7 +68,7 @@ void commands_print_help(FILE *file)
             "it; # begins a comment.\n"
             "What a page does as it opens stands in the script, too.\n"
             "Tables keep the rows of steps that were taken back.\n");
-    for (int kind = 1; kind < COMMAND_KINDS; kind++) {
+    for (int kind = 1; kind < COMMAND_KIND_COUNT; kind++) {
         const CommandRow *row = &command_rows[kind];
         char start[64];
         if (!row->name)
@@ -151,10 +151,11 @@ Status command_parse(const char *line, Command *command, Message message)
     *command = (Command){.joins_gesture = *line == '&'};
     line += command->joins_gesture;
     take_next_word(&line, word);
-    while (kind < COMMAND_KINDS && (!command_rows[kind].name ||
-                                    strcmp(command_rows[kind].name, word) != 0))
+    while (kind < COMMAND_KIND_COUNT &&
+           (!command_rows[kind].name ||
+            strcmp(command_rows[kind].name, word) != 0))
         kind++;
-    if (kind == COMMAND_KINDS)
+    if (kind == COMMAND_KIND_COUNT)
         return refuse(message,
                       "there is no command '%.20s': elasto --help commands",
                       word);
@@ -195,9 +196,9 @@ void command_format(const Command *command, char *line, size_t size)
     }
 }
 
-bool command_replaces_last(const Command *command, const Command *before)
+bool command_replaces(const Command *command, const Command *before)
 {
-    return command_rows[command->kind].flags & REPLACES_LAST &&
+    return command_rows[command->kind].flags & REPLACES_SAME &&
            command->kind == before->kind && command->number == before->number;
 }
 
@@ -208,12 +209,12 @@ Status script_add(Script *script, long step, const Command *command,
 {
     ScriptLine line = {step, *command, gesture};
     ScriptLine *last = script->lines ? script->line + script->lines - 1 : NULL;
-    bool same = gesture && last && last->gesture == gesture;
-    if (gesture) /* drag and release join their grab without "&" */
+    bool same = gesture && last && last->gesture_id == gesture;
+    if (gesture) /* "&" marks all but a drag and a release */
         line.command.joins_gesture = same && command->kind != COMMAND_DRAG &&
                                      command->kind != COMMAND_RELEASE;
     if (same && last->due_step == step &&
-        command_replaces_last(command, &last->command)) {
+        command_replaces(command, &last->command)) {
         line.command.joins_gesture = last->command.joins_gesture;
         *last = line;
         return STATUS_OK;

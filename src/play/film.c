@@ -49,7 +49,7 @@ Status film_open(const char *name, char *message, Film *film)
         why = WHY_NO_FILM;
     else if (output_open(name, message, &film->output))
         return STATUS_FILE_FAILED;
-    return why ? output_report(message, name, STATUS_INVALID_INPUT, why)
+    return why ? output_fill_message(message, name, STATUS_INVALID_INPUT, why)
                : STATUS_OK;
 }
 
@@ -67,7 +67,7 @@ static void start_ffmpeg(Film *film, const Canvas *canvas)
              "-i pipe:0 %s -f %s \"file:$ELASTO_FILM\" >/dev/null 2>&1",
              film->width, film->height, film->kind->frame_rate,
              film->kind->arguments, film->kind->suffix + 1);
-    if (setenv("ELASTO_FILM", film->output.part_name, 1) == 0)
+    if (setenv("ELASTO_FILM", film->output.part_file_name, 1) == 0)
         film->pipe = popen(line, "we");
     if (film->pipe)
         setvbuf(film->pipe, NULL, _IOFBF, 1 << 16); /* a pipe's buffer size */
@@ -102,7 +102,7 @@ Status film_close(Film *film, CloseAction keep)
     if (!film_is_open(film))
         return STATUS_OK;
     bool well = film->pipe && pclose(film->pipe) == 0;
-    bool full = stat(output->part_name, &info) == 0 && info.st_size > 0;
+    bool full = stat(output->part_file_name, &info) == 0 && info.st_size > 0;
     if (!well || !full)
         status = output_report_failure(
             output, film->frame_count > 0 ? WHY_FFMPEG_FAILS

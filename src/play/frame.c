@@ -43,7 +43,7 @@ static void build_key_list(FrameContent *content)
     };
     ListRow *row = content->list.row + sizeof mouse / sizeof *mouse;
     memcpy(content->list.row, mouse, sizeof mouse);
-    for (int kind = 1; kind < COMMAND_KINDS; kind++) {
+    for (int kind = 1; kind < COMMAND_KIND_COUNT; kind++) {
         const CommandRow *command = &command_rows[kind];
         if (!command->label)
             continue;
@@ -87,14 +87,14 @@ static void build_settings_row(const Player *player, WindowFrame *frame)
                  ->options);
         const char *idle = player_find_idle_reason(player, row);
         setting->is_off = strcmp(setting->value, "none") == 0 || idle;
-        setting->is_selected = row == player->hands.selected_option;
+        setting->is_selected = row == player->input.selected_option;
         bool is_explained = over ? i == mouse->index : setting->is_selected;
         if (is_explained && (idle || row->help[0]))
             snprintf(content->title_bar.sentence, SENTENCE_SIZE, "%s: %s",
                      row->name, idle ? idle : row->help);
-        if (setting->is_selected && player->hands.is_typing)
+        if (setting->is_selected && player->input.is_typing)
             snprintf(setting->value, VALUE_SIZE, "%s_",
-                     player->hands.typed_text);
+                     player->input.typed_text);
     }
     if (player_list_options(player, true, all) > frame->option_count)
         content->settings.item[content->settings.count++] =
@@ -145,7 +145,7 @@ static void build_chip_row(const Player *player, WindowFrame *frame)
 {
     const Simulation *simulation = player_get_simulation(player);
     const Options *options = player_get_active_options(player);
-    bool time = simulation->scene->parts & HAS_TIME;
+    bool time = simulation->scene->traits & HAS_TIME;
     bool nears = options->next_action == NEXT_SHORTENS_SPRING;
     bool newton = simulation_has_newton_updates(simulation) && !nears;
     bool ended = simulation->is_over || player->play.mode > MODE_END;
@@ -165,7 +165,7 @@ static void build_chip_row(const Player *player, WindowFrame *frame)
         add_chip(frame, COMMAND_CODE, 0, player->screen.column == COLUMN_CODE);
         add_chip(frame, COMMAND_PAGES, 0,
                  player->screen.column == COLUMN_PAGES);
-    } else if (player->tour.last_page) {
+    } else if (player->tour.tour_page) {
         add_chip(frame, COMMAND_PAGE_BACK, 0, true);
     }
     add_chip(frame, COMMAND_RESTART, 0, ended);
@@ -248,14 +248,14 @@ static void build_pane_content(const Player *player, int p, WindowFrame *frame)
     const PaneView *view = &player->view_of_pane[p];
     Pane *pane = &frame->content.pane[p];
     past_fill_history(&player->past, p, &frame->history[p]);
-    player_write_label(player, p, frame->label[p]);
+    player_write_label(player, p, frame->pane_label[p]);
     *pane = (Pane){.simulation = simulation,
                    .history = &frame->history[p],
                    .ghost_x = view->ghost_x,
                    .ghost_label = view->ghost_label,
                    .step_status = shown->outcome.status};
     if (past_count_panes(&player->past) > 1)
-        pane->label = frame->label[p];
+        pane->label = frame->pane_label[p];
     if (shown->has_trace && simulation_has_newton_updates(simulation)) {
         pane->trace = &frame->trace[p];
         pane->x = step_trace_show_position(&shown->trace, view->trace_index,
@@ -356,7 +356,7 @@ static void build_frame_content(const Player *player, WindowFrame *frame)
     const int active = player->active_pane;
     frame_create(player_get_simulation(player), content);
     content->view = &player->screen.view;
-    content->fonts = player->screen.paper.text;
+    content->fonts = player->screen.paper.font;
     content->min_em = window                        ? window->find_font_size()
                       : player->screen.draws_frames ? SMALL_LETTER
                                                     : 0;
@@ -392,8 +392,8 @@ static void build_frame_content(const Player *player, WindowFrame *frame)
         build_key_list(content);
     if (player->screen.column == COLUMN_OPTIONS)
         list_shown_options(player, content);
-    if (!(player->must_explain && content->title_bar.sentence[0] &&
-          !player->hands.is_typing))
+    if (!(player->explains_hover && content->title_bar.sentence[0] &&
+          !player->input.is_typing))
         snprintf(content->title_bar.message, SENTENCE_SIZE, "%s", player->note);
     content->lecture.hides_answer = player_hides_answer(player);
     write_page_heading(player, &content->lecture);
@@ -406,7 +406,7 @@ static void build_frame_content(const Player *player, WindowFrame *frame)
             : NULL;
     content->lecture.guesses = player->tour.guess_count;
     content->lecture.right_guesses = player->tour.right_guess_count;
-    frame_add_lecture(player->screen.column, player->tour.last_page, content);
+    frame_add_lecture(player->screen.column, player->tour.tour_page, content);
     content->cards.closed_cards ^= player->screen.toggled_cards;
     if (player->screen.sheet)
         sheet_build_content(player, content);
@@ -417,7 +417,7 @@ static void build_frame_content(const Player *player, WindowFrame *frame)
 static void update_hovered_object(Player *player)
 {
     const FrameContent *content = &player->screen.frame.content;
-    const Mouse *mouse = &player->hands.mouse;
+    const Mouse *mouse = &player->input.mouse;
     const Canvas *canvas = &player->screen.paper.canvas;
     FrameView *view = &player->screen.view;
     PickKind kind = view->hovered_part.kind;
@@ -458,8 +458,8 @@ Paper *player_prepare_paper(Player *player)
         paper_free(paper);
         return NULL;
     }
-    player->screen.frame.content.fonts = paper->text;
-    if (!paper->text && !is_warned && (!font || font[0])) {
+    player->screen.frame.content.fonts = paper->font;
+    if (!paper->font && !is_warned && (!font || font[0])) {
         fprintf(stderr, "no font: DejaVu Sans is not installed; pictures have "
                         "no words (ELASTO_FONT=FILE.ttf names another font)\n");
         is_warned = true;

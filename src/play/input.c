@@ -26,7 +26,7 @@ typedef struct MouseTarget {
 
 static MouseTarget find_mouse_target(Player *player)
 {
-    const Mouse *mouse = &player->hands.mouse;
+    const Mouse *mouse = &player->input.mouse;
     const Paper *paper = player_prepare_paper(player);
     const FrameContent *content = &player->screen.frame.content;
     DragBounds *held = &player->screen.view.drag_bounds;
@@ -51,8 +51,8 @@ static MouseTarget find_mouse_target(Player *player)
 }
 
 /* Obeys a command at a place (metres) as a part of the present gesture. */
-static Status obey_at_time(Player *player, CommandKind kind, long number,
-                           const double at[2])
+static Status obey_at_xy(Player *player, CommandKind kind, long number,
+                         const double at[2])
 {
     const Command command = {kind, number, at[0], at[1], .joins_gesture = true};
     return player_obey(player, &command);
@@ -60,7 +60,7 @@ static Status obey_at_time(Player *player, CommandKind kind, long number,
 
 static Status obey(Player *player, CommandKind kind, long number)
 {
-    return obey_at_time(player, kind, number, (const double[2]){0, 0});
+    return obey_at_xy(player, kind, number, (const double[2]){0, 0});
 }
 
 static Status change_number(Player *player, const OptionRow *row, int notches)
@@ -74,9 +74,9 @@ static Status change_number(Player *player, const OptionRow *row, int notches)
 /* Returns the part of the window that gets the keys now. */
 static KeyScope find_key_scope(const Player *player)
 {
-    bool number = player->hands.selected_option,
+    bool number = player->input.selected_option,
          list = player_shows_list(player), asks = player_hides_answer(player);
-    return player->hands.is_typing && (number || list || asks) ? SCOPE_FIELD
+    return player->input.is_typing && (number || list || asks) ? SCOPE_FIELD
            : player->screen.sheet                              ? SCOPE_SHEET
            : number                                            ? SCOPE_NUMBER
            : list                                              ? SCOPE_LIST
@@ -92,10 +92,10 @@ static Status open_page(Player *player, const char *name)
 }
 
 /* Opens the typed page, or adds the option at the typed place of the list. */
-static Status open_typed_line(Player *player)
+static Status open_typed_row(Player *player)
 {
     const OptionRow *all[OPTIONS_MAX_ROWS];
-    const char *typed = player->hands.typed_text;
+    const char *typed = player->input.typed_text;
     char *end;
     long number = strtol(typed, &end, 10);
     if (player->screen.column != COLUMN_OPTIONS || player->screen.sheet)
@@ -109,22 +109,22 @@ static Status open_typed_line(Player *player)
  * the answer.  The field stays open if its text cannot be read. */
 static Status accept_typed_text(Player *player)
 {
-    const OptionRow *row = player->hands.selected_option;
+    const OptionRow *row = player->input.selected_option;
     Status status;
     if (!row && player_shows_list(player)) {
-        status = open_typed_line(player);
-        player->hands.is_typing = player->hands.is_typing && status;
+        status = open_typed_row(player);
+        player->input.is_typing = player->input.is_typing && status;
         return status;
     }
     if (row) {
         Command made = make_set_command(row, 0);
         if (row->number_count > 1 ||
-            !option_parse(row, 1, player->hands.typed_text, &made.x))
-            memcpy(made.text, player->hands.typed_text,
-                   sizeof player->hands.typed_text);
+            !option_parse(row, 1, player->input.typed_text, &made.x))
+            memcpy(made.text, player->input.typed_text,
+                   sizeof player->input.typed_text);
         status = player_obey(player, &made);
     } else {
-        status = player_reveal_answer(player, player->hands.typed_text);
+        status = player_reveal_answer(player, player->input.typed_text);
         status = status ? status : player_obey_queue(player, false);
     }
     if (!status)
@@ -138,11 +138,11 @@ static Status accept_typed_text(Player *player)
  * dragged edge of the square sets the stretch, rounded to 0.01. */
 static Status drag_number(Player *player, const MouseTarget *target)
 {
-    const Mouse *mouse = &player->hands.mouse;
+    const Mouse *mouse = &player->input.mouse;
     const Options now = player_get_shown_options(player);
     bool edge = mouse->dragged_index < 0;
     const OptionRow *row =
-        edge ? option_find("stretch") : player->hands.selected_option;
+        edge ? option_find("stretch") : player->input.selected_option;
     double notches = (mouse->x - mouse->drag_start[0]) / NOTCH_PIXELS;
     double wanted =
         fmax(rint(200 * fabs(target->point[0]) / now.side), 2) / 100;
@@ -157,23 +157,23 @@ static Status drag_number(Player *player, const MouseTarget *target)
         notches += 1e-9; /* whole notches would lead to round values */
     if (!edge)
         wanted =
-            option_find_value_after_wheel(row, &mouse->start_options, notches);
+            option_find_value_after_wheel(row, &mouse->drag_options, notches);
     const Command set = make_set_command(row, wanted);
     return now.number[row->slot] == wanted ? STATUS_OK
                                            : player_obey(player, &set);
 }
 
 /* Opens a square with h, k and stretch of a cell, by commands for scripts. */
-static Status open_clicked_cell(Player *player, long cell)
+static Status open_envelope_cell(Player *player, long cell)
 {
     const Options map = player_get_simulation(player)->options;
     player_enqueue_lines(player, "scene square");
     player_enqueue_set(player, option_find("segments"), map.segments);
     player_enqueue_set(player, option_find("stretch"), map.stretch);
     player_enqueue_set(player, option_find("timestep"),
-                       envelope_timestep((int)(cell % ENVELOPE_COLUMNS)));
+                       envelope_get_timestep((int)(cell % ENVELOPE_COLUMNS)));
     player_enqueue_set(player, option_find("stiffness"),
-                       envelope_stiffness((int)(cell / ENVELOPE_COLUMNS)));
+                       envelope_get_stiffness((int)(cell / ENVELOPE_COLUMNS)));
     player_enqueue_lines(player, "pause;restart");
     Status status = player_obey_queue(player, true);
     player_notify(player,
@@ -191,7 +191,7 @@ static bool drag_places_nodes(const Player *player)
 /* Begins a drag of a part of the scene, or obeys a click on the part. */
 static Status begin_press(Player *player, const MouseTarget *target)
 {
-    Mouse *mouse = &player->hands.mouse;
+    Mouse *mouse = &player->input.mouse;
     const LecturePage *page = player_get_active_options(player)->page;
     double point[2];
     mouse->dragged_index = target->pick.index;
@@ -215,13 +215,13 @@ static Status begin_press(Player *player, const MouseTarget *target)
     case PICK_SWITCH:
         return obey(player, COMMAND_FLIP, target->pick.index);
     case PICK_CELL:
-        return open_clicked_cell(player, target->pick.index);
+        return open_envelope_cell(player, target->pick.index);
     case PICK_POINT:
         if (page_wants_click(page) && player_hides_answer(player))
-            return obey_at_time(player, COMMAND_PREDICT, 0, target->pick.point);
+            return obey_at_xy(player, COMMAND_PREDICT, 0, target->pick.point);
         mouse->drag_command = COMMAND_START;
-        return obey_at_time(player, COMMAND_START, mouse->dragged_index,
-                            target->pick.point);
+        return obey_at_xy(player, COMMAND_START, mouse->dragged_index,
+                          target->pick.point);
     default:
         if (target->pick.kind != PICK_NODE) /* a drag highlights only nodes */
             player->screen.view.hovered_part.kind = PICK_NONE;
@@ -234,8 +234,7 @@ static Status begin_press(Player *player, const MouseTarget *target)
 }
 
 /* Adds a ball with a radius of 1/8 of the square.  In a coarse mesh the radius
- * is 0.7 cells so that no ball slips between nodes; beside a node it is less.
- */
+ * is 0.7 cells so that no ball slips between nodes; near a node it is less. */
 static Status add_ball(Player *player, const double at[2])
 {
     const Simulation *simulation = player_get_simulation(player);
@@ -260,13 +259,13 @@ static Status add_ball(Player *player, const double at[2])
 static Status drag_obstacle(Player *player, const double at[2])
 {
     Past *past = &player->past;
-    int number = player->hands.mouse.dragged_index;
+    int number = player->input.mouse.dragged_index;
     double part = 1, from[2];
-    if (player->hands.is_holding || !drag_places_nodes(player)) {
+    if (player->input.is_holding || !drag_places_nodes(player)) {
         Status status = STATUS_OK;
-        if (!player->hands.is_holding)
+        if (!player->input.is_holding)
             status = obey(player, COMMAND_PUSH, number);
-        return status ? status : obey_at_time(player, COMMAND_DRAG, 0, at);
+        return status ? status : obey_at_xy(player, COMMAND_DRAG, 0, at);
     }
     for (int p = 0; p < past_count_panes(past); p++) {
         const Options *options = &past_get_control(past, p)->options;
@@ -278,12 +277,12 @@ static Status drag_obstacle(Player *player, const double at[2])
         return player_refuse(player, "no room: the square is in its way");
     const double to[2] = {from[0] + part * (at[0] - from[0]),
                           from[1] + part * (at[1] - from[1])};
-    return obey_at_time(player, COMMAND_OBSTACLE, number, part < 1 ? to : at);
+    return obey_at_xy(player, COMMAND_OBSTACLE, number, part < 1 ? to : at);
 }
 
 static Status continue_drag(Player *player)
 {
-    Mouse *mouse = &player->hands.mouse;
+    Mouse *mouse = &player->input.mouse;
     const Simulation *simulation = player_get_simulation(player);
     MouseTarget target = find_mouse_target(player);
     double dx = mouse->x - mouse->drag_start[0],
@@ -295,16 +294,16 @@ static Status continue_drag(Player *player)
         mouse->drag_command = COMMAND_NONE; /* undo removed the dragged part */
     switch (mouse->has_moved ? mouse->drag_command : COMMAND_NONE) {
     case COMMAND_GRAB: /* a drag frees a pinned node */
-        if (!player->hands.is_holding) {
+        if (!player->input.is_holding) {
             mouse->repins_node =
-                simulation->system.pinned[mouse->dragged_index];
+                simulation->system.is_pinned[mouse->dragged_index];
             if (mouse->repins_node)
                 status = obey(player, COMMAND_PIN, mouse->dragged_index);
             status = status ? status
                             : obey(player, COMMAND_GRAB, mouse->dragged_index);
         }
         return status ? status
-                      : obey_at_time(player, COMMAND_DRAG, 0, target.point);
+                      : obey_at_xy(player, COMMAND_DRAG, 0, target.point);
     case COMMAND_OBSTACLE:
         target.point[0] += mouse->grip_offset[0];
         target.point[1] += mouse->grip_offset[1];
@@ -312,14 +311,14 @@ static Status continue_drag(Player *player)
     case COMMAND_PLACE:
     case COMMAND_START:
     case COMMAND_HANDLE:
-        return obey_at_time(player, mouse->drag_command, mouse->dragged_index,
-                            target.point);
+        return obey_at_xy(player, mouse->drag_command, mouse->dragged_index,
+                          target.point);
     case COMMAND_SET:
         return drag_number(player, &target);
     case COMMAND_GOTO:
         return obey(player, COMMAND_GOTO,
-                    frame_find_bar_step(&player->screen.frame.content,
-                                        &target.layout, mouse->x));
+                    frame_pick_step(&player->screen.frame.content,
+                                    &target.layout, mouse->x));
     case COMMAND_PAN:
         lens_pan(&player->screen.view.lens, target.layout.pane[target.pane], dx,
                  dy);
@@ -335,7 +334,7 @@ static Status continue_drag(Player *player)
 /* ---- events -------------------------------------------------------------- */
 
 /* Stores the object under the mouse.  A cell of the envelope is computed. */
-static Status describe_hovered_object(Player *player)
+static Status store_hovered_object(Player *player)
 {
     FrameView *view = &player->screen.view;
     MouseTarget target = find_mouse_target(player);
@@ -351,7 +350,7 @@ static Status describe_hovered_object(Player *player)
         view->selected_cell = target.hit.index;
     view->mouse_hit = target.hit;
     view->hovered_part = pick;
-    player->must_explain = player->must_explain || !same;
+    player->explains_hover = player->explains_hover || !same;
     if (!same || !idle)
         player->screen.must_redraw = true;
     return pick.kind == PICK_CELL && !same
@@ -360,32 +359,32 @@ static Status describe_hovered_object(Player *player)
 }
 
 /* Selects a number of the row; a double click sets its default. */
-static Status press_setting(Player *player, int index, int clicks)
+static Status obey_setting_press(Player *player, int index, int clicks)
 {
-    Mouse *mouse = &player->hands.mouse;
+    Mouse *mouse = &player->input.mouse;
     if (index >=
         player->screen.frame.option_count) /* the last item is "+ more" */
         return obey(player, COMMAND_OPTIONS, 0);
-    player->hands.selected_option = player->screen.frame.option[index];
+    player->input.selected_option = player->screen.frame.option[index];
     player->screen.must_redraw = true;
     if (clicks == 2)
         return obey(player, COMMAND_DEFAULT,
-                    player->hands.selected_option - option_rows);
+                    player->input.selected_option - option_rows);
     mouse->drag_command = COMMAND_SET;
     mouse->dragged_index = index;
-    mouse->start_options = player_get_shown_options(player);
+    mouse->drag_options = player_get_shown_options(player);
     return STATUS_OK;
 }
 
-static Status press_left_button(Player *player, const MouseTarget *target,
-                                int clicks)
+static Status obey_left_press(Player *player, const MouseTarget *target,
+                              int clicks)
 {
     int index = target->hit.index;
     bool ground =
         target->pick.kind == PICK_NONE || target->pick.kind == PICK_SPRING;
     const ListRow *row = player->screen.frame.content.list.row;
     const Scene *scene = player_get_simulation(player)->scene;
-    bool body = (scene->parts & HAS_BODY) && !scene->step;
+    bool body = (scene->traits & HAS_BODY) && !scene->step;
     Status status = STATUS_OK;
     player_deselect(player);
     switch (target->hit.zone) {
@@ -395,19 +394,18 @@ static Status press_left_button(Player *player, const MouseTarget *target,
         return obey(player, COMMAND_CARD, index);
     case ZONE_CARD:
         return obey(player, COMMAND_ENLARGE, index);
-    case ZONE_TIME_LINE: /* a click, like a drag, shows the step under the mouse
-                          */
-        player->hands.mouse.drag_command = COMMAND_GOTO;
-        player->hands.mouse.has_moved = true;
+    case ZONE_TIME_LINE: /* a click or drag shows the step under the mouse */
+        player->input.mouse.drag_command = COMMAND_GOTO;
+        player->input.mouse.has_moved = true;
         return continue_drag(player);
     case ZONE_SETTING:
-        return press_setting(player, index, clicks);
+        return obey_setting_press(player, index, clicks);
     case ZONE_LIST_CLOSE:
         return obey(player, COMMAND_ESCAPE, 0);
     case ZONE_LIST:
         index =
             frame_find_list_row(&player->screen.frame.content, &target->layout,
-                                player->hands.mouse.x, player->hands.mouse.y);
+                                player->input.mouse.x, player->input.mouse.y);
         if (find_key_scope(player) != SCOPE_LIST || index < 0 ||
             row[index].target_index < 0)
             return STATUS_OK;
@@ -432,19 +430,19 @@ static Status press_left_button(Player *player, const MouseTarget *target,
     }
 }
 
-static Status press_button(Player *player, const Input *input)
+static Status obey_press(Player *player, const Input *input)
 {
-    Mouse *mouse = &player->hands.mouse;
+    Mouse *mouse = &player->input.mouse;
     MouseTarget target = find_mouse_target(player);
     const Scene *scene = player_get_simulation(player)->scene;
-    bool nodes = (scene->parts & HAS_MESH) && !scene->step;
+    bool nodes = (scene->traits & HAS_MESH) && !scene->step;
     int near = target.pick.nearest_node;
     mouse->drag_start[0] = mouse->x;
     mouse->drag_start[1] = mouse->y;
     mouse->has_moved = false;
     player->note[0] = '\0';
     if (input->button == BUTTON_LEFT)
-        return press_left_button(player, &target, input->clicks);
+        return obey_left_press(player, &target, input->clicks);
     if (target.hit.zone != ZONE_STAGE)
         return STATUS_OK;
     if (input->button == BUTTON_RIGHT && near < 0 && nodes)
@@ -459,9 +457,9 @@ static Status press_button(Player *player, const Input *input)
 
 /* Ends a drag or a click.  A click on a choice in the row takes the next value;
  * a click on a node explains drags and right clicks. */
-static Status release_button(Player *player)
+static Status end_press(Player *player)
 {
-    Mouse *mouse = &player->hands.mouse;
+    Mouse *mouse = &player->input.mouse;
     const Simulation *simulation = player_get_simulation(player);
     CommandKind drag = mouse->drag_command;
     int node = mouse->dragged_index;
@@ -470,9 +468,9 @@ static Status release_button(Player *player)
     if (!mouse->has_moved && (drag == COMMAND_GRAB || drag == COMMAND_PLACE) &&
         node < simulation->mesh.nodes)
         player_notify(player, "a drag moves node %d, a right click %s it", node,
-                      simulation->system.pinned[node] ? "frees" : "pins");
+                      simulation->system.is_pinned[node] ? "frees" : "pins");
     if ((drag == COMMAND_OBSTACLE || drag == COMMAND_GRAB) &&
-        player->hands.is_holding) {
+        player->input.is_holding) {
         Command next = {.kind = COMMAND_RELEASE, .joins_gesture = true};
         player_enqueue(player, &next);
         next = (Command){
@@ -484,13 +482,13 @@ static Status release_button(Player *player)
     if (drag == COMMAND_SET && mouse->has_moved)
         player_deselect(player); /* after a click the selection stays */
     if (drag == COMMAND_SET && !mouse->has_moved && mouse->dragged_index >= 0 &&
-        player->hands.selected_option &&
-        player->hands.selected_option->kind == OPTION_NAME)
-        return change_number(player, player->hands.selected_option, 1);
+        player->input.selected_option &&
+        player->input.selected_option->kind == OPTION_NAME)
+        return change_number(player, player->input.selected_option, 1);
     return STATUS_OK;
 }
 
-static Status turn_wheel(Player *player, double amount)
+static Status obey_wheel_turn(Player *player, double amount)
 {
     MouseTarget target = find_mouse_target(player);
     if (target.hit.zone == ZONE_SETTING &&
@@ -503,7 +501,7 @@ static Status turn_wheel(Player *player, double amount)
     if (target.hit.zone != ZONE_STAGE)
         return STATUS_OK;
     lens_zoom(&player->screen.view.lens, target.layout.pane[target.hit.index],
-              player->hands.mouse.x, player->hands.mouse.y,
+              player->input.mouse.x, player->input.mouse.y,
               pow(WHEEL_ZOOM, amount));
     player->screen.must_redraw = true;
     return STATUS_OK;
@@ -511,45 +509,45 @@ static Status turn_wheel(Player *player, double amount)
 
 static Status obey_mouse_input(Player *player, const Input *input)
 {
-    Mouse *mouse = &player->hands.mouse;
+    Mouse *mouse = &player->input.mouse;
     bool rests =
         !mouse->has_position || (mouse->x == input->x && mouse->y == input->y);
     mouse->x = input->x;
     mouse->y = input->y;
     mouse->has_position = true;
     if (input->kind == INPUT_PRESS)
-        return press_button(player, input);
+        return obey_press(player, input);
     if (input->kind == INPUT_RELEASE)
-        return release_button(player);
+        return end_press(player);
     if (input->kind == INPUT_WHEEL)
-        return turn_wheel(player, input->wheel_notches);
+        return obey_wheel_turn(player, input->wheel_notches);
     if (mouse->drag_command != COMMAND_NONE)
         return continue_drag(player);
-    return rests ? STATUS_OK : describe_hovered_object(player);
+    return rests ? STATUS_OK : store_hovered_object(player);
 }
 
 /* A key, a drag, and successive turns of the wheel are one gesture each. */
 Status player_obey_input(Player *player, const Input *input)
 {
-    Mouse *mouse = &player->hands.mouse;
+    Mouse *mouse = &player->input.mouse;
     Command command;
     bool wheel = input->kind == INPUT_WHEEL, press = input->kind == INPUT_PRESS;
     Status status = STATUS_OK;
-    player->commands.gesture = mouse->input_gesture;
+    player->commands.gesture_id = mouse->input_gesture_id;
     if (press && mouse->drag_command != COMMAND_NONE)
-        status = release_button(player); /* a second button ends the drag */
+        status = end_press(player); /* a second button ends the drag */
     if (!status)
         status = player_show_refusal(
             player,
-            player_obey_queue(player, press && player->hands.is_holding));
+            player_obey_queue(player, press && player->input.is_holding));
     if (status)
         return status;
     bool key = input->kind == INPUT_KEY && !input->is_repeat &&
                mouse->drag_command == COMMAND_NONE;
     if (press || key || (wheel && !mouse->was_wheel_turn))
-        mouse->input_gesture = ++player->commands.gesture_count;
+        mouse->input_gesture_id = ++player->commands.gesture_count;
     mouse->was_wheel_turn = wheel;
-    player->commands.gesture = mouse->input_gesture;
+    player->commands.gesture_id = mouse->input_gesture_id;
     switch (input->kind) {
     case INPUT_KEY:
         command = command_from_key(input->key, input->is_repeat,

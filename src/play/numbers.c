@@ -26,23 +26,23 @@ const char *player_find_idle_reason(const Player *player, const OptionRow *row)
     if ((slot == OPTION_SLOT(tolerance) || slot == OPTION_SLOT(solver)) &&
         !minimises)
         return "explicit methods minimise nothing";
-    return row->idle_reason
-               ? row->idle_reason(player_get_active_options(player))
+    return row->get_idle_reason
+               ? row->get_idle_reason(player_get_active_options(player))
                : NULL;
 }
 
 Status obey_add_option(Player *player, const Command *command)
 {
     const OptionRow *row = find_command_option(command);
-    if (!row || !player_shows_number(player, row))
+    if (!row || !player_offers_option(player, row))
         return player_refuse(player, "this scene has no such number");
     const char *idle = player_find_idle_reason(player, row);
     if (idle)
         return player_refuse(player, "%s: %s", row->name, idle);
-    player->hands.added_option_rows |= (uint64_t)1 << (row - option_rows);
+    player->input.added_option_rows |= (uint64_t)1 << (row - option_rows);
     player->screen.column = COLUMN_CARDS;
     player_deselect(player);
-    player->hands.selected_option = row;
+    player->input.selected_option = row;
     player_notify(player, "%s: %s; type a value and Enter", row->name,
                   row->help);
     return STATUS_OK;
@@ -53,37 +53,37 @@ Status obey_select_option(Player *player, const Command *command)
     const OptionRow *number[OPTIONS_MAX_ROWS];
     int next = 0, count = player_list_options(player, false, number);
     for (int i = 0; i < count; i++)
-        next = number[i] == player->hands.selected_option ? i + 1 : next;
+        next = number[i] == player->input.selected_option ? i + 1 : next;
     player_deselect(player);
-    player->hands.selected_option = next < count ? number[next] : NULL;
+    player->input.selected_option = next < count ? number[next] : NULL;
     return STATUS_OK;
 }
 
 /* Types or deletes a letter; the first letter opens the field. */
 Status obey_type_letter(Player *player, const Command *command)
 {
-    char *typed = player->hands.typed_text;
+    char *typed = player->input.typed_text;
     bool list = player_shows_list(player),
          shift = strncmp(command->text, "Shift+", 6) == 0;
     const char *key = command->text + (shift ? 6 : 0);
     const LecturePage *page = player_get_active_options(player)->page;
-    if (!list && !player->hands.selected_option && !page_wants_number(page))
+    if (!list && !player->input.selected_option && !page_wants_number(page))
         return player_refuse(player, page_wants_click(page)
                                          ? "a click on the picture is the "
                                            "answer here; N shows it"
                                          : "say your answer; N shows it");
-    if (!player->hands.is_typing)
+    if (!player->input.is_typing)
         typed[0] = '\0';
-    player->hands.is_typing = true;
+    player->input.is_typing = true;
     size_t length = strlen(typed);
     if (strcmp(key, "Backspace") == 0)
         typed[length > 0 ? length - 1 : 0] = '\0';
     else if (strcmp(key, "Space") == 0)
-        append(typed, sizeof player->hands.typed_text, " ");
+        append(typed, sizeof player->input.typed_text, " ");
     else if (!key[1])
-        append(typed, sizeof player->hands.typed_text, "%c",
+        append(typed, sizeof player->input.typed_text, "%c",
                shift ? key[0] : tolower(key[0]));
-    if (player->hands.selected_option)
+    if (player->input.selected_option)
         player_notify(player, "type a value: Enter sets it, Esc leaves it");
     else
         player_notify(player, "%s %s_: Enter %s it, Esc leaves it",
@@ -160,10 +160,10 @@ Status obey_change_number(Player *player, const Command *command)
 {
     const OptionRow *number[OPTIONS_MAX_ROWS];
     player_list_options(player, false, number); /* finds at least one number */
-    player->hands.selected_option = player->hands.selected_option
-                                        ? player->hands.selected_option
+    player->input.selected_option = player->input.selected_option
+                                        ? player->input.selected_option
                                         : number[0];
-    return player_enqueue_notches(player, player->hands.selected_option,
+    return player_enqueue_notches(player, player->input.selected_option,
                                   command->kind == COMMAND_RAISE ? 1 : -1);
 }
 

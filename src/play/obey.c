@@ -7,7 +7,7 @@
 #include "picture/picture.h"
 #include "play/playing.h"
 
-static CommandFunction *const functions[COMMAND_KINDS] = {
+static CommandFunction *const functions[COMMAND_KIND_COUNT] = {
 #define ROW(kind, function, ...) [COMMAND_##kind] = function,
 #include "play/command_rows.def"
 #undef ROW
@@ -80,8 +80,8 @@ static void store_page_option(Player *player, const Command *command)
     if (command->kind == COMMAND_FLIP)
         own->flips = exhibit_get_flip_bits(player_get_simulation(player));
     if (command->kind == COMMAND_SET)
-        option_copy(&option_rows[command->number],
-                    player_get_active_options(player), own);
+        option_copy_value(&option_rows[command->number],
+                          player_get_active_options(player), own);
 }
 
 Status player_obey_queue(Player *player, bool now)
@@ -96,7 +96,7 @@ Status player_obey_queue(Player *player, bool now)
         const Command *command = &queue.command[i];
         bool pulls = command->kind == COMMAND_RELEASE &&
                      !player_is_stopped(player) &&
-                     past->shown_step <= player->hands.last_pull_step;
+                     past->shown_step <= player->input.last_pull_step;
         if (!now && (past_is_working(past) || pulls))
             break;
         player->tour.is_page_running = obeys_page || queue.is_from_page;
@@ -107,8 +107,8 @@ Status player_obey_queue(Player *player, bool now)
     }
     if (!status && i == queue.count) {
         status = player_restore_pins(player, queue.pins);
-        if (queue.note[0])
-            player_notify(player, "%s", queue.note);
+        if (queue.end_note[0])
+            player_notify(player, "%s", queue.end_note);
         return status;
     }
     if (status) {
@@ -133,7 +133,7 @@ static bool command_waits_for_goal(const Past *past, CommandKind kind)
  * Pause and play at the end of the journal become due at the shown step. */
 static Status abandon_unfinished_step(Player *player)
 {
-    int gesture = player->commands.gesture;
+    int gesture = player->commands.gesture_id;
     const Script *done = &player->commands.journal;
     for (size_t i = done->lines;
          i-- > 0 && done->line[i].due_step == player->past.shown_step + 1 &&
@@ -143,7 +143,7 @@ static Status abandon_unfinished_step(Player *player)
     player->play.after_work = AFTER_NOTHING;
     Status status =
         player_show_refusal(player, player_obey_queue(player, true));
-    player->commands.gesture = gesture;
+    player->commands.gesture_id = gesture;
     return status;
 }
 
@@ -154,30 +154,30 @@ static void begin_command(Player *player, const Command *command)
     unsigned flags = command_rows[command->kind].flags;
     Commands *commands = &player->commands;
     if (command->kind == COMMAND_DRAG || command->kind == COMMAND_RELEASE)
-        commands->gesture = commands->drag_gesture;
+        commands->gesture_id = commands->drag_gesture_id;
     else if (!command->joins_gesture)
-        commands->gesture = ++commands->gesture_count;
+        commands->gesture_id = ++commands->gesture_count;
     if (command->kind == COMMAND_GRAB || command->kind == COMMAND_PUSH)
-        commands->drag_gesture = commands->gesture;
-    if (commands->leave_command != command->kind)
-        commands->leave_command = COMMAND_NONE;
+        commands->drag_gesture_id = commands->gesture_id;
+    if (commands->quit_command != command->kind)
+        commands->quit_command = COMMAND_NONE;
     player->screen.must_redraw = true;
     player->message[0] = '\0';
-    if (!(flags & KEEPS_NOTE ||
-          (flags & REPLACES_LAST && player->hands.mouse.drag_command)))
+    if (!(flags & KEEPS_MESSAGE ||
+          (flags & REPLACES_SAME && player->input.mouse.drag_command)))
         player->note[0] = '\0';
 }
 
-/* Whether a command only waits for the present work: "next" for the step that
- * is loaded or made, and, while a new step is made, a drag in the queue. */
+/* Whether the present work replaces a command: "next" is ignored until a step
+ * is loaded or made; a drag during a new step is put into the queue. */
 static bool command_only_waits(Player *player, const Command *command)
 {
     bool drags =
-        player->hands.mouse.drag_command || command->kind == COMMAND_DRAG;
+        player->input.mouse.drag_command || command->kind == COMMAND_DRAG;
     if (past_is_working(&player->past) && command->kind == COMMAND_NEXT)
         return true;
     if (!past_makes_step(&player->past) || !drags ||
-        !(command_rows[command->kind].flags & REPLACES_LAST))
+        !(command_rows[command->kind].flags & REPLACES_SAME))
         return false;
     player_enqueue(player, command);
     return true;
@@ -242,7 +242,7 @@ Status player_obey(Player *player, const Command *command)
     if (flags & IN_SCRIPT && status != STATUS_INVALID_INPUT &&
         script_add(&player->commands.journal,
                    step + command_waits_for_goal(past, meant.kind), &meant,
-                   player->commands.gesture))
+                   player->commands.gesture_id))
         return STATUS_OUT_OF_MEMORY;
     bool worked = past_is_working(past);
     player_sample_line_energy(player); /* a card may need the samples now */
@@ -251,7 +251,7 @@ Status player_obey(Player *player, const Command *command)
         status = status ? status : shown;
     }
     if (past->branch_index > now && meant.kind != COMMAND_REDO &&
-        !past->branch[past->branch_index].from_options && step < newest)
+        !past->branch[past->branch_index].begins_runs && step < newest)
         append(player->note, sizeof player->note,
                "%ssteps %ld ... %ld: Ctrl+Z leads back",
                player->note[0] ? "; " : "", step + 1, newest);

@@ -13,7 +13,7 @@ bool output_is_stdout(const char *name)
     return strcmp(name, "-") == 0 || strcmp(name, "/dev/stdout") == 0;
 }
 
-const char *output_explain(Status status)
+const char *output_reason(Status status)
 {
     return status != STATUS_FILE_FAILED ? status_text(status)
                                         : strerror(errno ? errno : EIO);
@@ -27,19 +27,19 @@ void print_line(FILE *file, const char *format, ...)
     fprintf(file, "%s\n", line);
 }
 
-Status output_report(char *message, const char *name, Status status,
-                     const char *why)
+Status output_fill_message(char *message, const char *name, Status status,
+                           const char *why)
 {
     if (message && !message[0])
         snprintf(message, MESSAGE_BYTES, "%s: %s", name,
-                 why ? why : output_explain(status));
+                 why ? why : output_reason(status));
     return status;
 }
 
 Status output_report_failure(const OutputFile *output, const char *why)
 {
-    return output_report(output->message, output->name, STATUS_FILE_FAILED,
-                         why);
+    return output_fill_message(output->message, output->name,
+                               STATUS_FILE_FAILED, why);
 }
 
 Status output_open(const char *name, char *message, OutputFile *output)
@@ -55,8 +55,8 @@ Status output_open(const char *name, char *message, OutputFile *output)
     else if (exists && !S_ISREG(info.st_mode))
         output->file = fopen(name, "wbe");
     else if (!exists || access(name, W_OK) == 0) { /* new, or writable */
-        snprintf(output->part_name, PATH_BYTES, "%.4096s.part", name);
-        output->file = fopen(output->part_name, "wbe");
+        snprintf(output->part_file_name, PATH_BYTES, "%.4096s.part", name);
+        output->file = fopen(output->part_file_name, "wbe");
     }
     return output->file ? STATUS_OK : output_report_failure(output, NULL);
 }
@@ -65,7 +65,7 @@ Status output_open(const char *name, char *message, OutputFile *output)
 Status output_close(OutputFile *output, CloseAction keep)
 {
     FILE *file = output->file;
-    bool beside = output->part_name[0];
+    bool beside = output->part_file_name[0];
     if (!file)
         return STATUS_OK;
     bool whole = !ferror(file);
@@ -73,9 +73,9 @@ Status output_close(OutputFile *output, CloseAction keep)
     if (file != stdout)
         whole = fclose(file) == 0 && whole;
     if (beside && keep == KEEP_NOTHING)
-        remove(output->part_name);
+        remove(output->part_file_name);
     else if (beside && keep == KEEP_FILE && whole)
-        whole = rename(output->part_name, output->name) == 0;
+        whole = rename(output->part_file_name, output->name) == 0;
     output->file = NULL;
     return whole ? STATUS_OK : output_report_failure(output, NULL);
 }
@@ -106,7 +106,7 @@ Status table_open(const char *name, char *message, CsvTable *table)
     for (int c = 0; c < table->column_count; c++)
         fprintf(table->output.file, "%s%c", table->column[c].name,
                 c + 1 < table->column_count ? ',' : '\n');
-    return table_check(table);
+    return table_status(table);
 }
 
 void table_add_row(CsvTable *table, const double *value)
@@ -125,7 +125,7 @@ void table_add_row(CsvTable *table, const double *value)
 }
 
 /* A stream remembers that a write failed. */
-Status table_check(const CsvTable *table)
+Status table_status(const CsvTable *table)
 {
     FILE *file = table->output.file;
     return file && ferror(file) ? output_report_failure(&table->output, NULL)

@@ -7,7 +7,7 @@ static const IntegratorMethod *find_next_method(Player *player, int pane)
 {
     const Simulation *simulation = &player->past.pane[pane].simulation;
     const IntegratorMethod *own = simulation->run[0].method, *next = own;
-    bool time = simulation->scene->parts & HAS_TIME, taken;
+    bool time = simulation->scene->traits & HAS_TIME, taken;
     do {
         next = next[1].name ? next + 1 : &integrator_methods[0];
         taken = next->only_by_name ||

@@ -38,7 +38,7 @@ static int find_pane_in_branch_below(const Branch *branch, int pane)
  * step after the last one has the entry being made.  NULL: no entry. */
 static PastEntry *find_branch_entry(const Branch *branch, int pane, long step)
 {
-    for (; step < branch->first_step && !branch->from_options; branch--)
+    for (; step < branch->first_step && !branch->begins_runs; branch--)
         pane = find_pane_in_branch_below(branch, pane);
     long i = step - branch->first_step;
     return i < 0 || i >= branch->capacity
@@ -64,7 +64,7 @@ const UserControl *past_get_control(const Past *past, int pane)
 const UserControl *past_get_start_control(const Past *past, int pane)
 {
     const Branch *branch = get_present_branch(past);
-    for (; !branch->from_options; branch--)
+    for (; !branch->begins_runs; branch--)
         pane = find_pane_in_branch_below(branch, pane);
     return branch->entry[pane].next_control;
 }
@@ -237,7 +237,7 @@ static void pane_leave_step(Past *past, int p)
     const Branch *branch = get_present_branch(past);
     if (!pane->has_state)
         return;
-    while (pane->step < branch->first_step && !branch->from_options)
+    while (pane->step < branch->first_step && !branch->begins_runs)
         branch--;
     PastEntry *entry = find_entry(past, p, pane->step);
     if (!branch_keeps_state(branch, entry))
@@ -252,8 +252,8 @@ static void leave_steps_of_panes(Past *past)
 }
 
 /* Puts a branch on top of the present one, and drops undone branches.  The
- * first wanted.copied entries are copies from the branch below; entry 0 shares
- * its state with the copied entry.  Returns NULL if memory is missing. */
+ * first wanted.copied_count entries are copies from the branch below; entry 0
+ * shares its state with the copied entry.  Returns NULL without memory. */
 static Branch *push_new_branch(Past *past, Branch wanted, const Command *edit)
 {
     drop_branches(past, past->branch_index + 1);
@@ -273,10 +273,10 @@ static Branch *push_new_branch(Past *past, Branch wanted, const Command *edit)
         return NULL;
     branch->entry_count = 1;
     for (int p = 0; p < past_count_panes(past); p++)
-        if (branch->from_options || p >= branch->panes ||
+        if (branch->begins_runs || p >= branch->panes ||
             past->pane[p].step > branch->first_step)
             pane_leave_step(past, p);
-    for (int p = 0; p < branch->panes && !branch->from_options; p++)
+    for (int p = 0; p < branch->panes && !branch->begins_runs; p++)
         for (int i = 0; i < branch->copied_count; i++) {
             PastEntry *to = &branch->entry[i * branch->panes + p];
             *to = *find_branch_entry(branch - 1,
@@ -290,7 +290,7 @@ static Branch *push_new_branch(Past *past, Branch wanted, const Command *edit)
                 to->state->ref_count++;
         }
     if (past->branch_count > 0)
-        branch[-1].exit_step = past->shown_step;
+        branch[-1].left_at_step = past->shown_step;
     past->branch_index = past->branch_count++;
     past->shown_step = past->goal_step = branch->first_step;
     return branch;
@@ -302,8 +302,8 @@ static Branch *push_new_branch(Past *past, Branch wanted, const Command *edit)
 static double find_pane_timestep(const PastPane *pane)
 {
     const Simulation *simulation = &pane->simulation;
-    return simulation->scene->parts & HAS_TIME ? simulation->options.timestep
-                                               : 1;
+    return simulation->scene->traits & HAS_TIME ? simulation->options.timestep
+                                                : 1;
 }
 
 /* Returns the Newton object of the first run that has one, whose iterations are
@@ -322,7 +322,7 @@ static const Newton *find_newton_to_trace(const Simulation *simulation)
 static bool observe_newton(void *user, const NewtonRecord *record)
 {
     PastPane *pane = user;
-    if (!pane->is_iterating)
+    if (!pane->is_in_substep)
         return false;
     pane->outcome.updates += record->alpha != 0;
     if (pane->simulation.scene->step) /* a scene whose step is one update */
@@ -339,7 +339,7 @@ static bool observe_newton(void *user, const NewtonRecord *record)
 }
 
 /* Discards the records of the last step. */
-static void pane_forget_step(PastPane *pane)
+static void pane_clear_records(PastPane *pane)
 {
     pane->has_trace = pane->has_failed = false;
     pane->substep_count = 0;
@@ -353,8 +353,8 @@ static void pane_free(PastPane *pane)
     control_release(pane->control);
     control_release(pane->start_control);
     pane->control = pane->start_control = NULL;
-    pane->has_state = pane->is_iterating = false;
-    pane_forget_step(pane);
+    pane->has_state = pane->is_in_substep = false;
+    pane_clear_records(pane);
 }
 
 static Status pane_create(PastPane *pane, const Options *options)
@@ -413,8 +413,7 @@ static Status pane_load_state(PastPane *pane, const SavedState *state)
 }
 
 /* Brings a pane near the step `goal`, if need be to the last stored state
- * at or before it.  If states are not stored, the pane is at that step already.
- */
+ * at or before it.  Without stored states the pane is at that step already. */
 static Status pane_seek(Past *past, int p, long goal)
 {
     PastPane *pane = &past->pane[p];
@@ -433,7 +432,7 @@ static Status pane_seek(Past *past, int p, long goal)
     Status status = STATUS_OK;
     if (!pane->has_state || pane->step != from) {
         pane_leave_step(past, p);
-        pane_forget_step(pane);
+        pane_clear_records(pane);
         pane->outcome = entry->outcome;
     }
     if (pane->start_control != start) {
@@ -456,9 +455,9 @@ static void past_abandon_work(Past *past)
     long new = past_find_newest(past) + 1;
     for (int p = 0; p < past_count_panes(past); p++) {
         PastPane *pane = &past->pane[p];
-        if (pane->is_iterating || pane->substep_count > 0 || pane->step >= new)
+        if (pane->is_in_substep || pane->substep_count > 0 || pane->step >= new)
             pane->has_state = false;
-        pane->is_iterating = false;
+        pane->is_in_substep = false;
         pane->substep_count = 0;
         if (!past_makes_step(past))
             continue;
@@ -557,7 +556,7 @@ static Status pane_end_iteration(Past *past, int p, Status status)
     StepOutcome *outcome = &pane->outcome;
     if (status == STATUS_RUNNING)
         return status;
-    pane->is_iterating = false;
+    pane->is_in_substep = false;
     if (past->stores_states)
         step_trace_end(&pane->trace, &simulation->options);
     bool moved = simulation->steps > pane->steps_before_substep;
@@ -581,7 +580,7 @@ static Status pane_end_iteration(Past *past, int p, Status status)
     const PastEntry *to = past_find_entry(past, p, pane->step + 1);
     bool more = to ? pane->substep_count < to->substep_count
                    : moved && middle < past->step_end_time &&
-                         (simulation->scene->parts & HAS_TIME);
+                         (simulation->scene->traits & HAS_TIME);
     return more ? STATUS_RUNNING : pane_finish_step(past, p);
 }
 
@@ -591,12 +590,12 @@ static Status pane_iterate(Past *past, int p)
     PastPane *pane = &past->pane[p];
     const PastEntry *from = past_find_entry(past, p, pane->step);
     const PastEntry *to = past_find_entry(past, p, pane->step + 1);
-    if (pane->is_iterating)
+    if (pane->is_in_substep)
         return pane_end_iteration(past, p,
                                   simulation_advance(&pane->simulation));
     if (pane->substep_count == 0) {
         pane->outcome = (StepOutcome){0};
-        pane_forget_step(pane);
+        pane_clear_records(pane);
     }
     if (entry_is_after_failure(from)) {
         pane->outcome = from->outcome;
@@ -609,7 +608,7 @@ static Status pane_iterate(Past *past, int p)
                          past->samples_line_energy,
                          p == past->line_energy_pane);
     pane->steps_before_substep = pane->simulation.steps;
-    pane->is_iterating = true;
+    pane->is_in_substep = true;
     return pane_end_iteration(past, p,
                               simulation_begin_step(&pane->simulation));
 }
@@ -671,7 +670,7 @@ Status past_do_work(Past *past)
     long goal = past->goal_step,
          limit = past_makes_step(past) || goal < newest ? goal : newest;
     for (pane = 0; pane < panes; pane++)
-        if (past->pane[pane].is_iterating || past->pane[pane].step < limit)
+        if (past->pane[pane].is_in_substep || past->pane[pane].step < limit)
             return pane_iterate(past, pane);
     return limit < goal ? begin_new_step(past) : show_goal_step(past);
 }
@@ -687,7 +686,7 @@ Status past_finish_work(Past *past)
 /* Whether the trace of `goal_step` is missing and is quick to make. */
 static bool can_trace_goal(const Past *past)
 {
-    enum { SHORT_STEP_WORK = 400000 }; /* limit of nodes times updates */
+    enum { MAX_TRACE_WORK = 400000 }; /* limit of nodes times updates */
     long work = 0;
     for (int p = 0; p < past_count_panes(past); p++) {
         const PastPane *pane = &past->pane[p];
@@ -700,7 +699,7 @@ static bool can_trace_goal(const Past *past)
             entry->substep_count > 0 && simulation_is_draggable(simulation))
             work += simulation->system.nodes * (1 + entry->outcome.updates);
     }
-    return 0 < work && work < SHORT_STEP_WORK;
+    return 0 < work && work < MAX_TRACE_WORK;
 }
 
 void past_set_goal(Past *past, long step, bool again)
@@ -743,7 +742,7 @@ Status past_begin_runs(Past *past, const Options *options, int panes,
                        int gesture, const Command *edit)
 {
     const Branch wanted = {
-        .from_options = true, .panes = panes, .gesture = gesture};
+        .begins_runs = true, .panes = panes, .gesture_id = gesture};
     Status status = STATUS_OK;
     past_abandon_work(past);
     leave_steps_of_panes(past);
@@ -814,7 +813,7 @@ static const UserControl *make_edited_control(const UserControl *from,
         at[1] = edit->y;
     }
     if (edit->kind == COMMAND_PIN)
-        control->pinned[edit->number] = edit->x != 0;
+        control->is_pinned[edit->number] = edit->x != 0;
     bool takes = edit->kind == COMMAND_GRAB || edit->kind == COMMAND_PUSH;
     if ((takes || edit->kind == COMMAND_RELEASE) && from->held_obstacle >= 0)
         control_store_obstacle(control, from->held_obstacle, simulation);
@@ -846,8 +845,8 @@ static Status apply_pane_edit(Past *past, int pane, const Command *edit,
     if (edit->kind == COMMAND_HANDLE)
         exhibit_drag_handle(simulation, (int)edit->number, edit->x, edit->y);
     else if (edit->kind == COMMAND_PLACE)
-        simulation_place_node(simulation, (int)edit->number, edit->x, edit->y,
-                              true);
+        simulation_move_node(simulation, (int)edit->number, edit->x, edit->y,
+                             true);
     else if (edit->kind == COMMAND_FLIP)
         exhibit_flip_switch(simulation, (int)edit->number);
     Status status = store_state(past, pane, true, entry);
@@ -864,15 +863,15 @@ Status past_edit(Past *past, const Command *edit, int pane, bool again,
     const int panes = branch->panes + (edit->kind == COMMAND_ADD_PANE) -
                       (edit->kind == COMMAND_END_PANE);
     bool counts = panes != branch->panes; /* the edit adds or removes a pane */
-    bool joins = gesture && branch->gesture == gesture &&
-                 !branch->from_options && !counts && !again &&
+    bool joins = gesture && branch->gesture_id == gesture &&
+                 !branch->begins_runs && !counts && !again &&
                  past->shown_step == past_find_newest(past) &&
                  edit_sets_state(edit) == edit_sets_state(&branch->edit) &&
                  (!edit_sets_state(edit) || branch->entry_count == 1);
     const Branch wanted = {.first_step = past->shown_step - again,
                            .copied_count = 1 + again,
                            .panes = panes,
-                           .gesture = gesture};
+                           .gesture_id = gesture};
     if (joins) /* the edit joins the present branch; undone branches end */
         drop_branches(past, past->branch_index + 1);
     else
@@ -890,25 +889,25 @@ Status past_edit(Past *past, const Command *edit, int pane, bool again,
     return status || again ? status : finish_shown_step(past);
 }
 
-const Command *past_undo(Past *past, int way)
+const Command *past_undo_or_redo(Past *past, int way)
 {
     int from = past->branch_index, to = from + way;
     int last = way < 0 ? 0 : past->branch_count - 1;
     if (to < 0 || to >= past->branch_count)
         return NULL;
-    while (to != last && past->branch[to].gesture &&
-           past->branch[to].gesture == past->branch[to + 1].gesture)
+    while (to != last && past->branch[to].gesture_id &&
+           past->branch[to].gesture_id == past->branch[to + 1].gesture_id)
         to += way;
     int low = way < 0 ? to : from, high = way < 0 ? from : to;
     for (int b = low + 1; b <= high; b++)
         invalidate_tables(past, past->branch[b].first_step,
-                          past->branch[b].from_options ||
+                          past->branch[b].begins_runs ||
                               edit_changes_state(&past->branch[b].edit));
     past_abandon_work(past);
     leave_steps_of_panes(past);
-    get_present_branch(past)->exit_step = past->shown_step;
+    get_present_branch(past)->left_at_step = past->shown_step;
     past->branch_index = to;
-    past->shown_step = get_present_branch(past)->exit_step;
+    past->shown_step = get_present_branch(past)->left_at_step;
     past_set_goal(past, past->shown_step, false);
     return &past->branch[high].edit;
 }

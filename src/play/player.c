@@ -215,7 +215,7 @@ Status player_create(const Options *options, char *const *words,
     memset(player, 0, sizeof *player); /* too large for a value on the stack */
     player->setup.arguments = words;
     player->setup.stop_signal = stop;
-    player->tour.last_page = options->page;
+    player->tour.tour_page = options->page;
     memcpy(player->setup.options, options,
            (size_t)options->panes * sizeof *options);
     player->setup.start_time = clock_now();
@@ -261,10 +261,10 @@ static void close_window(Player *player)
     player->screen.draws_frames = false;
 }
 
-Status player_finish(Player *player, Status status)
+Status player_close_files(Player *player, Status status)
 {
     if (player->past.branch_count > 0) {
-        Status rest = player_write_missing_steps(player);
+        Status rest = player_write_missing_rows(player);
         status = status ? status : rest;
     }
     CloseAction keep = player->past.written_step < 0 ? KEEP_NOTHING

@@ -23,7 +23,7 @@ const Options *player_get_active_options(const Player *player);
 Options player_get_shown_options(const Player *player);
 
 /* Whether the scene uses this option, and its value is a number or a choice. */
-bool player_shows_number(const Player *player, const OptionRow *row);
+bool player_offers_option(const Player *player, const OptionRow *row);
 
 /* Lists the options of the scene, or only the shown ones; returns the count. */
 int player_list_options(const Player *player, bool all,
@@ -57,8 +57,8 @@ bool player_factorises_slowly(const Player *player);
 void player_sample_line_energy(Player *player);
 
 /* Returns the first log_speed of a run: by --speed; else by the scene of an
- * attended run without page; else 0, or UPDATE_SPEED in scenes without time. */
-int player_find_first_speed(const Player *player, const Options *options);
+ * attended run without page; else 0, or NEWTON_SPEED in scenes without time. */
+int player_find_start_speed(const Player *player, const Options *options);
 
 /* Whether the list of pages, the list of options, or the sheet is open. */
 bool player_shows_list(const Player *player);
@@ -120,8 +120,9 @@ Status player_edit_step(Player *player, const Command *change, int pane,
 Status player_finish_work(Player *player, Status status, long before,
                           bool made);
 
-/* Sets the step to show, clamped to 0 ... newest + 1.  player_obey then works
- * until the step is shown, unless the command has the flag KEEPS_STEP. */
+/* Sets the step to show, clamped to 0 ... newest + 1.  player_obey then
+ * works on it, in a window for at most SLICE, after which the next frames go on
+ * (player_make_step).  After a command with KEEPS_STEP it does no work. */
 Status player_seek(Player *player, long step, ActionAfterWork after);
 
 /* Edits a pane, or each one.  player_obey then makes the shown step, or the
@@ -133,7 +134,7 @@ Status player_repeat_step(Player *player, const Command *change, int pane);
 void player_reset_view(Player *player);
 
 /* Writes the steps that the tables do not have yet. */
-Status player_write_missing_steps(Player *player);
+Status player_write_missing_rows(Player *player);
 
 /* ---- start.c ------------------------------------------------------------- */
 

@@ -33,7 +33,7 @@ static int check_standard_output(void)
         return EXIT_FINE;
     return stdout_is_closed() ? EXIT_FAILED
                               : print_error(EXIT_FAILED, "standard output: %s",
-                                            output_explain(STATUS_FILE_FAILED));
+                                            output_reason(STATUS_FILE_FAILED));
 }
 
 /* Prints the answer to --help, --version, --lecture --list or --list.  Returns
@@ -57,9 +57,9 @@ static int print_help_or_list(const Options *options)
     return check_standard_output();
 }
 
-static const char *find_advice(const Player *player, Status status)
+static const char *find_remedy(const Player *player, Status status)
 {
-    bool time = player->setup.options[0].scene->parts & HAS_TIME;
+    bool time = player->setup.options[0].scene->traits & HAS_TIME;
     return status == STATUS_OUT_OF_MEMORY || status == STATUS_TOO_LARGE
                ? "; try fewer --segments"
            : status == STATUS_NOT_POSITIVE_DEFINITE ? "; try --projection clamp"
@@ -94,9 +94,9 @@ static int report_failure(const Player *player, Status status)
     if (p < panes)
         return print_error(code, "%sstep %ld failed: %s%s", pane,
                            player->past.pane[p].simulation.steps + 1,
-                           status_text(status), find_advice(player, status));
+                           status_text(status), find_remedy(player, status));
     return print_error(code, "%s%s", status_text(status),
-                       find_advice(player, status));
+                       find_remedy(player, status));
 }
 
 /* ---- summary ------------------------------------------------------------- */
@@ -110,7 +110,7 @@ static void print_newton_counters(FILE *file, const Simulation *simulation)
 {
     const Newton *newton = simulation->run[0].newton;
     NewtonCounters sum = simulation_sum_newton_counters(simulation);
-    unsigned needs = simulation->scene->parts;
+    unsigned needs = simulation->scene->traits;
     const struct {
         const char *name;
         long long value; /* 0: the row is not printed */
@@ -157,7 +157,7 @@ static void print_summary(FILE *file, const Player *player)
     int panes = past_count_panes(&player->past);
     for (int p = 0; p < panes; p++) {
         const Simulation *simulation = &player->past.pane[p].simulation;
-        bool in_time = simulation->scene->parts & HAS_TIME;
+        bool in_time = simulation->scene->traits & HAS_TIME;
         char label[LABEL_SIZE];
         player_write_label(player, p, label);
         if (panes > 1)
@@ -216,9 +216,9 @@ static void print_old_frames(const Recording *recording)
 
 int program_end(Player *player, Status status)
 {
-    /* The report comes first: player_finish can change the simulations. */
+    /* The report comes first: player_close_files can change the simulations. */
     int failed = status ? report_failure(player, status) : EXIT_FINE;
-    status = player_finish(player, status);
+    status = player_close_files(player, status);
     if (failed)
         return failed;
     if (status)

@@ -17,10 +17,9 @@ typedef struct RunAtStep {
     const Simulation *simulation;
     const TimeIntegrator *run;
     double step, time;
-    int run_index; /* index of the run in its simulation */
-    int pane;      /* number of the pane, from 1 */
-    /* The run, its first node and its first spring, as the tables number them.
-     */
+    int run_index;   /* index of the run in its simulation */
+    int pane_number; /* number of the pane, from 1 */
+    /* Numbers in the tables: the run, its first node, its first spring. */
     int run_number, first_node, first_spring;
 } RunAtStep;
 
@@ -28,9 +27,9 @@ static void add_state_rows(CsvTable *table, const RunAtStep *at)
 {
     for (int i = 0; i < at->run->system->nodes; i++) {
         const double *x = at->run->x + 2 * i, *v = at->run->v + 2 * i;
-        const double row[] = {at->step, at->time, at->first_node + i,
-                              x[0],     x[1],     v[0],
-                              v[1],     at->pane};
+        const double row[] = {at->step, at->time,       at->first_node + i,
+                              x[0],     x[1],           v[0],
+                              v[1],     at->pane_number};
         table_add_row(table, row);
     }
 }
@@ -48,9 +47,9 @@ static void add_spring_rows(CsvTable *table, const RunAtStep *at)
         double j = at->first_node + e[1], whole = !spring_is_broken(system, s);
         double plastic = flow ? flow->ep[s] : 0;
         double flowed = flow ? flow->kappa[s] : 0;
-        const double row[] = {at->step, at->time, spring,   i,
-                              j,        whole,    sqrt(l2), strain,
-                              plastic,  flowed,   at->pane};
+        const double row[] = {at->step, at->time, spring,         i,
+                              j,        whole,    sqrt(l2),       strain,
+                              plastic,  flowed,   at->pane_number};
         table_add_row(table, row);
     }
 }
@@ -131,7 +130,7 @@ Status png_file_write(const char *name, char *message, const Canvas *canvas)
     status = png_write(output.file, canvas);
     if (!status)
         return output_close(&output, KEEP_FILE);
-    output_report(message, name, status, NULL);
+    output_fill_message(message, name, status, NULL);
     output_close(&output, KEEP_PART_FILE);
     return status;
 }
@@ -185,7 +184,7 @@ Status recording_open(const Options *options, Recording *recording)
     char *message = recording->message;
     Status status = STATUS_OK;
     if (folder && mkdir(folder, 0777) && errno != EEXIST)
-        status = output_report(message, folder, STATUS_FILE_FAILED, NULL);
+        status = output_fill_message(message, folder, STATUS_FILE_FAILED, NULL);
     if (!status && folder)
         find_old_frames(recording);
     if (!status && options->film)
@@ -223,7 +222,7 @@ Status recording_write_states(Recording *recording, bool energies_only,
             at.run = &simulation[i]->run[r];
             at.time = simulation_get_time(simulation[i]);
             at.run_index = r;
-            at.pane = i + 1;
+            at.pane_number = i + 1;
             for (int t = 0; t < RECORDING_TABLE_COUNT; t++)
                 if (kinds[t].write_rows && recording->table[t].output.file &&
                     (!energies_only || t == ENERGIES_TABLE))
@@ -233,7 +232,7 @@ Status recording_write_states(Recording *recording, bool energies_only,
             at.first_spring += at.run->system->springs;
         }
     for (int t = 0; t < RECORDING_TABLE_COUNT && !status; t++)
-        status = table_check(&recording->table[t]);
+        status = table_status(&recording->table[t]);
     return status;
 }
 
@@ -261,7 +260,7 @@ Status recording_write_iteration(Recording *recording, const NewtonRecord *at,
                     pane};
     if (log->output.file)
         table_add_row(log, row);
-    return table_check(log);
+    return table_status(log);
 }
 
 /* Flushes all tables before the first file gets its name. */
@@ -272,7 +271,7 @@ Status recording_close(Recording *recording, CloseAction keep)
         FILE *file = recording->table[t].output.file;
         if (file)
             fflush(file);
-        failed = table_check(&recording->table[t]) || failed;
+        failed = table_status(&recording->table[t]) || failed;
     }
     keep = failed && !keep ? KEEP_PART_FILE : keep;
     failed = film_close(&recording->film, keep) || failed;

@@ -36,7 +36,7 @@ Status obey_save_picture(Player *player, const Command *command)
         status = png_file_write(name, NULL, &paper->canvas);
     }
     if (status)
-        player_notify(player, "not saved: %s", output_explain(status));
+        player_notify(player, "not saved: %s", output_reason(status));
     else
         player_notify(player, "saved %s", name);
     return STATUS_OK;
@@ -65,7 +65,7 @@ Status obey_toggle_film(Player *player, const Command *command)
     return STATUS_OK;
 }
 
-int player_find_scene_word(const Player *player, int i)
+int player_find_scene_argument(const Player *player, int i)
 {
     char *const *words = player->setup.arguments;
     const OptionRow *first = option_find("steps");
@@ -111,7 +111,7 @@ static char *write_command_line(const Player *player, const char *script)
     if (!file)
         return NULL;
     fputs("elasto", file);
-    for (int i = 0; (i = player_find_scene_word(player, i + 1));)
+    for (int i = 0; (i = player_find_scene_argument(player, i + 1));)
         write_shell_word(file, player->setup.arguments[i]);
     if (script)
         fprintf(file, " --script %s", script);
@@ -161,8 +161,7 @@ Status obey_report_hash(Player *player, const Command *command)
              (unsigned long long)player_compute_hash(player),
              player->past.shown_step);
     if (status) {
-        player_notify(player, "%s: no script: %s", hash,
-                      output_explain(status));
+        player_notify(player, "%s: no script: %s", hash, output_reason(status));
     } else {
         bool fits = strlen(line) <= MAX_NOTE_BYTES;
         const char *where = commands ? name : "the terminal";

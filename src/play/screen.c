@@ -58,9 +58,9 @@ Status obey_show_column(Player *player, const Command *command)
 /* Ends the program; the key must be pressed twice if there is work to lose. */
 Status obey_quit(Player *player, const Command *command)
 {
-    bool key = command->text[0] != '\0', asked = player->commands.leave_command;
+    bool key = command->text[0] != '\0', asked = player->commands.quit_command;
     player->is_quitting = !key || asked || !could_lose_work(player);
-    player->commands.leave_command = COMMAND_QUIT;
+    player->commands.quit_command = COMMAND_QUIT;
     if (!player->is_quitting)
         player_notify(player, "Q once more ends the program; Y saves first a "
                               "script that leads here");
@@ -72,15 +72,15 @@ Status obey_quit(Player *player, const Command *command)
 Status obey_escape(Player *player, const Command *command)
 {
     const Window *window = player->screen.window;
-    bool asked = player->commands.leave_command == COMMAND_ESCAPE;
-    player->commands.leave_command = COMMAND_NONE;
+    bool asked = player->commands.quit_command == COMMAND_ESCAPE;
+    player->commands.quit_command = COMMAND_NONE;
     if (player->screen.is_black)
         player->screen.is_black = false;
     else if (player->screen.sheet)
         sheet_close(player);
     else if (player->screen.column == COLUMN_KEYS)
         player->screen.column = COLUMN_CARDS;
-    else if (player->hands.selected_option)
+    else if (player->input.selected_option)
         player_deselect(player);
     else if (player->screen.column)
         player->screen.column = COLUMN_CARDS;
@@ -91,8 +91,8 @@ Status obey_escape(Player *player, const Command *command)
     else if (asked)
         player->is_quitting = true;
     else
-        player->commands.leave_command = COMMAND_ESCAPE;
-    if (player->commands.leave_command)
+        player->commands.quit_command = COMMAND_ESCAPE;
+    if (player->commands.quit_command)
         player_notify(player, "Esc once more, or Q, ends the program");
     return STATUS_OK;
 }
@@ -144,7 +144,7 @@ Status obey_toggle_card(Player *player, const Command *command)
 /* Chooses another cell of the sheet.  Left and Right choose the next cell; Up
  * the last cell before it that lies higher and not further right; Down the
  * first cell after it that lies lower and not further left. */
-Status obey_choose_cell(Player *player, const Command *command)
+Status obey_choose_sheet_cell(Player *player, const Command *command)
 {
     const FrameContent *content = &player->screen.frame.content;
     int *chosen = &player->screen.view.selected_cell;

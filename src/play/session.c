@@ -8,7 +8,7 @@
 
 enum {
     MAX_QUICK_NODES = 50000, /* largest mesh factorised within SLICE, nodes */
-    UPDATE_SPEED = -5        /* log_speed if a step is a Newton update */
+    NEWTON_SPEED = -5        /* log_speed if a step is a Newton update */
 };
 
 const PastPane *player_get_active_pane(const Player *player)
@@ -44,10 +44,10 @@ int player_copy_options(const Player *player,
     return past_count_panes(past);
 }
 
-bool player_shows_number(const Player *player, const OptionRow *row)
+bool player_offers_option(const Player *player, const OptionRow *row)
 {
-    return (row->needs_any_scene_part &
-            player_get_active_options(player)->scene->parts) &&
+    return (row->needs_any_trait &
+            player_get_active_options(player)->scene->traits) &&
            row->kind != OPTION_SWITCH && row->kind != OPTION_TEXT;
 }
 
@@ -58,8 +58,8 @@ int player_list_options(const Player *player, bool all,
     int own = all ? 0 : options_list_visible_rows(&options, found), count = own;
     for (const OptionRow *row = option_rows; row->name; row++) {
         bool more =
-            all || player->hands.added_option_rows >> (row - option_rows) & 1;
-        more = more && player_shows_number(player, row);
+            all || player->input.added_option_rows >> (row - option_rows) & 1;
+        more = more && player_offers_option(player, row);
         for (int i = 0; i < own; i++)
             more = more && found[i] != row;
         if (more)
@@ -90,7 +90,7 @@ bool player_has_changed_page(const Player *player)
         return false;
     bool is_changed =
         exhibit_get_flip_bits(&past->pane[0].simulation) != own->flips;
-    for (int b = past->branch_index; !past->branch[b].from_options; b--)
+    for (int b = past->branch_index; !past->branch[b].begins_runs; b--)
         is_changed |= past->branch[b].edit.kind == COMMAND_HANDLE;
     int rows = player_list_options(player, true, row);
     for (int i = 0; i < rows && !is_changed; i++)
@@ -168,7 +168,7 @@ void player_sample_line_energy(Player *player)
         past_set_goal(past, past->shown_step, true);
 }
 
-int player_find_first_speed(const Player *player, const Options *options)
+int player_find_start_speed(const Player *player, const Options *options)
 {
     double speed = options->speed;
     if (speed == 0 && !options->page && player->setup.is_attended)
@@ -176,7 +176,7 @@ int player_find_first_speed(const Player *player, const Options *options)
     if (speed > 0)
         return (int)lrint(
             fmin(fmax(log2(speed), MIN_LOG_SPEED), MAX_LOG_SPEED));
-    return options->scene->parts & HAS_TIME ? 0 : UPDATE_SPEED;
+    return options->scene->traits & HAS_TIME ? 0 : NEWTON_SPEED;
 }
 
 bool player_shows_list(const Player *player)
@@ -187,15 +187,15 @@ bool player_shows_list(const Player *player)
 
 void player_deselect(Player *player)
 {
-    player->hands.selected_option = NULL;
-    player->hands.is_typing = false;
+    player->input.selected_option = NULL;
+    player->input.is_typing = false;
 }
 
 void player_format_value(const OptionRow *row, const Options *options,
                          const Simulation *simulation, char *text, size_t size)
 {
     char value[COMMAND_TEXT_SIZE], unit[16] = "";
-    option_write_short(row, options, value, sizeof value);
+    option_write_short_value(row, options, value, sizeof value);
     if (strcmp(value, "none") != 0)
         option_write_unit(row, unit, sizeof unit);
     if (strcmp(row->name, "tolerance") == 0 && simulation->descent.tests_g)
@@ -219,7 +219,7 @@ void player_format_value(const OptionRow *row, const Options *options,
 void player_notify(Player *player, const char *format, ...)
 {
     write_formatted(player->note, sizeof player->note, format);
-    player->is_warning = player->must_explain = false;
+    player->is_warning = player->explains_hover = false;
     player->screen.must_redraw = true;
 }
 
@@ -254,7 +254,7 @@ void player_enqueue(Player *player, const Command *command)
 {
     CommandQueue *queue = &player->commands.queue;
     Command *last = queue->command + (queue->count > 0 ? queue->count - 1 : 0);
-    if (queue->count > 0 && command_replaces_last(command, last))
+    if (queue->count > 0 && command_replaces(command, last))
         *last = *command;
     else if (queue->count < MAX_QUEUED_COMMANDS)
         queue->command[queue->count++] = *command;

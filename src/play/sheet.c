@@ -20,8 +20,7 @@ typedef struct Sheet {
     int cell_count; /* number of cells */
     int next_cell;  /* index of the cell that gets the next step */
     int next_page;  /* index of the page that the first cell shows next */
-    int turn_count[LAYOUT_MAX_CELLS]; /* turns of each cell, one a frame at most
-                                       */
+    int cell_age[LAYOUT_MAX_CELLS]; /* turns of each cell, one per frame */
     Simulation simulation[LAYOUT_MAX_CELLS];
 } Sheet;
 
@@ -84,13 +83,13 @@ void sheet_advance_cells(Player *player)
     for (int i = 0; i < sheet->cell_count; i++) {
         if (player->screen.window && clock_now() - begin > STEP_TIME)
             break;
-        int cell = sheet->next_cell, age = sheet->turn_count[cell]++;
+        int cell = sheet->next_cell, age = sheet->cell_age[cell]++;
         Simulation *simulation = &sheet->simulation[cell];
         if (age % CELL_LIFE_FRAMES == 0)
             begin_scene_of_cell(sheet, cell);
         else if (simulation->scene && !simulation->is_over &&
                  !status_is_failure(simulation->status) &&
-                 ((simulation->scene->parts & HAS_TIME) ||
+                 ((simulation->scene->traits & HAS_TIME) ||
                   age % CELL_PAUSE_FRAMES == 0))
             simulation_step(simulation);
         sheet->next_cell = (cell + 1) % sheet->cell_count;
@@ -122,7 +121,7 @@ void sheet_build_content(const Player *player, FrameContent *content)
 
 /* Opens the scene or page of the chosen cell by a command, which scripts can
  * repeat.  An open page stays if the chosen cell is the tour. */
-Status obey_open_cell(Player *player, const Command *command)
+Status obey_open_sheet_cell(Player *player, const Command *command)
 {
     char line[32] = "page-on";
     int cell = player->screen.view.selected_cell;

@@ -34,13 +34,14 @@ Status obey_open_scene(Player *player, const Command *command)
 /* Makes room for the body at its start.  Obstacles that overlap the body go
  * back to their places when the run began.  Returns OK, or INVALID_INPUT if the
  * run began with another number of obstacles. */
-static Status make_room_for_body(Player *player, int pane, Options *options)
+static Status restore_obstacles(Player *player, int pane, Options *options)
 {
     Options began = past_get_start_control(&player->past, pane)->options;
     Options kept = *options;
     int count = (int)(options->grounds + options->balls);
     Message message = MESSAGE(player->message);
-    if (!(options->scene->parts & HAS_BODY) || !body_check(options, message))
+    if (!(options->scene->traits & HAS_BODY) ||
+        !body_check_start(options, message))
         return STATUS_OK;
     if (began.grounds != options->grounds || began.balls != options->balls)
         return STATUS_INVALID_INPUT;
@@ -50,11 +51,11 @@ static Status make_room_for_body(Player *player, int pane, Options *options)
     for (int k = 0; k < count; k++) {
         double *at = options_get_obstacle_point(&kept, k);
         memcpy(at, options_get_obstacle_point(options, k), sizeof began.at);
-        if (body_check(&kept, message))
+        if (body_check_start(&kept, message))
             memcpy(at, options_get_obstacle_point(&began, k), sizeof began.at);
     }
     *options = kept;
-    return body_check(options, message);
+    return body_check_start(options, message);
 }
 
 Status player_restore_pins(Player *player, const UserControl *before)
@@ -68,9 +69,9 @@ Status player_restore_pins(Player *player, const UserControl *before)
     Status status = STATUS_OK;
     for (int i = 0; i < before->nodes && same && !status; i++) {
         const Command pin = {
-            .kind = COMMAND_PIN, .number = i, .x = before->pinned[i]};
+            .kind = COMMAND_PIN, .number = i, .x = before->is_pinned[i]};
         now = past_get_control(&player->past, 0);
-        if (now->pinned[i] != before->pinned[i])
+        if (now->is_pinned[i] != before->is_pinned[i])
             status = player_edit_step(player, &pin, ALL_PANES, false);
     }
     control_release(before);
@@ -109,10 +110,10 @@ Status obey_restart(Player *player, const Command *command)
     Options options[OPTIONS_MAX_PANES];
     int panes = player_copy_options(player, options);
     for (int p = 0; p < panes; p++)
-        if (make_room_for_body(player, p, &options[p]))
+        if (restore_obstacles(player, p, &options[p]))
             return STATUS_INVALID_INPUT;
     bool moves = command->kind == COMMAND_START;
-    if (moves && !(options->scene->parts & HAS_START))
+    if (moves && !(options->scene->traits & HAS_START))
         return player_refuse(player, "this scene has no start to choose");
     for (int p = 0; p < panes && moves; p++) {
         options[p].start[0] = command->x;
@@ -155,18 +156,19 @@ Status player_reveal_answer(Player *player, const char *typed)
     const OptionRow any = {
         .kind = OPTION_NUMBER, .unit = "", .low = -HUGE_VAL, .high = HUGE_VAL};
     FrameContent *content = &player->screen.frame.content;
-    double truth = frame_find_number(content, page->answer ? page->answer : "");
+    double truth =
+        frame_find_value(content, page->answer_name ? page->answer_name : "");
     double guess = truth;
     if (typed && (!option_parse(&any, 1, typed, &guess) || !isfinite(guess)))
         return player_refuse(player, "a number is wanted: 0.25 or 1/4");
     bool right = fabs(guess - truth) <= 0.025 * fabs(truth);
-    bool judged = typed && page->answer && !isnan(truth);
+    bool judged = typed && page->answer_name && !isnan(truth);
     player->tour.revealed_page = page;
     player->tour.guess_count += judged;
     player->tour.right_guess_count += judged && right;
     player->tour.verdict[0] = '\0';
     TextLine asked =
-        text_first_line(&active_pane(content)->values, page->question);
+        text_find_known_line(&active_pane(content)->values, page->question);
     /* The numbers in the question are known once the page has been drawn. */
     bool is_filled = content->lecture.page == page;
     snprintf(player->tour.asked_question, ANSWER_SIZE, "%s",
@@ -175,7 +177,7 @@ Status player_reveal_answer(Player *player, const char *typed)
         append(player->tour.verdict, VALUE_SIZE, "%s%s%s.", typed,
                right ? " is right" : "? It is ",
                right ? "" : format_digits(truth, 5).text);
-    snprintf(player->commands.queue.note, SENTENCE_SIZE, "%s",
+    snprintf(player->commands.queue.end_note, SENTENCE_SIZE, "%s",
              player->tour.verdict);
     player->commands.queue.is_from_page = true;
     return player_enqueue_lines(player, page->on_answer);
@@ -200,8 +202,8 @@ Status obey_open_page(Player *player, const Command *command)
             return player_refuse(player, on ? "this is the last page"
                                             : "this is the first page");
         page += on ? 1 : -1;
-    } else if (player->tour.last_page) {
-        page = player->tour.last_page + (on && player->tour.last_page[1].name);
+    } else if (player->tour.tour_page) {
+        page = player->tour.tour_page + (on && player->tour.tour_page[1].name);
     } else {
         page = &lecture_pages[0];
     }
@@ -210,8 +212,8 @@ Status obey_open_page(Player *player, const Command *command)
         return status;
     player_store_page_options(player, &options);
     status = player_begin_runs(player, &options, 1, command);
-    player->play.log_speed = player_find_first_speed(player, &options);
-    player->tour.last_page = page;
+    player->play.log_speed = player_find_start_speed(player, &options);
+    player->tour.tour_page = page;
     player->tour.revealed_page = NULL;
     player->tour.verdict[0] = '\0';
     player_deselect(player);
@@ -234,7 +236,7 @@ Status obey_store_guess(Player *player, const Command *command)
         return player_refuse(player, "nothing to predict here");
     player_pause(player);
     scene_store_guess(simulation, command->x, command->y);
-    const Prediction *guess = &simulation->prediction;
+    const UserPrediction *guess = &simulation->prediction;
     if (!player_hides_answer(player))
         return STATUS_OK;
     double way =

@@ -65,18 +65,18 @@ static void store_line_energy(StepTrace *trace, const Iterate *at)
 {
     TraceIterate *iterate = &trace->iterate[trace->records.count];
     const NewtonRecord *record = &trace->records.record[trace->records.count];
-    const LineEnergy along = incremental_potential_prepare_line(at);
+    const LineEnergy along = make_line_energy(at);
     bool ended = record->status != STATUS_RUNNING;
     bool samples =
         trace->samples_each_iterate ||
         (ended && (trace->samples_last_iterate || record->alpha == 0));
-    iterate->first_trial = incremental_potential_max_step(at);
+    iterate->first_alpha = incremental_potential_max_alpha(at);
     iterate->polynomial = along.polynomial;
     iterate->has_remainder = along.has_remainder;
     iterate->has_samples = along.has_remainder && samples;
     for (int i = 0; i < SAMPLE_COUNT && iterate->has_samples; i++)
         iterate->energy_samples[i] = line_energy_difference(
-            &along, i * iterate->first_trial / SAMPLE_INTERVALS);
+            &along, i * iterate->first_alpha / SAMPLE_INTERVALS);
 }
 
 bool step_trace_lacks_samples(const StepTrace *trace, int position)
@@ -98,7 +98,7 @@ static double evaluate_iterate_energy(const void *function, double alpha)
         return quartic_value(&iterate->polynomial, alpha);
     if (!iterate->has_samples && alpha == iterate->alpha)
         return iterate->energy_change;
-    double at = alpha / iterate->first_trial * SAMPLE_INTERVALS;
+    double at = alpha / iterate->first_alpha * SAMPLE_INTERVALS;
     if (!iterate->has_samples || !(at >= 0 && at <= SAMPLE_COUNT - 1))
         return NAN;
     const double *value = iterate->energy_samples + (int)at;
@@ -182,7 +182,7 @@ void step_trace_add_iterate(StepTrace *trace, const Newton *newton,
         trace->x_tilde[i] += newton->iterate.E.x_n[i];
 }
 
-static void append_position(StepTrace *trace, int iterate, StepLine line,
+static void append_position(StepTrace *trace, int iterate, AlgoLine line,
                             int trials)
 {
     trace->position[trace->position_count++] =
@@ -226,7 +226,7 @@ int step_trace_walk(const StepTrace *trace, TimeUnit unit, int position,
 {
     for (int i = position + way; 0 <= i && i < trace->position_count;
          i += way) {
-        StepLine line = trace->position[i].at_line;
+        AlgoLine line = trace->position[i].at_line;
         if (unit == UNIT_LINE || line == LINE_START || line == LINE_TEST ||
             line == LINE_END_STEP)
             return i;
@@ -234,7 +234,7 @@ int step_trace_walk(const StepTrace *trace, TimeUnit unit, int position,
     return position;
 }
 
-int step_trace_find_position(const StepTrace *trace, int iterate, StepLine line)
+int step_trace_find_position(const StepTrace *trace, int iterate, AlgoLine line)
 {
     for (int i = trace->position_count - 1; i >= 0; i--)
         if (trace->position[i].iterate == iterate &&
@@ -279,7 +279,7 @@ static void show_iterate_values(const StepTrace *trace, const TracePosition *at,
     shown->residual = record->residual;
     shown->p = iterate->p;
     shown->slope = record->slope;
-    shown->first_alpha = iterate->first_trial;
+    shown->first_alpha = iterate->first_alpha;
     if (!iterate->p)
         return;
     shown->energy_difference = evaluate_iterate_energy;

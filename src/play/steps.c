@@ -58,7 +58,7 @@ static Status record_step(Player *player)
                                            simulation, panes, step);
 }
 
-Status player_write_missing_steps(Player *player)
+Status player_write_missing_rows(Player *player)
 {
     Past *past = &player->past;
     Status status = STATUS_OK;
@@ -87,7 +87,7 @@ Status player_write_missing_steps(Player *player)
 /* ---- beginning ----------------------------------------------------------- */
 
 /* Leaves the lines of Algorithm 3.  The panes show the end of the step. */
-static void show_end_of_steps(Player *player)
+static void show_step_end(Player *player)
 {
     for (int p = 0; p < OPTIONS_MAX_PANES; p++)
         player->view_of_pane[p].trace_index = -1;
@@ -98,7 +98,7 @@ void player_reset_view(Player *player)
     player->screen.must_redraw = true;
     if (player->play.mode > MODE_END)
         player->play.mode = MODE_END;
-    show_end_of_steps(player);
+    show_step_end(player);
     for (int p = 0; p < OPTIONS_MAX_PANES; p++) {
         free(player->view_of_pane[p].ghost_x);
         player->view_of_pane[p].ghost_x = NULL;
@@ -107,7 +107,7 @@ void player_reset_view(Player *player)
 
 static void forget_hold_and_queue(Player *player)
 {
-    player->hands.is_holding = false;
+    player->input.is_holding = false;
     player->commands.queue.count = 0;
 }
 
@@ -118,13 +118,13 @@ static void reset_screen_for_scene(Player *player)
     char title[128];
     player->screen.scene = options->scene;
     player->screen.page = options->page;
-    player->play.log_speed = player_find_first_speed(player, options);
+    player->play.log_speed = player_find_start_speed(player, options);
     player->screen.view.lens = LENS_FITS;
     player->screen.toggled_cards = 0;
     player->screen.enlarged_card = -1;
     player_deselect(player);
     player->screen.view.hovered_part = (Pick){.kind = PICK_NONE};
-    player->hands.mouse.drag_command = COMMAND_NONE;
+    player->input.mouse.drag_command = COMMAND_NONE;
     snprintf(title, sizeof title, "elasto: %s (press ? for the keys)",
              options->scene->name);
     if (player->screen.window)
@@ -150,8 +150,8 @@ Status player_begin_runs(Player *player, const Options *options, int count,
 {
     Past *past = &player->past;
     bool again = past->branch_count > 0;
-    Status status =
-        past_begin_runs(past, options, count, player->commands.gesture, edit);
+    Status status = past_begin_runs(past, options, count,
+                                    player->commands.gesture_id, edit);
     if (status)
         return again ? player_refuse(player, "%s", status_text(status))
                      : status;
@@ -170,8 +170,8 @@ Status player_edit_step(Player *player, const Command *change, int pane,
 {
     if (player->play.mode == MODE_REST)
         player->play.mode = MODE_RUN; /* bodies may move again */
-    Status status =
-        past_edit(&player->past, change, pane, again, player->commands.gesture);
+    Status status = past_edit(&player->past, change, pane, again,
+                              player->commands.gesture_id);
     if (!status)
         update_player_after_edit(player);
     return status || again ? status : record_step(player);
@@ -243,7 +243,7 @@ static void stop_run_if_over(Player *player)
             continue;
         going++;
         ended = ended && (simulation->is_over || pane->has_failed);
-        rests = rests && (simulation->scene->parts & HAS_TIME) &&
+        rests = rests && (simulation->scene->traits & HAS_TIME) &&
                 simulation->runs == 1 && !control_is_holding(pane->control) &&
                 simulation_is_at_rest(simulation);
         bad = past_count_panes(past) == 1 && pane->outcome.status;
@@ -268,7 +268,7 @@ static void stop_run_if_over(Player *player)
 
 /* Shows a line of Algorithm 3 in each pane whose step has iterations: the first
  * line, the last line, or, if E exploded, the update at which E was highest. */
-static void begin_line_walk(Player *player, ActionAfterWork after)
+static void begin_algorithm_walk(Player *player, ActionAfterWork after)
 {
     for (int p = 0; p < past_count_panes(&player->past); p++) {
         const StepTrace *trace = &player->past.pane[p].trace;
@@ -284,7 +284,7 @@ static void begin_line_walk(Player *player, ActionAfterWork after)
         player->play.mode = MODE_PAUSE;
         player->view_of_pane[p].trace_index = place;
         const double *x = step_trace_show_position(trace, place, &shown);
-        if (after != AFTER_SHOW_END)
+        if (after != AFTER_SHOW_STEP_END)
             continue;
         for (int i = 0; x && i < trace->x_length; i++)
             far = fmax(far, fabs(x[i]));
@@ -418,7 +418,7 @@ Status player_finish_work(Player *player, Status status, long before, bool made)
     else if (!status && after == AFTER_COMPARE_OUTCOMES)
         compare_outcomes(player);
     else if (!status && after != AFTER_NOTHING)
-        begin_line_walk(player, after);
+        begin_algorithm_walk(player, after);
     return status;
 }
 
@@ -427,13 +427,13 @@ Status player_finish_work(Player *player, Status status, long before, bool made)
 static Status release_unused_hand(Player *player)
 {
     const Command release = {.kind = COMMAND_RELEASE};
-    int gesture = player->commands.gesture;
+    int gesture = player->commands.gesture_id;
     if (!control_is_holding(past_get_control(&player->past, 0)) ||
-        player->hands.is_holding)
+        player->input.is_holding)
         return STATUS_OK;
-    player->commands.gesture = ++player->commands.gesture_count;
+    player->commands.gesture_id = ++player->commands.gesture_count;
     Status status = player_edit_step(player, &release, ALL_PANES, false);
-    player->commands.gesture = gesture;
+    player->commands.gesture_id = gesture;
     return status;
 }
 
@@ -463,7 +463,7 @@ Status obey_pause(Player *player, const Command *command)
     bool runs = command->kind == COMMAND_PLAY;
     player->play.mode = runs ? MODE_RUN : MODE_PAUSE;
     if (runs)
-        show_end_of_steps(player);
+        show_step_end(player);
     return STATUS_OK;
 }
 
@@ -472,13 +472,13 @@ Status obey_go_forward(Player *player, const Command *command)
     ActionAfterWork after = command->kind == COMMAND_STEP ? AFTER_NOTHING
                             : player->play.walk_unit != UNIT_STEP
                                 ? AFTER_SHOW_FIRST_LINE
-                                : AFTER_SHOW_END;
+                                : AFTER_SHOW_STEP_END;
     player_pause(player);
     if (after == AFTER_SHOW_FIRST_LINE && walk_algorithm_lines(player, 1))
         return STATUS_OK;
-    if (after == AFTER_SHOW_END &&
+    if (after == AFTER_SHOW_STEP_END &&
         player->view_of_pane[player->active_pane].trace_index >= 0) {
-        show_end_of_steps(player);
+        show_step_end(player);
         return STATUS_OK;
     }
     return player_seek(player, player->past.shown_step + 1, after);
@@ -507,7 +507,7 @@ Status obey_go_back(Player *player, const Command *command)
     if (player->view_of_pane[player->active_pane].trace_index < 0 && step > 0) {
         if (!player_get_active_pane(player)->has_trace)
             return player_seek(player, step, AFTER_SHOW_LAST_LINE);
-        begin_line_walk(player, AFTER_SHOW_LAST_LINE);
+        begin_algorithm_walk(player, AFTER_SHOW_LAST_LINE);
     }
     if (player->view_of_pane[player->active_pane].trace_index >= 0 &&
         walk_algorithm_lines(player, -1))
@@ -526,7 +526,7 @@ Status obey_change_walk_unit(Player *player, const Command *command)
     player->play.walk_unit = (player->play.walk_unit + 1) % UNITS;
     player_pause(player);
     if (player->play.walk_unit == UNIT_STEP)
-        show_end_of_steps(player);
+        show_step_end(player);
     player_notify(player, "N and \u2190 go by %s",
                   paces[player->play.walk_unit]);
     return STATUS_OK;
@@ -552,7 +552,7 @@ static void describe_edit(const Player *player, const Command *edit, char *line,
     char value[COMMAND_TEXT_SIZE];
     if (kind == COMMAND_SET) {
         edited.number[row->slot] = edit->x;
-        option_write_short(row, &edited, value, sizeof value);
+        option_write_short_value(row, &edited, value, sizeof value);
         snprintf(line, size, "%s %s", row->name,
                  edit->text[0] ? edit->text : value);
     } else if (kind == COMMAND_OBSTACLE || kind == COMMAND_PUSH)
@@ -574,14 +574,14 @@ Status obey_undo(Player *player, const Command *command)
 {
     char line[2 * COMMAND_TEXT_SIZE];
     int way = command->kind == COMMAND_UNDO ? -1 : 1;
-    const Command *made = past_undo(&player->past, way);
+    const Command *made = past_undo_or_redo(&player->past, way);
     if (!made)
         return player_refuse(player, way < 0 ? "nothing is to be undone"
                                              : "nothing was undone");
     const Command edit = *made;
     player->play.mode = MODE_PAUSE;
     forget_hold_and_queue(player);
-    player->hands.mouse.input_gesture = ++player->commands.gesture_count;
+    player->input.mouse.input_gesture_id = ++player->commands.gesture_count;
     update_player_after_edit(player);
     player_reset_view(player);
     describe_edit(player, &edit, line, sizeof line);

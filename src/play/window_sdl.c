@@ -31,7 +31,7 @@ static const char *sdl_get_failure_reason(void)
 
 /* Starts SDL's video, without Wayland if XDG_RUNTIME_DIR is missing, since the
  * Wayland library would print an error.  Returns false without a screen. */
-static bool open_video(void)
+static bool sdl_init_video(void)
 {
 #ifdef __linux__
     if (!getenv("XDG_RUNTIME_DIR"))
@@ -64,7 +64,7 @@ static bool sdl_open(const int size[2], bool full)
     SDL_SetHint(SDL_HINT_VIDEO_ALLOW_SCREENSAVER, "1");
     SDL_SetHint(SDL_HINT_MOUSE_FOCUS_CLICKTHROUGH, "1");
     SDL_SetHint(SDL_HINT_VIDEO_X11_NET_WM_BYPASS_COMPOSITOR, "0");
-    if (!open_video())
+    if (!sdl_init_video())
         return false;
     if (strcmp(SDL_GetCurrentVideoDriver(), "x11") == 0)
         SDL_SetHint(SDL_HINT_FRAMEBUFFER_ACCELERATION, "0");

@@ -7,24 +7,24 @@
 
 /* clang-format off */
 /* Empty functions: the browser closes, titles and enlarges its own window. */
-EM_JS(bool, page_open, (const int *size, bool full), { return true; });
-EM_JS(void, page_close, (void), {});
-EM_JS(void, page_set_title, (const char *title), {});
-EM_JS(void, page_set_full_screen, (bool full), {});
-EM_JS(bool, page_is_full_screen, (void), { return false; });
-EM_JS(void, page_find_size, (int *size), {
+EM_JS(bool, web_open, (const int *size, bool full), { return true; });
+EM_JS(void, web_close, (void), {});
+EM_JS(void, web_set_title, (const char *title), {});
+EM_JS(void, web_set_full_screen, (bool full), {});
+EM_JS(bool, web_is_full_screen, (void), { return false; });
+EM_JS(void, web_find_size, (int *size), {
     HEAP32[size >> 2] = Page.width();
     HEAP32[(size >> 2) + 1] = Page.height();
 });
-EM_JS(double, page_find_font_size, (void), { return Page.letter(); });
-EM_JS(bool, page_has_document, (void), { return Page.hasDocument(); });
-EM_JS(void, page_paint, (const void *pixels, int width, int height, int card), {
+EM_JS(double, web_find_font_size, (void), { return Page.letter(); });
+EM_JS(bool, web_has_document, (void), { return Page.hasDocument(); });
+EM_JS(void, web_paint, (const void *pixels, int width, int height, int card), {
     Page.show(HEAPU8, pixels, width, height, card);
 });
 /* clang-format on */
 
 /* Converts the pixels to bytes red, green, blue, alpha for the page. */
-Status page_show_card(const Canvas *canvas, int card)
+Status web_show_card(const Canvas *canvas, int card)
 {
     static uint32_t *rgba; /* [room] */
     static size_t room;
@@ -41,13 +41,13 @@ Status page_show_card(const Canvas *canvas, int card)
         rgba[i] =
             0xff000000 | (p & 0xff00) | (p & 0xff) << 16 | (p >> 16 & 0xff);
     }
-    page_paint(rgba, canvas->width, canvas->height, card);
+    web_paint(rgba, canvas->width, canvas->height, card);
     return STATUS_OK;
 }
 
-static Status page_show_frame(const Canvas *canvas)
+static Status web_show_frame(const Canvas *canvas)
 {
-    return page_show_card(canvas, -1);
+    return web_show_card(canvas, -1);
 }
 
 enum { INPUT_QUEUE_SIZE = 256 };
@@ -83,7 +83,7 @@ EMSCRIPTEN_KEEPALIVE void web_queue_mouse(int kind, double x, double y,
     queue_input(&input);
 }
 
-static Input page_read_input(void)
+static Input web_read_input(void)
 {
     Input input = {.kind = INPUT_NONE};
     if (input_count == 0)
@@ -95,14 +95,14 @@ static Input page_read_input(void)
 }
 
 const Window window_web = {
-    .open = page_open,
-    .close = page_close,
-    .find_size = page_find_size,
-    .find_font_size = page_find_font_size,
-    .has_document = page_has_document,
-    .set_title = page_set_title,
-    .show = page_show_frame,
-    .set_full_screen = page_set_full_screen,
-    .is_full_screen = page_is_full_screen,
-    .read_input = page_read_input,
+    .open = web_open,
+    .close = web_close,
+    .find_size = web_find_size,
+    .find_font_size = web_find_font_size,
+    .has_document = web_has_document,
+    .set_title = web_set_title,
+    .show = web_show_frame,
+    .set_full_screen = web_set_full_screen,
+    .is_full_screen = web_is_full_screen,
+    .read_input = web_read_input,
 };

@@ -32,18 +32,18 @@ static const double DIAL_OFF_LINE = 1e-9;
 
 /* ln(e^x + e^-x), written as |x| + ln(1 + e^(-2|x|)), which cannot overflow.
  * The derivatives are tanh and 1/cosh^2. */
-static LocalModel log_two_cosh(const Simulation *simulation, double x)
+static TaylorModel log_two_cosh(const Simulation *simulation, double x)
 {
     double f = fabs(x) + log1p(exp(-2 * fabs(x)));
     double g = tanh(x);
     double H = 1 / (cosh(x) * cosh(x));
     (void)simulation;
-    return (LocalModel){.energy = f, .g = {g}, .H = {H}};
+    return (TaylorModel){.energy = f, .g = {g}, .H = {H}};
 }
 
 /* Evaluates E, g and H of the scene "tangent" at position x. */
-static LocalModel evaluate_tangent_energy(const Simulation *simulation,
-                                          double x)
+static TaylorModel evaluate_tangent_energy(const Simulation *simulation,
+                                           double x)
 {
     double m = SMALL_MASS, l2 = LINE_LENGTH * LINE_LENGTH;
     double h = simulation->run[0].h, x_tilde = simulation->exhibit.x_tilde[0];
@@ -53,15 +53,15 @@ static LocalModel evaluate_tangent_energy(const Simulation *simulation,
     double g = m * d + spring_gradient_factor(k, s) * x;
     double H =
         m + spring_hessian_factor(l2, k) * spring_eigenvalue_along(x * x, l2);
-    return (LocalModel){.energy = E, .g = {g}, .H = {H}};
+    return (TaylorModel){.energy = E, .g = {g}, .H = {H}};
 }
 
 /* Returns parts of E with their derivatives in the scenes `landscape` and
  * `dial`, and the function of one unknown in `overshoot` and `tangent`.
  *   parts  enum LandscapePart */
-static LocalModel evaluate_landscape(const Simulation *simulation,
-                                     unsigned parts, Projection projection,
-                                     double x, double y)
+static TaylorModel evaluate_landscape(const Simulation *simulation,
+                                      unsigned parts, Projection projection,
+                                      double x, double y)
 {
     if (simulation->descent.scalar)
         return simulation->descent.scalar(simulation, x);
@@ -69,12 +69,12 @@ static LocalModel evaluate_landscape(const Simulation *simulation,
     const double *pins = simulation->run[0].x, *o = simulation->exhibit.x_tilde;
     double m = system->m[0], h = simulation->run[0].h, w = h * h, P = 0;
     const double u[2] = {x - o[0], y - o[1]};
-    LocalModel E = {.energy = 0};
+    TaylorModel E = {.energy = 0};
     if (parts & PART_INERTIA)
-        E = (LocalModel){0.5 * m * (u[0] * u[0] + u[1] * u[1]),
-                         {m * u[0], m * u[1]},
-                         {m, 0, m},
-                         0};
+        E = (TaylorModel){0.5 * m * (u[0] * u[0] + u[1] * u[1]),
+                          {m * u[0], m * u[1]},
+                          {m, 0, m},
+                          0};
     for (int s = 0; s < system->springs && (parts & PART_ELASTICITY); s++) {
         const double *pin = pins + 2 * system->e[2 * s + 1];
         const double d[2] = {x - pin[0], y - pin[1]};
@@ -93,22 +93,22 @@ static LocalModel evaluate_landscape(const Simulation *simulation,
     return E;
 }
 
-LocalModel descent_evaluate(const Simulation *simulation, Projection projection,
-                            double x, double y)
+TaylorModel descent_evaluate(const Simulation *simulation,
+                             Projection projection, double x, double y)
 {
     return evaluate_landscape(simulation, simulation->exhibit.switches,
                               projection, x, y);
 }
 
-double landscape_evaluate_parts(const Simulation *simulation, unsigned parts,
-                                double x, double y)
+double landscape_sum_energy_parts(const Simulation *simulation, unsigned parts,
+                                  double x, double y)
 {
     return evaluate_landscape(simulation, parts, PROJECTION_NONE, x, y).energy;
 }
 
 int descent_classify_hessian(const Simulation *simulation, double x, double y)
 {
-    LocalModel E = descent_evaluate(simulation, PROJECTION_NONE, x, y);
+    TaylorModel E = descent_evaluate(simulation, PROJECTION_NONE, x, y);
     if (simulation->descent.scalar)
         return E.H[0] < 0 ? 2 : 0;
     bool same = E.H[0] * E.H[2] - E.H[1] * E.H[1] > 0;
@@ -118,17 +118,17 @@ int descent_classify_hessian(const Simulation *simulation, double x, double y)
 /* ---- Newton -------------------------------------------------------------- */
 
 /* Returns Newton's direction in one unknown, to the zero of g's tangent. */
-static double tangent_direction(double g, double H)
+static double newton_direction_1d(double g, double H)
 {
     return -g / H;
 }
 
 /* Computes p = -H^-1 g.  Returns the slope g . p of E along p. */
-static double newton_direction(const LocalModel *E, bool scalar, double p[2])
+static double newton_direction(const TaylorModel *E, bool scalar, double p[2])
 {
     const double *g = E->g, *H = E->H;
     if (scalar) {
-        p[0] = tangent_direction(g[0], H[0]);
+        p[0] = newton_direction_1d(g[0], H[0]);
         p[1] = 0;
         return g[0] * p[0];
     }
@@ -140,10 +140,10 @@ static double newton_direction(const LocalModel *E, bool scalar, double p[2])
     return g[0] * p[0] + g[1] * p[1];
 }
 
-double descent_direction(const Simulation *simulation, Projection projection,
-                         const double *x, double p[2])
+double descent_find_p(const Simulation *simulation, Projection projection,
+                      const double *x, double p[2])
 {
-    LocalModel E = descent_evaluate(simulation, projection, x[0], x[1]);
+    TaylorModel E = descent_evaluate(simulation, projection, x[0], x[1]);
     return newton_direction(&E, simulation->descent.scalar, p);
 }
 
@@ -161,7 +161,7 @@ static double descent_energy_difference(const void *function, double alpha)
 
 /* Returns E and its derivatives at the iterate, with the options' projection.
  * Projection on demand clamps a Hessian that is not positive definite. */
-static LocalModel evaluate_local_model(const Simulation *simulation)
+static TaylorModel evaluate_local_model(const Simulation *simulation)
 {
     const double *at = simulation->descent.iterate;
     Projection projection = (Projection)simulation->options.projection;
@@ -182,7 +182,7 @@ static Status update_iterate_values(Simulation *simulation, Status status)
     Descent *descent = &simulation->descent;
     double *p = descent->direction;
     memcpy(descent->iterate, run->x, sizeof descent->iterate);
-    LocalModel E = evaluate_local_model(simulation);
+    TaylorModel E = evaluate_local_model(simulation);
     descent->value = E.energy;
     if (descent->scalar)
         descent->iterate[1] = run->x[1] = E.energy;
@@ -339,9 +339,9 @@ static void minimise_landscape(const Simulation *simulation, double h,
 
 /* Computes the curve of minimisers.  A search begins at the last minimiser, so
  * that the curve is continuous.  Puts node 0 at the minimiser for h. */
-void dial_restart(Simulation *simulation)
+void dial_update_curve(Simulation *simulation)
 {
-    DialCurve *dial = &simulation->exhibit.dial;
+    MinimiserCurve *dial = &simulation->exhibit.dial;
     double point[2], h = simulation->options.timestep;
     memcpy(point, simulation->exhibit.x_tilde, sizeof point);
     memcpy(simulation->descent.iterate, point, sizeof point);
@@ -354,7 +354,7 @@ void dial_restart(Simulation *simulation)
     }
     minimise_landscape(simulation, h, simulation->descent.iterate);
     memcpy(simulation->run[0].x, simulation->descent.iterate, sizeof point);
-    simulation->descent.value = landscape_evaluate_parts(
+    simulation->descent.value = landscape_sum_energy_parts(
         simulation, PART_BOTH, simulation->descent.iterate[0],
         simulation->descent.iterate[1]);
 }
@@ -365,7 +365,7 @@ Status create_dial_scene(Simulation *simulation)
     if (status)
         return status;
     simulation->run[0].newton->settings.observer = NULL; /* hides the updates */
-    dial_restart(simulation);
+    dial_update_curve(simulation);
     simulation->is_over = simulation->options.timestep >= DIAL_LAST;
     simulation->status = STATUS_OK;
     return STATUS_OK;
@@ -377,6 +377,6 @@ Status step_dial_scene(Simulation *simulation)
     h = fmin(h, DIAL_LAST);
     simulation->options.timestep = simulation->run[0].h = h;
     simulation->is_over = h >= DIAL_LAST;
-    dial_restart(simulation);
+    dial_update_curve(simulation);
     return STATUS_OK;
 }

@@ -20,7 +20,7 @@ Status create_small_system(System *system, int pins, double length,
     for (int i = 0; i <= pins && !status; i++)
         system->m[i] = SMALL_MASS;
     for (int s = 0; s < pins && !status; s++) {
-        system->pinned[s + 1] = 1;
+        system->is_pinned[s + 1] = 1;
         system->e[2 * s + 1] = s + 1;
         system->l2[s] = length * length;
         system->k[s] = stiffness;
@@ -71,7 +71,7 @@ bool mass_find_next_step(const Simulation *simulation, int run, MassStep *step)
     bool symplectic = strcmp(name, "symplectic-euler") == 0;
     bool backward = strcmp(name, "backward-euler") == 0;
     double h = integrator->h;
-    step->moves_by_old_v = forward;
+    step->uses_old_v = forward;
     for (int i = 0; i < 2; i++) {
         double x = integrator->x[i], v = integrator->v[i];
         double a = -MASS_OMEGA2 * x, new_v = v + h * a;

@@ -17,8 +17,8 @@ static Obstacle make_squeeze_ceiling(const Options *options)
         .kind = OBSTACLE_WALL,
         .n = {0, -1},
         .o = {0, 0.51 * options->side + options->at[1]},
-        .friction = options->friction,
-        .node = -1,
+        .mu = options->friction,
+        .ball_node = -1,
         .motion = {2, {down, back}, {{0, -speed}, {0, 2 * speed}}}};
 }
 
@@ -43,8 +43,8 @@ static Obstacle make_bend_ball(const Options *options)
     return (Obstacle){.kind = OBSTACLE_BALL,
                       .o = {0, half + 0.18 + 0.05},
                       .radius = 0.18,
-                      .friction = options->friction,
-                      .node = shape.nodes};
+                      .mu = options->friction,
+                      .ball_node = shape.nodes};
 }
 
 /* Creates `bend`: a ball of 60 kg falls on a beam, at first with 3 m/s. */
@@ -62,7 +62,7 @@ static Status create_bend_scene(Simulation *simulation)
 
 /* ---- the table ----------------------------------------------------------- */
 
-/* Picture and parts of every scene with a body. */
+/* Picture and parts of the scenes of a square in time. */
 #define SQUARE PICTURE_SQUARE, HAS_SQUARE
 
 /* Options of scenes in which a body of springs falls. */
@@ -85,7 +85,7 @@ const Scene scenes[] = {
      HAS_START | HAS_ONE_COORDINATE | HAS_MINIMISATION,
      "--start 2 --tolerance 1e-10 --line-search none", create_overshoot_scene,
      .step_name = "iteration", .starts_paused = true, .step = step_descent,
-     .restart = descent_update_direction, .handle_kinds = "x"},
+     .after_drag = descent_update_direction, .handle_kinds = "x"},
     {"unprojected", "Without projection",
      "the squeezed square: without projection Newton is stuck", SQUARE,
      "--timestep 0.02 --stretch 0.5 --projection none", create_square_scene,
@@ -120,7 +120,7 @@ const Scene scenes[] = {
           "--ground -0.3420201433256687,0.9396926207859084,0,0",
      /* friction = tan(20 degrees): on this slope a block just stays at rest. */
      create_square_scene, .view = {-2.3, -2.75, 0.9, 2.0}, .body.runs = 3,
-     .body.height_between_runs = 2.6, .body.friction_factor = {0.5, 0.9, 1.1}},
+     .body.run_distance = 2.6, .body.friction_factor = {0.5, 0.9, 1.1}},
     {"squeeze", "Contact: pressed flat",
      "a ceiling comes down and lets go: all of it returns", SQUARE,
      FALL "--segments 16 --timestep 0.01 --friction 0.8 "
@@ -193,8 +193,8 @@ const Scene scenes[] = {
      HAS_START | HAS_SPRINGS | HAS_MINIMISATION | HAS_TIMESTEP,
      "--start 0.1,-0.35 --tolerance 1e-6 --timestep 0.2",
      create_landscape_scene, .step_name = "iteration", .starts_paused = true,
-     .step = step_descent, .restart = descent_update_direction,
-     .find_direction = descent_update_direction, .handle_kinds = "tx",
+     .step = step_descent, .after_drag = descent_update_direction,
+     .update_direction = descent_update_direction, .handle_kinds = "tx",
      .switch_labels = {"inertia", "elasticity"}, .is_hidden = true},
     {"arrows", "One mass",
      "one mass on a spring: the arrows of three Euler steps", PICTURE_MASS,
@@ -205,13 +205,14 @@ const Scene scenes[] = {
      HAS_START | HAS_MINIMISATION | HAS_ONE_COORDINATE | HAS_TIMESTEP,
      "--start 2.5 --tolerance 1e-10 --line-search none --timestep 0.3",
      create_tangent_scene, .step_name = "iteration", .step = step_descent,
-     .restart = descent_update_direction, .handle_kinds = "xt",
+     .after_drag = descent_update_direction, .handle_kinds = "xt",
      .is_hidden = true},
     {"dial", "The time step as a dial",
      "a longer time step: from free flight to the rest shape", PICTURE_DIAL,
      HAS_TIMESTEP, "--timestep 0.005", create_dial_scene, .step_name = "point",
-     .step = step_dial_scene, .restart = dial_restart, .handle_kinds = "t",
-     .switch_labels = {"inertia", "elasticity"}, .is_hidden = true},
+     .step = step_dial_scene, .after_drag = dial_update_curve,
+     .handle_kinds = "t", .switch_labels = {"inertia", "elasticity"},
+     .is_hidden = true},
     {"spring", "One spring",
      "one spring: energy, force, eigenvalues; drag its end", PICTURE_SPRING,
      HAS_MOTION | HAS_START | HAS_SPRINGS | HAS_MINIMISATION,
@@ -239,11 +240,11 @@ void scene_store_guess(Simulation *simulation, double x, double y)
         return;
     if (scene->step == step_dial_scene)
         end = simulation->exhibit.dial.minimiser[DIAL_POINTS - 1];
-    if (scene->parts & HAS_TIME) {
+    if (scene->traits & HAS_TIME) {
         mass_find_next_step(simulation, 0, &step);
         end = step.new_x;
     }
-    simulation->prediction = (Prediction){
+    simulation->prediction = (UserPrediction){
         .has_guess = true,
         .guess_step = simulation->steps,
         .guess = {x, y},

@@ -22,7 +22,7 @@ static Status make_trial_run(const Options *options,
     Status worst = time_integrator_create(method, system, &settings, from->x,
                                           from->v, run);
     for (long i = 0; i < steps && !status_is_failure(worst); i++) {
-        Status status = time_integrator_step(run);
+        Status status = time_integrator_make_step(run);
         worst = status ? status : worst;
     }
     return worst;
@@ -62,7 +62,7 @@ static double find_frequency_bound(const System *system, const double *x)
  * O(H^12) remains.  The extrapolated value is the sum over j of w_j times the
  * result of j steps.  The weight w_j (Lagrange's formula) is the product of
  * j^2 / (j^2 - i^2) over all i other than j.
- *   from, to  scratch, [2 size] */
+ *   from, to  scratch, [2 x_length] */
 static Status advance_exactly(TimeIntegrator *run, double H, double *from,
                               double *to)
 {
@@ -76,10 +76,10 @@ static Status advance_exactly(TimeIntegrator *run, double H, double *from,
         for (int i = 1; i <= EXTRAPOLATION_LEVELS; i++)
             weight *= i == j ? 1 : (double)(j * j) / (j * j - i * i);
         memcpy(run->x, from, bytes);
-        run->memory_h = 0;
+        run->history_h = 0;
         run->h = H / j;
         for (int step = 0; step < j && !status; step++)
-            status = time_integrator_step(run);
+            status = time_integrator_make_step(run);
         for (size_t i = 0; i < both; i++)
             to[i] += weight * (run->x[i] - from[i]);
     }
@@ -133,7 +133,7 @@ static double find_run_energy(const TimeIntegrator *run)
 static bool run_is_stable(const Simulation *simulation, TimeIntegrator *run)
 {
     for (int i = 0; i < RACE_EXTRA_STEPS && run->method->stages == 0; i++)
-        if (time_integrator_step(run))
+        if (time_integrator_make_step(run))
             return false;
     return run->method->stages > 0 ||
            find_run_energy(run) <=
@@ -193,7 +193,7 @@ Status race_measure_method(Simulation *simulation,
 
 Status step_race_scene(Simulation *simulation)
 {
-    Race *race = &simulation->exhibit.race;
+    MethodRace *race = &simulation->exhibit.race;
     const IntegratorMethod *method =
         race_get_method(race->run_count % RACE_METHODS);
     long steps = (long)RACE_FEWEST_STEPS << (race->run_count / RACE_METHODS);
@@ -221,12 +221,12 @@ Status step_race_scene(Simulation *simulation)
 
 /* ---- how far the solver can be trusted ----------------------------------- */
 
-double envelope_timestep(int column)
+double envelope_get_timestep(int column)
 {
     return pow(10, 0.5 * column - 9);
 }
 
-double envelope_stiffness(int row)
+double envelope_get_stiffness(int row)
 {
     return pow(10, row - 6);
 }
@@ -241,12 +241,12 @@ static int find_nearest_index(double value, double first, double per_ten,
 
 Status envelope_run_cell(Simulation *simulation, int column, int row)
 {
-    EnvelopeMap *map = &simulation->exhibit.envelope;
+    ConvergenceMap *map = &simulation->exhibit.envelope;
     TimeIntegrator *run = &simulation->run[0];
     Options options = simulation->options;
-    options.timestep = envelope_timestep(column);
+    options.timestep = envelope_get_timestep(column);
     for (int s = 0; s < simulation->system.springs; s++)
-        simulation->system.k[s] = envelope_stiffness(row);
+        simulation->system.k[s] = envelope_get_stiffness(row);
     time_integrator_free(run);
     Status worst =
         make_trial_run(&options, &integrator_methods[0], &simulation->system,
@@ -254,8 +254,8 @@ Status envelope_run_cell(Simulation *simulation, int column, int row)
     if (worst == STATUS_OUT_OF_MEMORY)
         return worst;
     int updates = (int)run->newton->counters.updates;
-    map->cell[row][column] = (EnvelopeCell){
-        .is_known = true, .bad_status = worst, .updates = updates};
+    map->cell[row][column] = (ConvergenceCell){
+        .is_known = true, .run_status = worst, .updates = updates};
     map->shown_column = column;
     map->shown_row = row;
     return STATUS_OK;
@@ -280,7 +280,7 @@ Status create_envelope_scene(Simulation *simulation)
 /* The row's runs replace run 0, so the shown cell's run is made again. */
 Status step_envelope_scene(Simulation *simulation)
 {
-    const EnvelopeMap *map = &simulation->exhibit.envelope;
+    const ConvergenceMap *map = &simulation->exhibit.envelope;
     int row = (int)simulation->steps,
         shown[2] = {map->shown_column, map->shown_row};
     Status status = STATUS_OK;

@@ -80,7 +80,7 @@ SquareMesh body_make_mesh(const Options *options)
 static int find_ball_node(const Options *options)
 {
     return options->scene->body.make_obstacle
-               ? options->scene->body.make_obstacle(options).node
+               ? options->scene->body.make_obstacle(options).ball_node
                : -1;
 }
 
@@ -118,13 +118,13 @@ static Status create_body_system(const Options *options, System *system)
     if (shape.rows == shape.columns && ball < 0 && shape.bodies == 1)
         system->segments = shape.columns;
     system->gravity[1] = -options->gravity;
-    square_mesh_order_nodes(&shape, system->elimination_order);
-    if (options->pin && pins_parse(options->pin, &shape, system->pinned))
+    square_mesh_order_nodes(&shape, system->elimination_index);
+    if (options->pin && pins_parse(options->pin, &shape, system->is_pinned))
         return STATUS_INVALID_INPUT;
     for (int i = 0; i < shape.nodes && numbers; i++) {
         double rest[2];
         square_mesh_rest_position(&shape, i, rest);
-        if (system->pinned[i]) /* nodes that are pinned later do not move */
+        if (system->is_pinned[i]) /* nodes that are pinned later do not move */
             system->pin_v[2 * i] = copysign(pin_speed, rest[0]);
     }
     return STATUS_OK;
@@ -147,16 +147,16 @@ static int list_obstacles(const Options *options,
             (Obstacle){.kind = OBSTACLE_WALL,
                        .n = {ground[0] / length, ground[1] / length},
                        .o = {ground[2], ground[3]},
-                       .friction = options->friction,
-                       .node = -1};
+                       .mu = options->friction,
+                       .ball_node = -1};
     }
     for (int i = 0; i < options->balls; i++) {
         const double *ball = options->ball[i];
         list[count++] = (Obstacle){.kind = OBSTACLE_BALL,
                                    .o = {ball[0], ball[1]},
                                    .radius = ball[2],
-                                   .friction = options->friction,
-                                   .node = -1};
+                                   .mu = options->friction,
+                                   .ball_node = -1};
     }
     if (options->ceiling[1] != 0) {
         const double *ceiling = options->ceiling;
@@ -165,7 +165,7 @@ static int list_obstacles(const Options *options,
         list[count++] = (Obstacle){.kind = OBSTACLE_WALL,
                                    .n = {0, -1},
                                    .o = {0, ceiling[0]},
-                                   .node = -1,
+                                   .ball_node = -1,
                                    .motion = {1, {end}, {{0, ceiling[1]}}}};
     }
     if (options->scene->body.make_obstacle)
@@ -236,9 +236,9 @@ static Status set_energy_terms(const Options *options, System *system)
     double part = options->scene->body.cell_stiffness;
     double k_c = (part > 0 ? part : 0.5) * options->stiffness;
     Status status = set_obstacles(options, system);
-    if (!status && options->self_contact)
+    if (!status && options->has_self_contact)
         status = set_self_contact(options, &shape, system);
-    if (!status && options->cells)
+    if (!status && options->has_cell_energy)
         status = cells_configure(system, &shape, k_c);
     for (const OptionRow *row = option_rows; row->name && !status; row++) {
         const double *number = options->number + row->slot;
@@ -253,8 +253,8 @@ static Status set_energy_terms(const Options *options, System *system)
 /* Computes the start of a run: a step of a table, or the rest shape stretched,
  * turned and moved.  The scene's ball starts at its place in the scene.
  *   x, v  [2 nodes] out, m, m/s */
-static Status place_body(const Options *options, int run, double *x, double *v,
-                         Message message)
+static Status set_start_state(const Options *options, int run, double *x,
+                              double *v, Message message)
 {
     const SquareMesh shape = body_make_mesh(options);
     const double *at = options->at, *speed = options->velocity;
@@ -287,7 +287,7 @@ static Status place_body(const Options *options, int run, double *x, double *v,
 
 double body_find_added_height(const Options *options, int run)
 {
-    return options->scene->body.height_between_runs * options->side * (1 - run);
+    return options->scene->body.run_distance * options->side * (1 - run);
 }
 
 /* Returns the options of one run: with its own friction and height. */
@@ -315,7 +315,7 @@ static Status build_run_system(const Options *options, int run, System *system,
     *x = status ? NULL : malloc(2 * size * sizeof **x);
     if (status || !*x)
         return status ? status : STATUS_OUT_OF_MEMORY;
-    status = place_body(options, run, *x, *x + size, message);
+    status = set_start_state(options, run, *x, *x + size, message);
     return status || !options->state_springs
                ? status
                : start_table_read_springs(options, run, system, message);
@@ -350,7 +350,7 @@ static Status create_body_run(Simulation *simulation, int run)
         double *v = x + 2 * (size_t)system->nodes;
         cut_notch(&options, &simulation->mesh, system);
         for (int i = 0; i < 2 * system->nodes; i++)
-            v[i] = system->pinned[i / 2] ? 0 : v[i];
+            v[i] = system->is_pinned[i / 2] ? 0 : v[i];
         status = simulation_start_run(
             simulation, run, options_get_method(&options), system, x, v);
     }
@@ -444,7 +444,7 @@ static Status check_gaps_and_cells(const Options *options, const System *system,
     const SquareMesh shape = body_make_mesh(options);
     EvalPoint at = make_eval_point(system, NULL, NULL, x);
     for (const TermKind *kind; (kind = eval_point_next_term(&at));) {
-        if (!kind->element || !kind->element->max_step)
+        if (!kind->element || !kind->element->max_alpha)
             continue;
         ElementIterator walk = elements_begin(&at, NULL, 0);
         const Element *element = &walk.element;
@@ -516,7 +516,7 @@ static Status check_clearance(const Simulation *simulation,
                            .free_ball_index = -1};
         int count = list_obstacles(&own, contact.obstacle);
         contact.obstacle_count = (int)(own.grounds + own.balls);
-        if (count > 0 && contact.obstacle[count - 1].node >= 0)
+        if (count > 0 && contact.obstacle[count - 1].ball_node >= 0)
             contact.free_ball_index = count - 1;
         system.term_count = 1;
         system.term[0] = (EnergyTerm){&contact_energy, &contact};
@@ -537,7 +537,7 @@ double simulation_find_free_fraction(const Simulation *simulation,
                                      const Options *options, int number,
                                      const double to[2])
 {
-    enum { MAX_HALVINGS = 20 };
+    enum { MAX_MOTION_HALVINGS = 20 };
     static const double MIN_GAP = 0.999;     /* least gap divided by d_hat */
     static const double MIN_PART = 1.0 / 64; /* least fraction tried first */
     Options moved = *options;
@@ -549,7 +549,7 @@ double simulation_find_free_fraction(const Simulation *simulation,
     double step = 0.5, length = math_hypot(to[0] - from[0], to[1] - from[1]);
     if (number >= options->grounds) /* a ball must not jump over a body */
         step = fmin(fmax(0.5 * at[2] / length, MIN_PART), step);
-    for (int i = 0; i < MAX_HALVINGS;) {
+    for (int i = 0; i < MAX_MOTION_HALVINGS;) {
         for (int c = 0; c < 2; c++)
             at[c] = from[c] + (free + step) * (to[c] - from[c]);
         if (free + step < 1 && !check_clearance(simulation, &moved, MIN_GAP,
@@ -584,7 +584,8 @@ static Status check_nested_bodies(const Options *options,
 {
     int cells = shape->cells / shape->bodies;
     int nodes = shape->nodes / shape->bodies;
-    for (int inner = 0; inner < shape->bodies && options->self_contact; inner++)
+    for (int inner = 0; inner < shape->bodies && options->has_self_contact;
+         inner++)
         for (int outer = 0; outer < shape->bodies; outer++)
             if (inner != outer &&
                 square_mesh_find_cell(shape, x, x + 2 * inner * nodes,
@@ -602,7 +603,7 @@ static Status check_crossing_outlines(const Options *options, const double *x,
 {
     const SquareMesh shape = body_make_mesh(options);
     int edge[2], other[2];
-    for (int k = 0; k < shape.outline_edge_count && options->self_contact;
+    for (int k = 0; k < shape.outline_edge_count && options->has_self_contact;
          k++) {
         square_mesh_get_outline_edge(&shape, k, edge);
         for (int l = 0; l < k; l++) {
@@ -626,13 +627,13 @@ static Status check_crossing_outlines(const Options *options, const double *x,
     return check_nested_bodies(options, &shape, x, message);
 }
 
-Status body_check(const Options *options, Message message)
+Status body_check_start(const Options *options, Message message)
 {
     Obstacle list[CONTACT_MAX_OBSTACLES];
     Status status = check_obstacles(options, message);
-    if (status ||
-        (list_obstacles(options, list) == 0 && !options->cells &&
-         !options->state && options->material == 0 && !options->self_contact))
+    if (status || (list_obstacles(options, list) == 0 &&
+                   !options->has_cell_energy && !options->state &&
+                   options->material == 0 && !options->has_self_contact))
         return status;
     System system = {0};
     double *x = NULL;

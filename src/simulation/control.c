@@ -23,7 +23,7 @@ UserControl *control_create(const Simulation *simulation)
                              .held_node = -1,
                              .held_obstacle = -1,
                              .nodes = system->nodes};
-    memcpy(control->pinned, system->pinned, (size_t)system->nodes);
+    memcpy(control->is_pinned, system->is_pinned, (size_t)system->nodes);
     return control;
 }
 
@@ -103,10 +103,10 @@ static void store_dissipated_energy(const Simulation *simulation, double *out)
 /* Books the energy that a changed stiffness or pin has added as work, so that
  * the dissipated energy does not jump.
  *   before  [runs] J, dissipated before the change */
-static void book_external_work(Simulation *simulation, const double *before)
+static void add_external_work(Simulation *simulation, const double *before)
 {
     for (int r = 0; r < simulation->runs; r++)
-        simulation->ledger[r].work +=
+        simulation->ledger[r].user_work +=
             before[r] - simulation_get_energies(simulation, r).dissipated;
 }
 
@@ -118,7 +118,7 @@ static Status update_run_options(Simulation *simulation, int r,
     const Options *options = &simulation->options;
     TimeIntegrator *run = &simulation->run[r], old = *run;
     Status status = STATUS_OK;
-    if (simulation->scene->parts & HAS_BODY)
+    if (simulation->scene->traits & HAS_BODY)
         status = body_apply_options(simulation, r);
     if (!status && options->integrator != before->integrator) {
         status =
@@ -148,17 +148,17 @@ static Status apply_options(Simulation *simulation, const Options *options)
     simulation->options = *options;
     for (int r = 0; r < simulation->runs && !status; r++)
         status = update_run_options(simulation, r, &before);
-    if (simulation->scene->find_direction && !simulation->is_over &&
+    if (simulation->scene->update_direction && !simulation->is_over &&
         (options->projection != before.projection ||
          options->line_search != before.line_search))
-        simulation->scene->find_direction(simulation);
+        simulation->scene->update_direction(simulation);
     return status;
 }
 
 static void stop_node(TimeIntegrator *run, int node)
 {
     run->v[2 * node] = run->v[2 * node + 1] = 0;
-    run->memory_h = 0;
+    run->history_h = 0;
 }
 
 /* Pulls the node of the control to the mouse, by a spring far stiffer than the
@@ -176,7 +176,7 @@ static Status apply_pull(Simulation *simulation, const UserControl *control)
     }
     const double *x = simulation->run[0].x + 2 * node;
     double k = get_neo_hookean(system) ? simulation->options.young
-                                       : mass_spring_curvature_estimate(&at);
+                                       : mass_spring_max_stiffness(&at);
     return pull_configure(
         system, &hand_energy,
         &(NodePull){.node = node,
@@ -195,13 +195,13 @@ static void apply_push(Simulation *simulation, const UserControl *control)
         if (!contact)
             continue;
         int held = control->held_obstacle;
-        contact->hand = (ObstaclePush){
+        contact->push = (ObstaclePush){
             .is_held = 0 <= held && held < contact->obstacle_count,
             .obstacle_index = held,
             .target = {control->target[0], control->target[1]},
             .mesh = simulation->mesh};
-        if (contact->hand.is_held)
-            contact->hand.target[1] += get_obstacle_added_height(
+        if (contact->push.is_held)
+            contact->push.target[1] += get_obstacle_added_height(
                 simulation, r, &contact->obstacle[held]);
     }
 }
@@ -214,27 +214,27 @@ Status control_apply(Simulation *simulation, const UserControl *control)
     Status status = apply_options(simulation, &control->options);
     /* A node stops when it is pinned and when its pin is taken away. */
     for (int i = 0; i < system->nodes; i++) {
-        if (system->pinned[i] == control->pinned[i])
+        if (system->is_pinned[i] == control->is_pinned[i])
             continue;
         system_mark_changed(system, true);
         for (int r = 0; r < simulation->runs; r++)
             if (simulation->run[r].system == system)
                 stop_node(&simulation->run[r], i);
     }
-    memcpy(system->pinned, control->pinned, (size_t)system->nodes);
+    memcpy(system->is_pinned, control->is_pinned, (size_t)system->nodes);
     for (int r = 0; r < simulation->runs; r++)
         if (!simulation->run[r].newton)
-            simulation->run[r].memory_h = 0; /* stored acceleration is wrong */
+            simulation->run[r].history_h = 0; /* stored acceleration is wrong */
     if (!status)
         status = apply_pull(simulation, control);
     apply_push(simulation, control);
     if (!status)
-        book_external_work(simulation, dissipated);
+        add_external_work(simulation, dissipated);
     return status;
 }
 
-Status simulation_place_node(Simulation *simulation, int node, double x,
-                             double y, bool moves)
+Status simulation_move_node(Simulation *simulation, int node, double x,
+                            double y, bool moves)
 {
     TimeIntegrator *run = &simulation->run[0];
     double *before = run->new_x, *p = run->new_v; /* scratch arrays */
@@ -256,6 +256,6 @@ Status simulation_place_node(Simulation *simulation, int node, double x,
         return allowed ? STATUS_OK : STATUS_INVALID_INPUT;
     }
     stop_node(run, node);
-    book_external_work(simulation, dissipated);
+    add_external_work(simulation, dissipated);
     return STATUS_OK;
 }

@@ -22,14 +22,14 @@ Energies simulation_get_energies(const Simulation *simulation, int run)
     Energies energies = {
         .kinetic = system_kinetic_energy(system, integrator->v),
         .gravity = system_gravity_potential(system, x),
-        .work = simulation->ledger[run].work + integrator->external_work};
+        .work = simulation->ledger[run].user_work + integrator->external_work};
     double lost = 0;
     energies.total = energies.kinetic + energies.gravity;
     add_energy(&energies, "total", 0);
     add_energy(&energies, "kinetic", energies.kinetic);
     EvalPoint at = make_eval_point(system, NULL, NULL, x);
     for (const TermKind *kind; (kind = eval_point_next_term(&at));) {
-        double value = kind->energy_name ? kind->value(&at) : 0;
+        double value = kind->energy_name ? kind->potential(&at) : 0;
         energies.total += value;
         if (kind->energy_name)
             add_energy(&energies, kind->energy_name, value);

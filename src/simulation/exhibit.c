@@ -26,14 +26,14 @@ void exhibit_drag_handle(Simulation *simulation, int handle, double x, double y)
     TimeIntegrator *run = simulation->run;
     double *start = simulation->exhibit.exact_start; /* x and v */
     char kind = scene->handle_kinds[handle];
-    const double to[2] = {x, scene->parts & HAS_ONE_COORDINATE ? 0 : y};
+    const double to[2] = {x, scene->traits & HAS_ONE_COORDINATE ? 0 : y};
     if (!isfinite(to[0]) || !isfinite(to[1]))
         return;
-    simulation->prediction = (Prediction){0};
-    if (!(scene->parts & HAS_TIME)) {
+    simulation->prediction = (UserPrediction){0};
+    if (!(scene->traits & HAS_TIME)) {
         memcpy(kind == 't' ? simulation->exhibit.x_tilde : run->x, to,
                sizeof to);
-        scene->restart(simulation);
+        scene->after_drag(simulation);
         return;
     }
     for (int k = 0; k < 2; k++) {
@@ -44,7 +44,7 @@ void exhibit_drag_handle(Simulation *simulation, int handle, double x, double y)
     for (int r = 0; r < simulation->runs; r++) {
         memcpy(run[r].x, start, 2 * sizeof *start);
         memcpy(run[r].v, start + 2, 2 * sizeof *start);
-        run[r].memory_h = 0;
+        run[r].history_h = 0;
     }
 }
 
@@ -97,15 +97,15 @@ void exhibit_flip_switch(Simulation *simulation, int number)
             if (exhibit_find_spring_kind(simulation, s) == number)
                 system->k[s] = k;
         system_mark_changed(system, false);
-        simulation->run[0].memory_h = 0; /* memory of the method is invalid */
-        simulation->ledger[0].work +=
+        simulation->run[0].history_h = 0; /* memory of the method is invalid */
+        simulation->ledger[0].user_work +=
             simulation_get_energies(simulation, 0).total - before;
         return;
     }
     bool none = switches == 0 && scene->switch_labels[1];
     simulation->exhibit.switches = none ? PART_BOTH ^ (1U << number) : switches;
     simulation->descent.record_count = 0;
-    simulation->prediction = (Prediction){0};
-    if (scene->find_direction)
-        scene->find_direction(simulation);
+    simulation->prediction = (UserPrediction){0};
+    if (scene->update_direction)
+        scene->update_direction(simulation);
 }

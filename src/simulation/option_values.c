@@ -35,7 +35,7 @@ static bool is_option_unit(const OptionRow *row, const char *text)
 static double parse_option_number(const OptionRow *row, const char *text)
 {
     static const struct {
-        const char *prefix;
+        const char *unit_prefix;
         double parts_per_unit; /* prefix "m": 1000, as 1000 mm are 1 m */
     } prefixes[] = {{"", 1},    {"k", 1e-3},     {"c", 1e2},     {"m", 1e3},
                     {"u", 1e6}, {"\u00b5", 1e6}, {"\u03bc", 1e6}};
@@ -51,8 +51,8 @@ static double parse_option_number(const OptionRow *row, const char *text)
     if (!row->unit[0])
         return strcmp(end, "%") == 0 ? number / 100 / divisor : NAN;
     for (size_t i = 0; i < sizeof prefixes / sizeof *prefixes; i++) {
-        size_t length = strlen(prefixes[i].prefix);
-        if (strncmp(end, prefixes[i].prefix, length) == 0 &&
+        size_t length = strlen(prefixes[i].unit_prefix);
+        if (strncmp(end, prefixes[i].unit_prefix, length) == 0 &&
             is_option_unit(row, end + length))
             return number / (divisor * prefixes[i].parts_per_unit);
     }
@@ -62,7 +62,7 @@ static double parse_option_number(const OptionRow *row, const char *text)
 bool option_allows(const OptionRow *row, double number)
 {
     if (row->kind == OPTION_NAME)
-        return number >= 0 && number < names_count(row->names);
+        return number >= 0 && number < names_count(row->value_names);
     return number >= row->low && number <= row->high &&
            (row->kind != OPTION_WHOLE_NUMBER || number == floor(number));
 }
@@ -82,7 +82,7 @@ bool option_parse(const OptionRow *row, int count, const char *text,
     int given = option_count_values(text, separator[0]);
     char copy[256], *rest = copy;
     if (row->kind == OPTION_NAME) {
-        *number = names_find(row->names, text);
+        *number = names_find(row->value_names, text);
         return *number >= 0;
     }
     if (strlen(text) >= sizeof copy)
@@ -107,7 +107,7 @@ void option_write(const OptionRow *row, double value, char *text, size_t size)
 {
     if (row && row->kind == OPTION_NAME) {
         snprintf(text, size, "%s",
-                 names_get(row->names, option_get_name_index(value)));
+                 names_get(row->value_names, option_get_name_index(value)));
         return;
     }
     snprintf(text, size, "%.15g", value);
@@ -115,11 +115,11 @@ void option_write(const OptionRow *row, double value, char *text, size_t size)
         snprintf(text, size, "%.17g", value);
 }
 
-void option_write_short(const OptionRow *row, const Options *options,
-                        char *text, size_t size)
+void option_write_short_value(const OptionRow *row, const Options *options,
+                              char *text, size_t size)
 {
     /* Most digits of a number; most letters of a list of numbers. */
-    enum { MAX_DIGITS = 6, MAX_TOTAL_LENGTH = 20 };
+    enum { MAX_DIGITS = 6, MAX_LIST_LETTERS = 20 };
     int count = row->number_count > 1 ? row->number_count : 1, last = 0;
     if (row->max_repetitions)
         last = (int)fmax(options->number[row->count_slot] - 1, 0);
@@ -137,7 +137,7 @@ void option_write_short(const OptionRow *row, const Options *options,
             for (int i = 0; i < count && used < size; i++)
                 used += (size_t)snprintf(text + used, size - used, "%s%.*g",
                                          i ? "," : "", digits, value[i]);
-            if (count == 1 || used <= MAX_TOTAL_LENGTH)
+            if (count == 1 || used <= MAX_LIST_LETTERS)
                 break;
         }
 }
@@ -169,7 +169,7 @@ double option_find_value_after_wheel(const OptionRow *row,
     double increment = row->display.notch_increment;
     char text[32];
     if (row->kind == OPTION_NAME) {
-        int count = names_count(row->names), turns = (int)rint(notches);
+        int count = names_count(row->value_names), turns = (int)rint(notches);
         int index = (option_get_name_index(value) + turns) % count;
         return turns == 0 ? value : (index + count) % count;
     }

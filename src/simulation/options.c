@@ -34,7 +34,7 @@ const char *get_solver_name(int solver)
 /* Numbers of --body that may be left out: turn 0, velocity 0, stretch 1. */
 static const double body_omitted[BODY_OPTION_NUMBERS] = {0, 0, 0, 0, 0, 1, 1};
 
-/* Functions for OptionRow.idle_reason: each returns why an option has no
+/* Functions for OptionRow.get_idle_reason: each returns why an option has no
  * effect, or NULL if the condition `works` is true. */
 #define REASON(name, works, why)                                               \
     static const char *name(const Options *options)                            \
@@ -42,10 +42,10 @@ static const double body_omitted[BODY_OPTION_NUMBERS] = {0, 0, 0, 0, 0, 1, 1};
         return (works) ? NULL : (why);                                         \
     }
 REASON(why_nothing_meets,
-       options->self_contact != 0 || options->grounds + options->balls > 0 ||
-           options->ceiling[1] != 0,
+       options->has_self_contact != 0 ||
+           options->grounds + options->balls > 0 || options->ceiling[1] != 0,
        "there is nothing to touch; --ground or --ball adds an obstacle")
-REASON(why_no_self_contact, options->self_contact != 0,
+REASON(why_no_self_contact, options->has_self_contact != 0,
        "bodies do not touch each other; --self-contact on lets them")
 REASON(why_start_is_given, options->bodies == 0 && !options->state,
        options->state ? "the table of --state gives the start"
@@ -98,7 +98,7 @@ REASON(why_nothing_drawn,
 #define NAME(word, field, letters, text, number, all)                          \
     VALUE(NAME, word, letters, text, ""), .slot = OPTION_SLOT(field),          \
                                           .default_value = number,             \
-                                          .names = {all, sizeof *all}
+                                          .value_names = {all, sizeof *all}
 #define TEXT(field, letters, text)                                             \
     VALUE(TEXT, #field, letters, text, ""), .offset = offsetof(Options, field)
 #define TABLE(field, text) TEXT(field, "FILE", text), .is_table = true
@@ -108,7 +108,7 @@ REASON(why_nothing_drawn,
 /* Macros for the rest of a row: parts that the scene must have, repetitions,
  * the label of an option with lists of values.  SHOWN puts the option into the
  * window's row of numbers: place, length of the values, increment. */
-#define NEEDS(what)     .needs_any_scene_part = HAS_##what
+#define NEEDS(what)     .needs_any_trait = HAS_##what
 #define TIMES(n, field) .max_repetitions = n, .count_slot = OPTION_SLOT(field)
 #define FEWER(bits, others)                                                    \
     .allowed_short_counts = bits, .omitted_defaults = others
@@ -116,7 +116,7 @@ REASON(why_nothing_drawn,
 #define LIVE                    .effect = EFFECT_NEXT_STEP
 #define AGAIN                   .effect = EFFECT_REPEATED_STEP
 #define TERM(kind)              .term = &(kind)
-#define IDLE(why)               .idle_reason = why
+#define IDLE(why)               .get_idle_reason = why
 #define SHOWN(n, longest, adds) .display = {n, longest, adds}
 
 /* Within most ranges a product of two numbers does not over- or underflow. */
@@ -209,14 +209,14 @@ const OptionRow option_rows[] = {
            "slip velocity from which friction has its full force", "m/s", 1e-3,
            1e-12, 1e6),
      NEEDS(BODY), IDLE(why_nothing_meets), LIST("slip speed"), LIVE},
-    {NAME("self-contact", self_contact, "on|off",
+    {NAME("self-contact", has_self_contact, "on|off",
           "contact of bodies, also with themselves (two --body: on)", 0, cells),
      NEEDS(BODY), TERM(self_contact_energy)},
     {RANGE(NUMBER, "self-friction", self_friction, "MU",
            "coefficient of friction between bodies; else --friction", "", -1, 0,
            1e3),
      NEEDS(BODY), IDLE(why_no_self_contact)},
-    {NAME("cells", cells, "on|off",
+    {NAME("cells", has_cell_energy, "on|off",
           "keep the cells of springs from turning over", 0, cells),
      NEEDS(BODY), IDLE(why_no_springs), LIST("cells"), TERM(cell_energy)},
     {NUMBER(yield, "Y", "strain beyond which a spring stays deformed", "", 0,
@@ -236,7 +236,7 @@ const OptionRow option_rows[] = {
 
     {SECTION("time step and solver:")},
     {NUMBER(timestep, "H", "time step h", "s", 0.004, 1e-30, 1e30),
-     .needs_any_scene_part = HAS_TIMESTEP, LIST("h"), LIVE, SHOWN(1, 8, 0)},
+     .needs_any_trait = HAS_TIMESTEP, LIST("h"), LIVE, SHOWN(1, 8, 0)},
     {NAME("integrator", integrator, "I", "time integrator", -1,
           integrator_methods),
      NEEDS(TIME), LIST("method"), LIVE, SHOWN(8, 16, 0)},
@@ -361,7 +361,7 @@ bool option_is_on(const OptionRow *row, const Options *options)
 }
 
 /* Returns the size of all numbers of an option, bytes. */
-static size_t find_numbers_size(const OptionRow *row)
+static size_t count_number_bytes(const OptionRow *row)
 {
     int count = row->number_count ? row->number_count : 1;
     int times = row->max_repetitions ? row->max_repetitions : 1;
@@ -373,13 +373,13 @@ bool option_is_equal(const OptionRow *row, const Options *a, const Options *b)
     const double *of_a = &a->number[row->slot], *of_b = &b->number[row->slot];
     return row->kind == OPTION_NAME
                ? option_get_name_index(*of_a) == option_get_name_index(*of_b)
-               : memcmp(of_a, of_b, find_numbers_size(row)) == 0;
+               : memcmp(of_a, of_b, count_number_bytes(row)) == 0;
 }
 
-void option_copy(const OptionRow *row, const Options *from, Options *to)
+void option_copy_value(const OptionRow *row, const Options *from, Options *to)
 {
     memcpy(&to->number[row->slot], &from->number[row->slot],
-           find_numbers_size(row));
+           count_number_bytes(row));
 }
 
 const char *option_get_label(const OptionRow *row)
@@ -396,8 +396,8 @@ int options_list_visible_rows(const Options *options,
     for (int place = 1; place < OPTIONS_MAX_ROWS; place++)
         for (const OptionRow *row = option_rows; row->name; row++)
             if (row->display.row_position == place &&
-                (row->needs_any_scene_part & options->scene->parts) &&
-                !(row->idle_reason && row->idle_reason(options)) &&
+                (row->needs_any_trait & options->scene->traits) &&
+                !(row->get_idle_reason && row->get_idle_reason(options)) &&
                 (row->kind == OPTION_NAME || row->display.notch_increment > 0 ||
                  options->number[row->slot] > 0))
                 found[count++] = row;

@@ -46,7 +46,7 @@ Status simulation_create(const Options *options, NewtonObserver observer,
             exhibit_flip_switch(simulation, i);
     for (int r = 0; r < simulation->runs && !status; r++)
         simulation->ledger[r].start_energy =
-            simulation->ledger[r].last_balance =
+            simulation->ledger[r].latest_balance =
                 -simulation_get_energies(simulation, r).dissipated;
     return status;
 }
@@ -65,7 +65,7 @@ int simulation_find_shown_point(const Simulation *simulation, double at[2])
 {
     const TimeIntegrator *run = &simulation->run[0];
     bool single =
-        simulation->system.nodes == 1 || simulation->scene->find_direction;
+        simulation->system.nodes == 1 || simulation->scene->update_direction;
     if (!single || !run->x)
         return 0;
     at[0] = run->x[0];
@@ -76,13 +76,13 @@ int simulation_find_shown_point(const Simulation *simulation, double at[2])
 /* Counts a step that was made.  A failed step is not counted. */
 static Status finish_simulation_step(Simulation *simulation, Status status)
 {
-    Prediction *guess = &simulation->prediction;
+    UserPrediction *guess = &simulation->prediction;
     simulation->status = status;
     if (status_is_failure(status))
         return status;
     simulation->steps++;
     if (simulation->steps > guess->guess_step + 1) /* the guess is outdated */
-        *guess = (Prediction){0};
+        *guess = (UserPrediction){0};
     if (status) {
         simulation->unconverged_steps++;
         simulation->status_counts[status]++;
@@ -97,10 +97,10 @@ static void record_energy_gain(Simulation *simulation)
     int run = simulation->current_run;
     EnergyLedger *ledger = &simulation->ledger[run];
     const Energies now = simulation_get_energies(simulation, run);
-    double kept = now.total - now.work, gained = kept - ledger->last_balance;
+    double kept = now.total - now.work, gained = kept - ledger->latest_balance;
     double abs_sum = fabs(now.work);
     bool backward_euler = simulation->run[run].method->supports_all_terms;
-    ledger->last_balance = kept;
+    ledger->latest_balance = kept;
     for (int i = 1; i < now.count; i++)
         abs_sum += fabs(now.energy[i].value);
     if (!backward_euler || !(gained > 1e-8 * abs_sum))
@@ -116,9 +116,9 @@ Status simulation_advance(Simulation *simulation)
         TimeIntegrator *run = &simulation->run[simulation->current_run];
         Status status = run->status;
         if (status != STATUS_RUNNING)
-            status = time_integrator_begin(run);
+            status = time_integrator_begin_step(run);
         if (status == STATUS_RUNNING)
-            status = time_integrator_advance(run);
+            status = time_integrator_continue(run);
         if (status == STATUS_RUNNING)
             return status;
         simulation->bad_status = status ? status : simulation->bad_status;
@@ -154,7 +154,7 @@ Status simulation_step(Simulation *simulation)
 
 double simulation_get_time(const Simulation *simulation)
 {
-    if (!(simulation->scene->parts & HAS_TIME))
+    if (!(simulation->scene->traits & HAS_TIME))
         return 0;
     return simulation->run[0].clock.time;
 }
@@ -162,13 +162,13 @@ double simulation_get_time(const Simulation *simulation)
 bool simulation_is_draggable(const Simulation *simulation)
 {
     const Scene *scene = simulation->scene;
-    return (scene->parts & HAS_TIME) && !scene->step && !scene->handle_kinds;
+    return (scene->traits & HAS_TIME) && !scene->step && !scene->handle_kinds;
 }
 
-ChangeEffect simulation_find_option_effect(const Simulation *simulation,
-                                           const OptionRow *row)
+EffectStart simulation_find_option_effect(const Simulation *simulation,
+                                          const OptionRow *row)
 {
-    unsigned needs = simulation->scene->parts;
+    unsigned needs = simulation->scene->traits;
     bool update = (needs & HAS_START) && row->effect == EFFECT_REPEATED_STEP;
     bool other_methods =
         simulation->runs > 1 && row->slot == OPTION_SLOT(integrator);
@@ -194,7 +194,7 @@ static bool forces_are_balanced(const Simulation *simulation, double l)
     double lightest = INFINITY;
     for (int i = 0; i < system->nodes; i++)
         lightest = fmin(lightest, system->m[i]);
-    const double stiffest = system_curvature_estimate(system);
+    const double stiffest = system_max_stiffness(system);
     double T2 = stiffest > 0 ? 0.99e10 * lightest / stiffest : 1;
     NewtonSettings settings = {.h = sqrt(T2),
                                .solver = SOLVER_NEWTON,
@@ -210,7 +210,7 @@ static bool forces_are_balanced(const Simulation *simulation, double l)
                      BALANCED * l / sqrt(T2));
         newton_minimise(&newton);
     }
-    bool balances = newton.passes_test;
+    bool balances = newton.meets_tolerance;
     newton_free(&newton);
     return balances;
 }
@@ -240,14 +240,14 @@ NewtonCounters simulation_sum_newton_counters(const Simulation *simulation)
 
 bool simulation_has_newton_updates(const Simulation *simulation)
 {
-    return simulation->run[0].newton && (simulation->scene->parts & HAS_TIME);
+    return simulation->run[0].newton && (simulation->scene->traits & HAS_TIME);
 }
 
 /* A projection needs springs, a Newton object, and a scene with HAS_SPRINGS. */
 bool simulation_has_projection(const Simulation *simulation)
 {
     return simulation->system.springs > 0 && simulation->run[0].newton &&
-           (simulation->scene->parts & HAS_SPRINGS);
+           (simulation->scene->traits & HAS_SPRINGS);
 }
 
 /* Scenes of springs and minimisations in one variable have a line search. */
@@ -266,14 +266,13 @@ bool simulation_projects_only_springs(const Simulation *simulation)
 
 /* ---- the fastest small oscillation: M q'' = -H q ------------------------ */
 
-/* Number of iterations of the power method; limit of a mode's coordinates. */
 enum {
-    POWER_ITERATIONS = 1200,
+    POWER_ITERATIONS = 1200, /* iterations of the power method */
     MAX_MODE_COORDINATES = 2 * SIMULATION_MAX_MODE_NODES
 };
 
-double simulation_find_fastest_mode(const Simulation *simulation,
-                                    const double *x, double *mode)
+double simulation_find_max_omega(const Simulation *simulation, const double *x,
+                                 double *mode)
 {
     const System *system = &simulation->system;
     EvalPoint at = make_eval_point(system, NULL, NULL, x);

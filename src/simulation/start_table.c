@@ -19,15 +19,14 @@ typedef struct TableReader {
     const char *option_name;  /* name of the option that gives the path */
     const char *path;         /* name of the file */
     const char *element_name; /* "node" or "spring" */
-    const char
-        *column_names[MAX_COLUMNS]; /* names of wanted columns, up to NULL */
-    int rows;                       /* number of nodes or springs of a run */
-    int run;                        /* index of the run that is read */
+    const char *column_names[MAX_COLUMNS]; /* wanted columns, up to NULL */
+    int rows_per_run; /* number of nodes or springs of a run */
+    int run;          /* index of the run that is read */
     FILE *file;
-    char *line_text;  /* line that was read last, then cut into fields */
-    size_t capacity;  /* allocated size of line_text, bytes */
-    long line_number; /* number of the line in line_text, from 1 */
-    int columns;      /* number of columns of the table */
+    char *line_text;      /* line that was read last, then cut into fields */
+    size_t text_capacity; /* allocated size of line_text, bytes */
+    long line_number;     /* number of the line in line_text, from 1 */
+    int columns;          /* number of columns of the table */
     int column_index[MAX_COLUMNS]; /* column number of each name; -1: missing */
     bool has_panes;                /* the table has a column "pane" */
     char failure[200];             /* why the table cannot be read, or "" */
@@ -45,7 +44,7 @@ typedef double TableRow[MAX_COLUMNS];
 static bool read_next_line(TableReader *reader)
 {
     static const char mark[] = "\xef\xbb\xbf";
-    if (getline(&reader->line_text, &reader->capacity, reader->file) < 0)
+    if (getline(&reader->line_text, &reader->text_capacity, reader->file) < 0)
         return false;
     reader->line_text[strcspn(reader->line_text, "\r\n")] = '\0';
     if (reader->line_number++ == 0 &&
@@ -131,7 +130,7 @@ static void read_run_rows(TableReader *reader, const Options *options,
     const double step = options->state_step;
     const char *element = reader->element_name;
     double last = -1;
-    int count = 0, rows = reader->rows;
+    int count = 0, rows = reader->rows_per_run;
     int runs = (int)fmax(options->scene->body.runs, 1);
     TableRow next = {0};
     while (read_next_row(reader, next)) {
@@ -171,7 +170,7 @@ static Status read_table(TableReader *reader, const Options *options,
 {
     reader->file = fopen(reader->path, "r");
     errno = reader->file ? 0 : errno;
-    *row = malloc((size_t)reader->rows * sizeof **row);
+    *row = malloc((size_t)reader->rows_per_run * sizeof **row);
     if (reader->file && *row) {
         read_column_names(reader);
         read_run_rows(reader, options, *row);
@@ -195,7 +194,7 @@ Status start_table_read(const Options *options, int run, int nodes, double *x,
         .path = options->state,
         .element_name = "node",
         .column_names = {"step", "node", "x", "y", "vx", "vy"},
-        .rows = nodes,
+        .rows_per_run = nodes,
         .run = run};
     TableRow *row;
     Status status = read_table(&reader, options, &row, message);
@@ -236,7 +235,7 @@ Status start_table_read_springs(const Options *options, int run, System *system,
         .path = options->state_springs,
         .element_name = "spring",
         .column_names = {"step", "spring", "whole", "plastic", "flowed"},
-        .rows = system->springs,
+        .rows_per_run = system->springs,
         .run = run};
     TableRow *row;
     Status status = read_table(&reader, options, &row, message);

@@ -16,7 +16,7 @@ typedef struct StateCursor {
 } StateCursor;
 
 /* Saves, restores or counts a piece of the state. */
-static void transfer_piece(StateCursor *cursor, void *piece, size_t size)
+static void serialise_bytes(StateCursor *cursor, void *piece, size_t size)
 {
     unsigned char *at = cursor->bytes ? cursor->bytes + cursor->offset : NULL;
     if (at && cursor->is_restoring)
@@ -26,73 +26,73 @@ static void transfer_piece(StateCursor *cursor, void *piece, size_t size)
     cursor->offset += size;
 }
 
-#define VISIT(piece) transfer_piece(cursor, &(piece), sizeof(piece))
+#define SERIALISE(piece) serialise_bytes(cursor, &(piece), sizeof(piece))
 
 /* Visits all that steps change in a system: broken springs, plastic strains,
  * moving obstacles, and the energy that each term has lost. */
-static void transfer_system(StateCursor *cursor, System *system)
+static void serialise_system(StateCursor *cursor, System *system)
 {
     size_t springs = (size_t)system->springs * sizeof(double);
     Plasticity *plasticity = system_term_data(system, &plastic_energy);
     Contact *contact = get_contact(system);
-    VISIT(system->losses);
+    SERIALISE(system->losses);
     if (plasticity) {
-        transfer_piece(cursor, plasticity->ep, springs);
-        transfer_piece(cursor, plasticity->kappa, springs);
+        serialise_bytes(cursor, plasticity->ep, springs);
+        serialise_bytes(cursor, plasticity->kappa, springs);
     }
     if (system_find_term(system, &fracture))
-        transfer_piece(cursor, system->k, springs);
+        serialise_bytes(cursor, system->k, springs);
     if (contact)
-        transfer_piece(cursor, contact->obstacle,
-                       (size_t)contact->obstacle_count *
-                           sizeof *contact->obstacle);
+        serialise_bytes(cursor, contact->obstacle,
+                        (size_t)contact->obstacle_count *
+                            sizeof *contact->obstacle);
 }
 
-static void transfer_exhibit(StateCursor *cursor, Simulation *simulation)
+static void serialise_exhibit(StateCursor *cursor, Simulation *simulation)
 {
     const Scene *scene = simulation->scene;
     TimeIntegrator *run = &simulation->run[0];
     bool kinds = simulation->options.layers & LAYER_SPRING_KINDS;
     if (kinds)
-        VISIT(simulation->exhibit.switches);
+        SERIALISE(simulation->exhibit.switches);
     if (kinds || scene->step)
-        transfer_piece(cursor, simulation->system.k,
-                       (size_t)simulation->system.springs * sizeof(double));
+        serialise_bytes(cursor, simulation->system.k,
+                        (size_t)simulation->system.springs * sizeof(double));
     if (scene->step || scene->handle_kinds)
-        VISIT(simulation->exhibit);
+        SERIALISE(simulation->exhibit);
     if (!scene->step)
         return;
-    VISIT(simulation->descent);
-    VISIT(simulation->options.timestep);
-    VISIT(run->h);
+    SERIALISE(simulation->descent);
+    SERIALISE(simulation->options.timestep);
+    SERIALISE(run->h);
     if (cursor->is_restoring && run->newton)
         run->newton->settings.h = run->h;
 }
 
-static void transfer_state(StateCursor *cursor, Simulation *simulation)
+static void serialise_state(StateCursor *cursor, Simulation *simulation)
 {
-    VISIT(simulation->steps);
-    VISIT(simulation->unconverged_steps);
-    VISIT(simulation->ledger);
-    VISIT(simulation->status_counts);
-    VISIT(simulation->status);
-    VISIT(simulation->is_over);
-    transfer_exhibit(cursor, simulation);
+    SERIALISE(simulation->steps);
+    SERIALISE(simulation->unconverged_steps);
+    SERIALISE(simulation->ledger);
+    SERIALISE(simulation->status_counts);
+    SERIALISE(simulation->status);
+    SERIALISE(simulation->is_over);
+    serialise_exhibit(cursor, simulation);
     for (int r = 0; r < simulation->runs; r++) {
         TimeIntegrator *run = &simulation->run[r];
         size_t array = run->x_length * sizeof(double);
-        VISIT(run->steps);
-        VISIT(run->clock);
-        VISIT(run->moved_fraction);
-        VISIT(run->external_work);
-        VISIT(run->status);
-        transfer_piece(cursor, run->x, array);
-        transfer_piece(cursor, run->v, array);
-        VISIT(run->memory_h);
-        transfer_piece(cursor, run->memory,
-                       (size_t)run->method->memory_arrays * array);
+        SERIALISE(run->steps);
+        SERIALISE(run->clock);
+        SERIALISE(run->moved_fraction);
+        SERIALISE(run->external_work);
+        SERIALISE(run->status);
+        serialise_bytes(cursor, run->x, array);
+        serialise_bytes(cursor, run->v, array);
+        SERIALISE(run->history_h);
+        serialise_bytes(cursor, run->history,
+                        (size_t)run->method->history_arrays * array);
         if (r == 0 || run->system != simulation->run[0].system)
-            transfer_system(cursor, run->system);
+            serialise_system(cursor, run->system);
         if (cursor->is_restoring)
             system_mark_changed(run->system, false);
     }
@@ -101,15 +101,15 @@ static void transfer_state(StateCursor *cursor, Simulation *simulation)
 size_t state_save(const Simulation *simulation, void *bytes)
 {
     StateCursor cursor = {bytes, false, 0};
-    transfer_state(&cursor, (Simulation *)simulation); /* saving only reads */
+    serialise_state(&cursor, (Simulation *)simulation); /* saving only reads */
     return cursor.offset;
 }
 
 void state_restore(const void *bytes, Simulation *simulation)
 {
     StateCursor cursor = {(unsigned char *)bytes, true, 0};
-    simulation->prediction = (Prediction){0}; /* a guess is not saved */
-    transfer_state(&cursor, simulation);
+    simulation->prediction = (UserPrediction){0}; /* a guess is not saved */
+    serialise_state(&cursor, simulation);
 }
 
 /* FNV-1a hash of bytes. */

@@ -132,12 +132,12 @@ static void solve_by_panels(const cholmod_factor *L, double *y, double *w)
     for (size_t step = 0; step < 2 * L->nsuper; step++) {
         bool down = step < L->nsuper;
         size_t k = down ? step : 2 * L->nsuper - 1 - step;
-        Panel panel = {column[k + 1] - column[k], rows[k + 1] - rows[k],
-                       (const int *)L->s + rows[k],
-                       (const double *)L->x + values[k]};
+        FactorPanel panel = {column[k + 1] - column[k], rows[k + 1] - rows[k],
+                             (const int *)L->s + rows[k],
+                             (const double *)L->x + values[k]};
         for (int i = 0; i < panel.rows; i++)
             w[i] = y[panel.row[i]];
-        (down ? panel_forward : panel_backward)(&panel, w);
+        (down ? panel_solve_forward : panel_solve_backward)(&panel, w);
         for (int i = 0; i < (down ? panel.rows : panel.columns); i++)
             y[panel.row[i]] = w[i];
     }
@@ -165,7 +165,7 @@ static void solve_by_columns(const cholmod_factor *L, double *y)
  * does not pivot, and replaces pivots near 0 (cholesky_factor). */
 Status cholesky_solve(Cholesky *cholesky, const double *b, double *x)
 {
-    enum { MAX_SOLVES = 21 };
+    enum { MAX_REFINEMENTS = 21 };
     size_t n = cholesky->L->n;
     double *own = cholesky->b, *r = cholesky->r;
     if (cholesky->kind == CHOLESKY_DEFINITE) {
@@ -177,7 +177,7 @@ Status cholesky_solve(Cholesky *cholesky, const double *b, double *x)
     memcpy(own, b, n * sizeof *own); /* x may be b */
     memcpy(r, b, n * sizeof *r);
     memset(x, 0, n * sizeof *x);
-    for (int i = 0; i < MAX_SOLVES; i++) {
+    for (int i = 0; i < MAX_REFINEMENTS; i++) {
         solve_by_columns(cholesky->L, r);
         if (!all_finite(r, n))
             return STATUS_NOT_FINITE;

@@ -4,12 +4,12 @@
 #include <math.h>
 
 /* Iterations in which projection on demand clamps after a failed factor. */
-enum { CLAMPS_AFTER_FAILURE = 4 };
+enum { CLAMPED_ITERATIONS = 4 };
 
 /* Shifts to try: 1e-15, 1e-13, ... 1e-5 of the largest diagonal entry.  A shift
  * matters for few eigenvectors, so conjugate gradients need few solves.  The
  * iteration ends when r.z is at most ALL_DIGITS times its first value. */
-enum { SHIFT_TRIES = 6, CG_MAX_SOLVES = 59 };
+enum { MAX_SHIFTS = 6, CG_MAX_SOLVES = 59 };
 static const double ALL_DIGITS = 1e-28;
 
 /* ---- the Hessian and its factor ---- */
@@ -58,7 +58,7 @@ static Status assemble_hessian(Newton *newton, Projection projection,
 }
 
 /* Returns the largest diagonal entry of A (slots of the first 2n triplets). */
-static double largest_diagonal(const Newton *newton)
+static double largest_diagonal_entry(const Newton *newton)
 {
     const FactoredHessian *direction = &newton->factored_hessian;
     double largest = 0;
@@ -78,11 +78,11 @@ static Status factor_hessian(Newton *newton)
     for (int tries = 0;; tries++) {
         newton->counters.factorisations++;
         Status status = cholesky_factor(direction->cholesky);
-        if (status != STATUS_NOT_POSITIVE_DEFINITE || tries == SHIFT_TRIES ||
+        if (status != STATUS_NOT_POSITIVE_DEFINITE || tries == MAX_SHIFTS ||
             direction->projection == PROJECTION_NONE)
             return status;
         double shift = tries > 0 ? 100 * direction->shift
-                                 : 1e-15 * largest_diagonal(newton);
+                                 : 1e-15 * largest_diagonal_entry(newton);
         for (int t = 0; t < 2 * newton->system->nodes; t++)
             direction->A.value[direction->A.slot[t]] +=
                 shift - direction->shift;
@@ -92,7 +92,7 @@ static Status factor_hessian(Newton *newton)
 
 /* Assembles and factors the Hessian at x.  Projection on demand first tries the
  * unprojected Hessian.  After a failure it clamps, now and in the next
- * iterations (CLAMPS_AFTER_FAILURE). */
+ * iterations (CLAMPED_ITERATIONS). */
 static Status assemble_and_factor(Newton *newton)
 {
     NewtonRecord *record = &newton->record;
@@ -116,7 +116,7 @@ static Status assemble_and_factor(Newton *newton)
     if (projection != PROJECTION_ON_DEMAND ||
         status != STATUS_NOT_POSITIVE_DEFINITE)
         return status;
-    newton->clamped_iterations_left = CLAMPS_AFTER_FAILURE;
+    newton->clamped_iterations_left = CLAMPED_ITERATIONS;
     return assemble_and_factor(newton);
 }
 
@@ -124,7 +124,7 @@ static Status assemble_and_factor(Newton *newton)
  * the nodes, not of elimination.  Returns OK, NOT_FINITE, SINGULAR. */
 static Status apply_inverse_factor(Newton *newton, const double *r, double *z)
 {
-    const int *order = newton->system->elimination_order;
+    const int *order = newton->system->elimination_index;
     double *b = newton->factored_hessian.b;
     for (int i = 0; i < newton->system->nodes; i++) {
         int place = order[i];
@@ -281,7 +281,7 @@ static void solve_diagonal(Newton *newton)
 
 /* Returns max over nodes of |p_x| + |p_y| (m); NaN if p has a NaN.  (numpy's
  * norm(p, inf) of an array of shape (n, 2) is the largest row sum.) */
-static double largest_row_sum(int nodes, const double *p)
+static double largest_node_norm(int nodes, const double *p)
 {
     double largest = 0;
     for (int i = 0; i < 2 * nodes; i += 2) {
@@ -305,7 +305,7 @@ static const double NEARBY = 0.03, CONVERGES = 0.1, REFINED = 0.01;
  * changes near the end.  Iterative refinement with the present Hessian,
  *     p += factor^-1 (-g - H p),
  * makes p accurate.  Returns false if p diverges or is not downhill. */
-static bool refine_with_last_factor(Newton *newton)
+static bool refine_with_old_factor(Newton *newton)
 {
     const FactoredHessian *direction = &newton->factored_hessian;
     const int n = 2 * newton->system->nodes;
@@ -319,12 +319,12 @@ static bool refine_with_last_factor(Newton *newton)
         newton->counters.linear_solves++;
         if (apply_inverse_factor(newton, r, z) != STATUS_OK)
             return false;
-        size = largest_row_sum(n / 2, z);
+        size = largest_node_norm(n / 2, z);
         if (!(size <= CONVERGES * last))
             return false;
         for (int i = 0; i < n; i++)
             p[i] += z[i];
-        if (size <= REFINED * largest_row_sum(n / 2, p))
+        if (size <= REFINED * largest_node_norm(n / 2, p))
             break;
         last = size;
         newton->record.projected_blocks = incremental_potential_apply_hessian(
@@ -352,18 +352,18 @@ static Status find_residual(Newton *newton, bool exact)
     double error = 0;
     int pivot;
     record->residual =
-        largest_row_sum(newton->system->nodes, newton->iterate.p) / h;
+        largest_node_norm(newton->system->nodes, newton->iterate.p) / h;
     record->residual_kind = exact ? RESIDUAL_EXACT : RESIDUAL_ESTIMATE;
     if (!isfinite(record->residual))
         return STATUS_NOT_FINITE;
-    newton->passes_test = record->residual <= newton->tolerance;
-    if (!exact && newton->passes_test)
+    newton->meets_tolerance = record->residual <= newton->tolerance;
+    if (!exact && newton->meets_tolerance)
         status = direction_error_bound(newton, &error);
     if (record->residual + bound_largest_movement(newton, error) / h >
             newton->tolerance ||
-        (turns_may_follow(newton) &&
+        (next_direction_may_turn(newton) &&
          !system_turns_freely(newton->system, &pivot)))
-        newton->passes_test = false;
+        newton->meets_tolerance = false;
     return status;
 }
 
@@ -424,18 +424,18 @@ static Status solve_with_new_factor(Newton *newton)
 
 Status find_direction(Newton *newton)
 {
-    newton->passes_test = false;
+    newton->meets_tolerance = false;
     if (!newton->has_gradient)
         evaluate_gradient(newton);
     if (incremental_potential_is_diagonal(&newton->iterate.E)) {
         solve_diagonal(newton);
         return find_residual(newton, true);
     }
-    if (factor_is_reusable(newton) && refine_with_last_factor(newton)) {
+    if (factor_is_reusable(newton) && refine_with_old_factor(newton)) {
         correct_momentum(newton);
         Status status = find_residual(newton, false);
-        bool decided =
-            newton->passes_test || newton->record.residual > newton->tolerance;
+        bool decided = newton->meets_tolerance ||
+                       newton->record.residual > newton->tolerance;
         if (status || decided)
             return status;
     }

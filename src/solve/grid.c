@@ -8,16 +8,16 @@
 
 #include "model/spring_law.h"
 
-/* Bytes of a cache line and of memory pages; GAP_LINES is the number of
+/* Bytes of a cache line and of memory pages; GAP_CACHE_LINES is the number of
  * cache lines left free between two arrays. */
 enum {
     CACHE_LINE_BYTES = 64,
     PAGE_BYTES = 4096,
     LARGE_PAGE_BYTES = 2 << 20,
-    GAP_LINES = 5
+    GAP_CACHE_LINES = 5
 };
 
-RowLayout lay_out_rows(int nodes)
+RowLayout make_row_layout(int nodes)
 {
     int even = (nodes + 1) / 2;
     int half = (even + LANES) / LANES * LANES; /* with room for a ghost node */
@@ -32,7 +32,7 @@ void *arena_take_piece(ArrayArena *memory, size_t bytes)
 {
     char *piece = memory->base ? memory->base + memory->used_bytes : NULL;
     bytes = (bytes + PAGE_BYTES - 1) / PAGE_BYTES * PAGE_BYTES;
-    memory->used_bytes += bytes + GAP_LINES * CACHE_LINE_BYTES;
+    memory->used_bytes += bytes + GAP_CACHE_LINES * CACHE_LINE_BYTES;
     return piece;
 }
 
@@ -54,9 +54,9 @@ Status arena_allocate(ArrayArena *memory)
     return STATUS_OK;
 }
 
-void grid_lay_out(int segments, ArrayArena *memory, Grid *grid)
+void grid_init(int segments, ArrayArena *memory, Grid *grid)
 {
-    *grid = (Grid){.rows = lay_out_rows(segments + 1),
+    *grid = (Grid){.rows = make_row_layout(segments + 1),
                    .segments = segments,
                    .band_count = segments / BAND_ROWS + 1};
     size_t plane = (size_t)grid->rows.plane_length * sizeof(double);
@@ -80,7 +80,7 @@ void grid_lay_out(int segments, ArrayArena *memory, Grid *grid)
 }
 
 /* Removes rows that equal the row before them.
- *   shift  [nodes] out, index shift from each row to its stored row */
+ *   shift  [nodes_per_side] out, index shift from each row to its stored row */
 static void remove_equal_rows(const RowLayout *rows, double *const *array,
                               int arrays, int *shift)
 {
@@ -102,7 +102,7 @@ double power_of_two_scale(double a)
     return a > 0 && isfinite(a) ? ldexp(1, -ilogb(a)) : 1;
 }
 
-void grid_copy_system(Grid *grid, const Iterate *at, const double *m)
+void grid_copy_from_system(Grid *grid, const Iterate *at, const double *m)
 {
     const System *system = at->E.system;
     const EvalPoint point = make_eval_point(system, at->E.x_n, at->u, at->x);
@@ -112,7 +112,7 @@ void grid_copy_system(Grid *grid, const Iterate *at, const double *m)
     grid->min_mass = INFINITY;
     grid->max_node_stiffness = 0;
     for (int k = 0; k < rows->nodes_per_side * rows->nodes_per_side; k++)
-        if (!system->pinned[k])
+        if (!system->is_pinned[k])
             grid->min_mass = fmin(grid->min_mass, m[2 * k]);
     grid->mass_scale = power_of_two_scale(grid->min_mass);
     grid->min_mass *= grid->mass_scale;
@@ -120,8 +120,8 @@ void grid_copy_system(Grid *grid, const Iterate *at, const double *m)
         for (int j = 0; j < rows->nodes_per_side; j++, node++) {
             int q = node_index(rows, i, j);
             grid->m[q] = grid->mass_scale * m[2 * node];
-            grid->inverse_m[q] = system->pinned[node] ? 0 : 1 / grid->m[q];
-            grid->float_m[q] = system->pinned[node] ? 0 : (float)grid->m[q];
+            grid->inverse_m[q] = system->is_pinned[node] ? 0 : 1 / grid->m[q];
+            grid->float_m[q] = system->is_pinned[node] ? 0 : (float)grid->m[q];
         }
     remove_equal_rows(rows, masses, 2, grid->mass_shift);
     for (int kind = 0; kind < SPRING_KINDS; kind++) {
@@ -157,10 +157,10 @@ void grid_copy_system(Grid *grid, const Iterate *at, const double *m)
         }
 }
 
-void grid_copy_state(Grid *grid, const Iterate *at, const double *u_tilde)
+void grid_copy_from_state(Grid *grid, const Iterate *at, const double *u_tilde)
 {
     const RowLayout *rows = &grid->rows;
-    const unsigned char *pinned = at->E.system->pinned;
+    const unsigned char *pinned = at->E.system->is_pinned;
     const double unit = grid->length_scale;
     for (int i = 0, node = 0; i < rows->nodes_per_side; i++)
         for (int j = 0; j < rows->nodes_per_side; j++, node++) {
@@ -177,7 +177,7 @@ void grid_copy_state(Grid *grid, const Iterate *at, const double *u_tilde)
         }
 }
 
-void grid_write_iterate(const Grid *grid, Iterate *at)
+void grid_copy_to_iterate(const Grid *grid, Iterate *at)
 {
     const RowLayout *rows = &grid->rows;
     const double metre = 1 / grid->length_scale;

@@ -43,7 +43,7 @@ typedef struct RowLayout {
     int plane_length; /* length of a plane, with the ghosts */
 } RowLayout;
 
-RowLayout lay_out_rows(int nodes);
+RowLayout make_row_layout(int nodes);
 
 /* Returns the index of node (i, j) in a plane. */
 static inline int node_index(const RowLayout *rows, int i, int j)
@@ -59,13 +59,12 @@ typedef struct Grid {
     /* Equal rows of masses or springs are stored once.  Node q of row i has the
      * mass m[q + mass_shift[i]], and the springs that start at node q have the
      * index q + spring_shift[i + 1]; spring_shift[0] is for row -1 (ghosts). */
-    int *mass_shift, *spring_shift; /* [nodes + 1] index shift of each row */
+    int *mass_shift, *spring_shift; /* [nodes_per_side + 1] shift of each row */
     double *c[SPRING_KINDS];  /* [plane] Hessian factor 2 w k/l2; 0: none */
     double *l2[SPRING_KINDS]; /* [plane] squared rest length */
     double *m, *inverse_m; /* [plane] mass and 1/mass; inverse_m is 0 at pins */
     double min_mass;       /* smallest mass of a node that moves */
-    double
-        max_node_stiffness; /* largest 8 c l2, stiffness of 8 springs at rest */
+    double max_node_stiffness;     /* largest 8 c l2: 8 springs at rest */
     float *float_c[SPRING_KINDS];  /* [plane] c in single precision */
     float *float_l2[SPRING_KINDS]; /* [plane] l2 in single precision */
     float *float_m;                /* [plane] mass of each node; 0 at pins */
@@ -91,22 +90,21 @@ void *arena_take_piece(ArrayArena *memory, size_t bytes);
  * caller frees base. */
 Status arena_allocate(ArrayArena *memory);
 
-/* Sets sizes and places arrays for segments x segments cells; clears the rest.
- */
-void grid_lay_out(int segments, ArrayArena *memory, Grid *grid);
+/* Sets sizes and places arrays of segments x segments cells; clears the rest */
+void grid_init(int segments, ArrayArena *memory, Grid *grid);
 
 /* Returns the power of two that scales a to about 1. */
 double power_of_two_scale(double a);
 
 /* Copies pins, stiffnesses and rest lengths of the system, and the masses m
  * [2n] kg, into the grid. */
-void grid_copy_system(Grid *grid, const Iterate *at, const double *m);
+void grid_copy_from_system(Grid *grid, const Iterate *at, const double *m);
 
 /* Copies x and u of the iterate, and u_tilde [2n] m, into the grid. */
-void grid_copy_state(Grid *grid, const Iterate *at, const double *u_tilde);
+void grid_copy_from_state(Grid *grid, const Iterate *at, const double *u_tilde);
 
 /* Writes u and x of the grid to the iterate. */
-void grid_write_iterate(const Grid *grid, Iterate *at);
+void grid_copy_to_iterate(const Grid *grid, Iterate *at);
 
 /* ---- loops over all nodes (grid_energy.c); vectors have [2 planes] ---- */
 
@@ -126,16 +124,16 @@ void grid_energy_quartic(const Grid *grid, const double *p, double quartic[4]);
  *   g, last_g   grad E after and before that step
  *   last_slope  last_g.last_p, below 0
  * Returns beta >= 0. */
-double grid_make_conjugate(const Grid *grid, const double *g,
-                           const double *last_g, const double *last_p,
-                           double last_slope, double *p);
+double grid_make_p_conjugate(const Grid *grid, const double *g,
+                             const double *last_g, const double *last_p,
+                             double last_slope, double *p);
 
 /* Moves all nodes alike, so that sum m x is sum m x_tilde, as at the minimum of
  * E where no node is pinned.  Returns the change of E, which is at most 0. */
 double grid_correct_momentum(const Grid *grid);
 
 /* Adds a p to x. */
-void grid_add_step(const Grid *grid, double a, const double *p);
+void grid_move_x(const Grid *grid, double a, const double *p);
 
 /* Computes float_x from x. */
 void grid_update_float_x(const Grid *grid);

@@ -117,9 +117,9 @@ FAST void grid_energy_quartic(const Grid *grid, const double *p,
 
 /* ---- without springs ---- */
 
-FAST double grid_make_conjugate(const Grid *grid, const double *g,
-                                const double *last_g, const double *last_p,
-                                double last_slope, double *p)
+FAST double grid_make_p_conjugate(const Grid *grid, const double *g,
+                                  const double *last_g, const double *last_p,
+                                  double last_slope, double *p)
 {
     double total = 0;
     BANDS
@@ -174,7 +174,7 @@ FAST double grid_correct_momentum(const Grid *grid)
     return -0.5 * (moment[0] * moment[0] + moment[1] * moment[1]) / mass;
 }
 
-FAST void grid_add_step(const Grid *grid, double a, const double *p)
+FAST void grid_move_x(const Grid *grid, double a, const double *p)
 {
     double *const away = grid->target_offset, *const x = grid->x;
     const double *const x_tilde = grid->x_tilde;

@@ -11,8 +11,7 @@
 
 /* Marks a function that is compiled for several widths of registers; at its
  * start the program selects the version for the processor.  All versions give
- * the same bits, since additions have one order and no multiply-add is fused.
- */
+ * the same bits: additions have one order, and no multiply-add is fused. */
 #ifndef FAST
 #if defined(__x86_64__) && defined(__GLIBC__) && defined(__OPTIMIZE__) &&      \
     !defined(__clang__)
@@ -27,7 +26,7 @@
 
 /* Nodes of one row, contiguous in memory, with index distances to neighbours,
  * springs and masses.  ptrdiff_t needs no conversion in addresses. */
-typedef struct NodeRun {
+typedef struct NodeRange {
     ptrdiff_t first, end;  /* index of the first node, and past the last one */
     ptrdiff_t to_next_row; /* distance from a node to the next row */
     ptrdiff_t to_column_before,
@@ -35,17 +34,17 @@ typedef struct NodeRun {
     ptrdiff_t spring_shift,
         spring_shift_before; /* spring_shift of this row, row before */
     ptrdiff_t mass_shift;    /* mass index of a node minus node index */
-} NodeRun;
+} NodeRange;
 
-INLINE NodeRun get_node_run(const RowLayout *rows, int i, int odd)
+INLINE NodeRange get_node_range(const RowLayout *rows, int i, int odd)
 {
     int first = (i + 1) * rows->pitch + odd * rows->odd_offset;
     int before = odd ? -rows->odd_offset : rows->odd_offset - 1;
-    return (NodeRun){.first = first,
-                     .end = first + rows->column_count[odd],
-                     .to_next_row = rows->pitch,
-                     .to_column_before = before,
-                     .to_column_after = before + 1};
+    return (NodeRange){.first = first,
+                       .end = first + rows->column_count[odd],
+                       .to_next_row = rows->pitch,
+                       .to_column_before = before,
+                       .to_column_after = before + 1};
 }
 
 /* EACH_OF is a loop with counter e over independent nodes: no node changes what
@@ -77,7 +76,7 @@ INLINE NodeRun get_node_run(const RowLayout *rows, int i, int odd)
 #ifdef __wasm_simd128__
 typedef float Floats __attribute__((vector_size(16), aligned(4)));
 typedef double Doubles __attribute__((vector_size(16), aligned(8)));
-enum { HIGH_OFFSET = 2 };
+enum { HIGH_HALF_OFFSET = 2 };
 #define FLOATS(a, q)   (*(Floats *)((a) + (q)))
 #define DOUBLES(a, q)  (*(Doubles *)((a) + (q)))
 #define IN_ORDER(a, b) __asm__ volatile("" : "+r"(a), "+r"(b))
@@ -90,7 +89,7 @@ enum { HIGH_OFFSET = 2 };
 #else
 typedef float Floats;
 typedef double Doubles;
-enum { HIGH_OFFSET = 0 };
+enum { HIGH_HALF_OFFSET = 0 };
 #define FLOATS(a, q)        ((a)[q])
 #define DOUBLES(a, q)       ((a)[q])
 #define IN_ORDER(a, b)      (void)0
@@ -121,7 +120,7 @@ INLINE void narrow_array_to_single(const double *from, double factor,
         EACH_FLOATS (LANES)
             FLOATS(to, e) = narrow_to_single(
                 factor * (DOUBLES(from, e) - middle),
-                factor * (DOUBLES(from, e + HIGH_OFFSET) - middle));
+                factor * (DOUBLES(from, e + HIGH_HALF_OFFSET) - middle));
 }
 
 /* Calls F(kind, to, numbers) for springs of a node q: the other node has the
@@ -148,9 +147,9 @@ INLINE void narrow_array_to_single(const double *from, double factor,
     F(ANTIDIAGONAL, (at).to_next_row + (at).to_column_before, (at).spring_shift)
 
 /* Returns the nodes in even or odd columns of row i, with the row's shifts. */
-INLINE NodeRun grid_get_node_run(const Grid *grid, int i, int odd)
+INLINE NodeRange grid_get_node_range(const Grid *grid, int i, int odd)
 {
-    NodeRun at = get_node_run(&grid->rows, i, odd);
+    NodeRange at = get_node_range(&grid->rows, i, odd);
     at.spring_shift = grid->spring_shift[i + 1];
     at.spring_shift_before = grid->spring_shift[i];
     at.mass_shift = grid->mass_shift[i];
@@ -164,7 +163,7 @@ INLINE NodeRun grid_get_node_run(const Grid *grid, int i, int odd)
          i < (band)*BAND_ROWS + BAND_ROWS && i < (grid).rows.nodes_per_side;   \
          i++)                                                                  \
         for (int odd = 0; odd < 2; odd++)                                      \
-            for (NodeRun at = grid_get_node_run(&(grid), i, odd);              \
+            for (NodeRange at = grid_get_node_range(&(grid), i, odd);          \
                  at.first < at.end; at.first += LANES)
 #define EACH_NODE_OF(grid, band)                                               \
     EACH_RUN_OF (grid, band)                                                   \

@@ -82,15 +82,15 @@ INLINE void spring_line_polynomial(GridSpring s, Doubles ux, Doubles uy,
  * HXY, HYY), c d (CDX, CDY), c (SUM_C), and negative f = c s (SUM_NEGATIVE_F).
  * The Hessian is SUM_F I + 2 sum of c d d^T; SUM_F is the mass + sum of f. */
 enum { GX, GY, HXX, HXY, HYY, CDX, CDY, SUM_C, SUM_NEGATIVE_F, SUM_COUNT };
-enum { SUM_F = SUM_COUNT }; /* no member of NodeSums */
+enum { SUM_F = SUM_COUNT }; /* no member of SpringSums */
 
-typedef float NodeSums[SUM_COUNT][LANES];
+typedef float SpringSums[SUM_COUNT][LANES];
 
 /* Adds a spring to the sums.
  *   w  in, change of d since the start, d = d0 + w: adds only the change of the
  *      force, c (s d - s0 d0) = c (s w + (s - s0) d0).  NULL: adds c s d */
-INLINE void add_spring(FloatSpring s, const Floats w[2],
-                       Floats sum[SUM_COUNT + 1])
+INLINE void add_spring_sums(FloatSpring s, const Floats w[2],
+                            Floats sum[SUM_COUNT + 1])
 {
     Floats wx = w ? w[0] : s.dx, wy = w ? w[1] : s.dy;
     if (w) {
@@ -119,7 +119,7 @@ INLINE void add_spring(FloatSpring s, const Floats w[2],
     IN_ORDER(sum[SUM_C], sum[CDX]);
 }
 
-INLINE void store_spring_sums(Floats sum[SUM_COUNT + 1], int e, NodeSums of)
+INLINE void store_spring_sums(Floats sum[SUM_COUNT + 1], int e, SpringSums of)
 {
     sum[HXX] = sum[SUM_F] + 2 * sum[HXX];
     sum[HXY] = 2 * sum[HXY];
@@ -130,7 +130,7 @@ INLINE void store_spring_sums(Floats sum[SUM_COUNT + 1], int e, NodeSums of)
 
 /* Writes the coefficients q of the change of E, q[0] a + ... + q[3] a^4, when
  * the node moves by a p. */
-INLINE void node_line_polynomial(const NodeSums of, int e, float px, float py,
+INLINE void node_line_polynomial(const SpringSums of, int e, float px, float py,
                                  float q[4])
 {
     float A = of[HXX][e], B = of[HXY][e], C = of[HYY][e],

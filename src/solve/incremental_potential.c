@@ -6,8 +6,8 @@
 
 #include "model/inertia_energy.h"
 
-static EvalPoint make_term_point(const IncrementalPotential *E, const double *u,
-                                 const double *x)
+static EvalPoint make_weighted_point(const IncrementalPotential *E,
+                                     const double *u, const double *x)
 {
     EvalPoint at = make_eval_point(E->system, E->x_n, u, x);
     at.weight = E->weight;
@@ -17,11 +17,11 @@ static EvalPoint make_term_point(const IncrementalPotential *E, const double *u,
 double incremental_potential_value(const IncrementalPotential *E,
                                    const double *u, const double *x)
 {
-    EvalPoint at = make_term_point(E, u, x);
+    EvalPoint at = make_weighted_point(E, u, x);
     double P = 0;
     for (const TermKind *kind; (kind = eval_point_next_term(&at));)
-        if (kind->value)
-            P += kind->value(&at);
+        if (kind->potential)
+            P += kind->potential(&at);
     return inertia_energy_value(E->system->nodes, u, E->u_tilde, E->system->m) +
            E->weight * P;
 }
@@ -30,7 +30,7 @@ void incremental_potential_gradient(const IncrementalPotential *E,
                                     const double *u, const double *x, double *g)
 {
     const System *system = E->system;
-    EvalPoint at = make_term_point(E, u, x);
+    EvalPoint at = make_weighted_point(E, u, x);
     for (int i = 0; i < 2 * system->nodes; i++)
         g[i] = 0;
     inertia_energy_gradient(system->nodes, u, E->u_tilde, system->m, g);
@@ -67,7 +67,7 @@ Status incremental_potential_create_hessian(const System *system, Sparse *A)
      * first one of its column, is 1 if the column belongs to a pinned node. */
     for (int t = 0; t < triplets.count && !status; t++)
         if (t < masses)
-            A->value[A->slot[t]] = system->pinned[t / 2];
+            A->value[A->slot[t]] = system->is_pinned[t / 2];
         else if (A->value[A->column_start[triplets.row[t]]] != 0 ||
                  A->value[A->column_start[triplets.column[t]]] != 0)
             A->slot[t] = A->entries;
@@ -77,10 +77,10 @@ Status incremental_potential_create_hessian(const System *system, Sparse *A)
 
 /* Adds to `out` the terms' Hessians, values of a matrix, or, if q is given,
  * their products with q, a vector.  Returns how many blocks were projected. */
-static int add_hessians(const Iterate *iterate, Projection projection,
-                        const int *slot, const double *q, double *out)
+static int add_term_hessians(const Iterate *iterate, Projection projection,
+                             const int *slot, const double *q, double *out)
 {
-    EvalPoint at = make_term_point(&iterate->E, iterate->u, iterate->x);
+    EvalPoint at = make_weighted_point(&iterate->E, iterate->u, iterate->x);
     int projected = 0;
     for (const TermKind *kind; (kind = eval_point_next_term(&at));)
         if (kind->hessian)
@@ -90,7 +90,7 @@ static int add_hessians(const Iterate *iterate, Projection projection,
 
 Status incremental_potential_extend_pattern(const Iterate *iterate, bool *grown)
 {
-    EvalPoint at = make_term_point(&iterate->E, iterate->u, iterate->x);
+    EvalPoint at = make_weighted_point(&iterate->E, iterate->u, iterate->x);
     Status status = STATUS_OK;
     *grown = false;
     for (const TermKind *kind; !status && (kind = eval_point_next_term(&at));)
@@ -105,8 +105,8 @@ int incremental_potential_hessian(const Iterate *at, Projection projection,
     const System *system = at->E.system;
     memset(A->value, 0, ((size_t)A->entries + 1) * sizeof *A->value);
     inertia_energy_hessian(system->nodes, system->m, A->slot, A->value);
-    return add_hessians(at, projection, A->slot + 2 * system->nodes, NULL,
-                        A->value);
+    return add_term_hessians(at, projection, A->slot + 2 * system->nodes, NULL,
+                             A->value);
 }
 
 int incremental_potential_apply_hessian(const Iterate *at,
@@ -116,18 +116,18 @@ int incremental_potential_apply_hessian(const Iterate *at,
     const System *system = at->E.system;
     for (int i = 0; i < 2 * system->nodes; i++)
         y[i] = system->m[i / 2] * q[i];
-    int projected = add_hessians(at, projection, NULL, q, y);
+    int projected = add_term_hessians(at, projection, NULL, q, y);
     system_zero_pinned_entries(system, y);
     return projected;
 }
 
 /* The slope g.p contains all terms; the inertia energy adds only to the
  * coefficient of alpha^2. */
-LineEnergy incremental_potential_prepare_line(const Iterate *iterate)
+LineEnergy make_line_energy(const Iterate *iterate)
 {
     const System *system = iterate->E.system;
     const double *g = iterate->g, *p = iterate->p;
-    EvalPoint at = make_term_point(&iterate->E, iterate->u, iterate->x);
+    EvalPoint at = make_weighted_point(&iterate->E, iterate->u, iterate->x);
     LineEnergy along = {.iterate = iterate};
     double *q = along.polynomial.q;
     for (int i = 0; i < 2 * system->nodes; i++) {
@@ -137,7 +137,7 @@ LineEnergy incremental_potential_prepare_line(const Iterate *iterate)
     for (const TermKind *kind; (kind = eval_point_next_term(&at));) {
         if (kind->line_polynomial)
             kind->line_polynomial(&at, p, q + 1);
-        along.has_remainder = along.has_remainder || kind->line_remainder;
+        along.has_remainder = along.has_remainder || kind->taylor_remainder;
     }
     return along;
 }
@@ -149,30 +149,30 @@ double line_energy_difference(const void *function, double alpha)
     if (!along->has_remainder)
         return sum;
     const Iterate *iterate = along->iterate;
-    EvalPoint at = make_term_point(&iterate->E, iterate->u, iterate->x);
+    EvalPoint at = make_weighted_point(&iterate->E, iterate->u, iterate->x);
     for (const TermKind *kind; (kind = eval_point_next_term(&at));)
-        if (kind->line_remainder)
-            sum += kind->line_remainder(&at, iterate->p, alpha);
+        if (kind->taylor_remainder)
+            sum += kind->taylor_remainder(&at, iterate->p, alpha);
     return sum;
 }
 
-double incremental_potential_max_step(const Iterate *at)
+double incremental_potential_max_alpha(const Iterate *at)
 {
-    EvalPoint point = make_term_point(&at->E, at->u, at->x);
-    return fmin(1, system_max_step(point, at->p, false));
+    EvalPoint point = make_weighted_point(&at->E, at->u, at->x);
+    return fmin(1, system_max_alpha(point, at->p, false));
 }
 
 bool incremental_potential_is_feasible(const IncrementalPotential *E,
                                        const double *u, const double *x)
 {
-    return system_is_feasible(make_term_point(E, u, x));
+    return system_is_feasible(make_weighted_point(E, u, x));
 }
 
 void incremental_potential_absorb_pulls(const Iterate *iterate, double *m,
                                         double *u_tilde)
 {
     const System *system = iterate->E.system;
-    EvalPoint at = make_term_point(&iterate->E, iterate->u, iterate->x);
+    EvalPoint at = make_weighted_point(&iterate->E, iterate->u, iterate->x);
     bool pulls = false;
     for (int t = 0; t < system->term_count; t++)
         pulls = pulls || system->term[t].kind->is_diagonal;
@@ -204,7 +204,8 @@ bool incremental_potential_is_diagonal(const IncrementalPotential *E)
 {
     const System *system = E->system;
     for (int t = 0; t < system->term_count; t++)
-        if (system->term[t].kind->value && !system->term[t].kind->is_diagonal)
+        if (system->term[t].kind->potential &&
+            !system->term[t].kind->is_diagonal)
             return false;
     return true;
 }

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-Status line_search_backtrack(EnergyDifference difference, const void *function,
+Status line_search_backtrack(EnergyFunction difference, const void *function,
                              double *alpha, int *trials)
 {
     for (*trials = 0; *trials <= LINE_SEARCH_MAX_HALVINGS; *alpha /= 2) {
@@ -17,21 +17,21 @@ Status line_search_backtrack(EnergyDifference difference, const void *function,
 
 typedef struct LineSearchContext {
     Newton *newton;
-    LineEnergy line;
+    LineEnergy energy;
 } LineSearchContext;
 
 /* Returns E(x + alpha p) - E(x), or 0 without a line search.  NaN: a term does
- * not allow the point x + alpha p, or rounding_confirms_change rejects the
+ * not allow the point x + alpha p, or energy_confirms_change rejects the
  * difference.  Writes the point to u_trial and x_trial, unless a line search
  * finds that E rises. */
-static double step_energy_difference(const void *function, double alpha)
+static double trial_energy_difference(const void *function, double alpha)
 {
     const LineSearchContext *search = function;
     Newton *newton = search->newton;
     const Iterate *at = &newton->iterate;
     double *u = newton->u_trial, *x = newton->x_trial;
     bool searches = newton->settings.line_search == LINE_SEARCH_BACKTRACK;
-    double change = line_energy_difference(&search->line, alpha);
+    double change = line_energy_difference(&search->energy, alpha);
     newton->record.energy_change = change;
     if (searches && !(change <= 0))
         return change;
@@ -41,18 +41,17 @@ static double step_energy_difference(const void *function, double alpha)
     }
     /* Rounding may make a point infeasible that the largest step allows. */
     bool allowed = incremental_potential_is_feasible(&at->E, u, x) &&
-                   rounding_confirms_change(newton);
+                   energy_confirms_change(newton);
     return !allowed ? NAN : searches ? change : 0;
 }
 
 Status find_step_length(Newton *newton)
 {
     NewtonRecord *record = &newton->record;
-    LineSearchContext search = {
-        newton, incremental_potential_prepare_line(&newton->iterate)};
-    record->alpha = incremental_potential_max_step(&newton->iterate);
-    record->slope = search.line.polynomial.q[0];
-    Status status = line_search_backtrack(step_energy_difference, &search,
+    LineSearchContext search = {newton, make_line_energy(&newton->iterate)};
+    record->alpha = incremental_potential_max_alpha(&newton->iterate);
+    record->slope = search.energy.polynomial.q[0];
+    Status status = line_search_backtrack(trial_energy_difference, &search,
                                           &record->alpha, &record->trials);
     if (newton->settings.line_search == LINE_SEARCH_NONE)
         record->trials = 0;

@@ -38,18 +38,18 @@ struct Multigrid {
     Grid grid;
     VCycle v_cycle;
     Tiles tiles;
-    ArrayArena memory;       /* memory that holds all arrays */
-    double *g, *p;           /* [2 planes] grad E and direction at x */
-    double *last_g, *last_p; /* [2 planes] g and p in the iteration before */
-    double gradient_norm2;   /* |g|_(M^-1)^2 */
-    double p_bound;          /* m, upper bound of |p_x| + |p_y|, from g alone */
-    double last_p_bound;     /* m, p_bound in the iteration before */
-    double p_size;           /* m, upper bound of |p_x| + |p_y|, once p is
-                                conjugate to last_p */
+    ArrayArena memory;     /* memory that holds all arrays */
+    double *g, *p;         /* [2 planes] grad E and direction at x */
+    double *old_g, *old_p; /* [2 planes] g and p in the iteration before */
+    double gradient_norm2; /* |g|_(M^-1)^2 */
+    double p_bound;        /* m, upper bound of |p_x| + |p_y|, from g alone */
+    double old_p_bound;    /* m, p_bound in the iteration before */
+    double p_size;         /* m, upper bound of |p_x| + |p_y|, once p is
+                              conjugate to old_p */
     double moved_since_setup; /* m, upper bound of a node's displacement since
                                  the V-cycle's matrices were computed */
     long direction_cycles;    /* number of V-cycles that computed p */
-    double largest_change;    /* J s^2, most negative change of E in the step */
+    double lowest_change;     /* J s^2, most negative change of E in the step */
     Quartic line_E;           /* E(x + alpha p) - E(x), J s^2 */
     unsigned system_version;  /* System.version that the grid was made for */
     double weight;            /* s^2, weight of P that the grid was made for */
@@ -66,12 +66,12 @@ Status multigrid_create(int segments, Multigrid **multigrid)
     Status status = mg ? STATUS_OK : STATUS_OUT_OF_MEMORY;
     /* The first pass counts the bytes of the arrays. */
     for (int pass = 0; pass < 2 && !status; pass++) {
-        double **vectors[] = {&mg->g, &mg->p, &mg->last_g, &mg->last_p};
+        double **vectors[] = {&mg->g, &mg->p, &mg->old_g, &mg->old_p};
         if (pass > 0)
             status = arena_allocate(&mg->memory);
-        grid_lay_out(segments, &mg->memory, &mg->grid);
-        v_cycle_lay_out(&mg->grid, &mg->memory, &mg->v_cycle);
-        tiles_lay_out(&mg->grid, &mg->memory, &mg->tiles);
+        grid_init(segments, &mg->memory, &mg->grid);
+        v_cycle_init(&mg->grid, &mg->memory, &mg->v_cycle);
+        tiles_init(&mg->grid, &mg->memory, &mg->tiles);
         for (int i = 0; i < 4; i++)
             *vectors[i] = arena_take_piece(
                 &mg->memory,
@@ -104,8 +104,8 @@ static const char *find_refusal_reason(const Newton *newton)
     bool alone = system_find_term(system, &mass_spring_energy);
     for (int t = 0; alone && t < system->term_count; t++) {
         const TermKind *kind = system->term[t].kind;
-        alone =
-            kind == &mass_spring_energy || kind->is_diagonal || !kind->value;
+        alone = kind == &mass_spring_energy || kind->is_diagonal ||
+                !kind->potential;
     }
     if (system->segments == 0)
         return "there is no square grid";
@@ -125,7 +125,7 @@ bool multigrid_accepts_problem(Newton *newton)
 {
     Solver solver = newton->settings.solver;
     bool wanted = solver == SOLVER_AUTO
-                      ? newton->system->segments > AUTO_NEWTON_SEGMENTS
+                      ? newton->system->segments > AUTO_NEWTON_MAX_SEGMENTS
                       : solver == SOLVER_MULTIGRID;
     newton->refusal_reason = wanted ? find_refusal_reason(newton) : NULL;
     return wanted && !newton->refusal_reason;
@@ -135,7 +135,7 @@ bool multigrid_accepts_problem(Newton *newton)
 static Status multigrid_evaluate_gradient(Multigrid *mg)
 {
     mg->gradient_norm2 = grid_gradient(&mg->grid, mg->g);
-    mg->last_p_bound = mg->p_bound;
+    mg->old_p_bound = mg->p_bound;
     mg->p_bound = sqrt(2 / mg->grid.min_mass * mg->gradient_norm2) /
                   mg->grid.length_scale;
     return isfinite(mg->gradient_norm2) ? STATUS_OK : STATUS_NOT_FINITE;
@@ -155,16 +155,16 @@ static Status multigrid_copy_problem(Newton *newton)
     Multigrid *mg = newton->multigrid;
     mg->has_relaxed_tiles = mg->change_was_hidden = mg->next_p_is_last =
         mg->v_cycle.is_clamped = false;
-    mg->largest_change = mg->p_size = 0;
+    mg->lowest_change = mg->p_size = 0;
     mg->tiles_pause_until = 0;
     incremental_potential_absorb_pulls(at, m, u_tilde);
     if (mg->weight != at->E.weight || mg->system_version != system->version) {
-        grid_copy_system(&mg->grid, at, m);
+        grid_copy_from_system(&mg->grid, at, m);
         v_cycle_copy_system(&mg->v_cycle);
     }
     mg->weight = at->E.weight;
     mg->system_version = system->version;
-    grid_copy_state(&mg->grid, at, u_tilde);
+    grid_copy_from_state(&mg->grid, at, u_tilde);
     mg->p_bound = mg->moved_since_setup = INFINITY;
     return multigrid_evaluate_gradient(mg);
 }
@@ -196,7 +196,7 @@ static void multigrid_compute_direction(Newton *newton)
         double square = grid_linear_residual(&mg->grid, mg->g, mg->p);
         /* `largest` is rounded to single precision; the factor makes it an
          * upper bound. */
-        newton->passes_test |= p_passes_test(
+        newton->meets_tolerance |= p_meets_tolerance(
             &mg->grid, largest * (1 + FLT_EPSILON), square, longest);
     }
     newton->record.residual = largest / h;
@@ -209,7 +209,7 @@ static Status multigrid_find_direction(Newton *newton)
     NewtonRecord *record = &newton->record;
     Status status =
         record->iteration == 0 ? multigrid_copy_problem(newton) : STATUS_OK;
-    newton->passes_test = !status && newton->multigrid->next_p_is_last;
+    newton->meets_tolerance = !status && newton->multigrid->next_p_is_last;
     record->residual_kind = RESIDUAL_ESTIMATE;
     if (!status)
         multigrid_compute_direction(newton);
@@ -248,15 +248,15 @@ static void multigrid_compute_line_polynomial(Multigrid *mg)
  * Finds the alpha at which E, a quartic along p, is lowest; 0 if E rises.
  *   last_size, last_slope  p_size and grad E . p, grid units, of the direction
  *                          before */
-static void multigrid_search_line(Newton *newton, double last_size,
-                                  double last_slope)
+static void multigrid_search_along_p(Newton *newton, double last_size,
+                                     double last_slope)
 {
     Multigrid *mg = newton->multigrid;
     NewtonRecord *record = &newton->record;
     double beta = 0;
     if (record->iteration > 0 && !mg->has_relaxed_tiles)
-        beta = grid_make_conjugate(&mg->grid, mg->g, mg->last_g, mg->last_p,
-                                   last_slope, mg->p);
+        beta = grid_make_p_conjugate(&mg->grid, mg->g, mg->old_g, mg->old_p,
+                                     last_slope, mg->p);
     mg->p_size = record->residual * newton->settings.h + beta * last_size;
     multigrid_compute_line_polynomial(mg);
     record->slope = mg->line_E.q[0];
@@ -272,11 +272,11 @@ static Status multigrid_find_step_length(Newton *newton)
     NewtonRecord *record = &newton->record;
     const double last_size = mg->p_size;
     const double last_slope = mg->line_E.q[0] * mg->grid.energy_scale;
-    multigrid_search_line(newton, last_size, last_slope);
+    multigrid_search_along_p(newton, last_size, last_slope);
     if (!(record->alpha > 0) && !mg->v_cycle.is_clamped) {
         multigrid_choose_hessian(mg, true);
         multigrid_compute_direction(newton);
-        multigrid_search_line(newton, last_size, last_slope);
+        multigrid_search_along_p(newton, last_size, last_slope);
     }
     if (!isfinite(record->slope))
         return STATUS_NOT_FINITE;
@@ -297,82 +297,82 @@ static Status multigrid_update_iterate(Newton *newton)
     NewtonRecord *record = &newton->record;
     const int tiles = mg->tiles.rows * mg->tiles.columns;
     double *g = mg->g, *p = mg->p;
-    grid_add_step(&mg->grid, record->alpha, p);
+    grid_move_x(&mg->grid, record->alpha, p);
     mg->moved_since_setup += record->alpha * mg->p_size;
     newton->counters.updates++;
-    if (newton->passes_test)
+    if (newton->meets_tolerance)
         return STATUS_OK;
-    const bool is_poor = mg->p_bound > STALLS * mg->last_p_bound &&
+    const bool is_poor = mg->p_bound > STALLS * mg->old_p_bound &&
                          record->residual > SMALL_P * newton->tolerance;
-    const bool is_first = mg->tiles_pause_until == 0; /* no earlier poor p */
+    const bool is_first_poor = mg->tiles_pause_until == 0;
     mg->has_relaxed_tiles =
         is_poor && record->iteration >= mg->tiles_pause_until;
     if (mg->has_relaxed_tiles) {
         const double change = record->energy_change * mg->grid.energy_scale;
         double first = tiles_relax(&mg->tiles, PACE * change / tiles, p);
-        if (is_first)
+        if (is_first_poor)
             mg->tiles_pause_until =
                 record->iteration +
                 (first > USELESS * change ? TILE_PAUSE_ITERATIONS : 1);
         multigrid_compute_line_polynomial(mg);
         double alpha = minimise_quartic(&mg->line_E, &(int){0});
         if (alpha > 0) { /* alpha is 0 after an overflow of floats */
-            grid_add_step(&mg->grid, alpha, p);
+            grid_move_x(&mg->grid, alpha, p);
             record->energy_change += quartic_value(&mg->line_E, alpha);
             mg->moved_since_setup = INFINITY;
         }
     }
     newton->counters.tile_sweeps = mg->tiles.sweeps;
-    mg->g = mg->last_g;
-    mg->p = mg->last_p;
-    mg->last_g = g;
-    mg->last_p = p;
+    mg->g = mg->old_g;
+    mg->p = mg->old_p;
+    mg->old_g = g;
+    mg->old_p = p;
     Status status = multigrid_evaluate_gradient(mg);
     const double close = CLOSE * newton->tolerance * newton->settings.h;
     multigrid_choose_hessian(
-        mg, (is_poor && !is_first && mg->p_bound > close) ||
+        mg, (is_poor && !is_first_poor && mg->p_bound > close) ||
                 (mg->v_cycle.is_clamped && mg->direction_cycles > 1));
     return status;
 }
 
 /* Decides whether the loop ends.  If multigrid cannot pass the test, for
  * example because of rounding, Newton goes on from the iterate. */
-static Status multigrid_test_iterate(Newton *newton, Status status)
+static Status multigrid_test_convergence(Newton *newton, Status status)
 {
     Multigrid *mg = newton->multigrid;
     NewtonRecord *record = &newton->record;
     if (!mg)
         return status;
-    mg->largest_change = fmin(mg->largest_change, record->energy_change);
+    mg->lowest_change = fmin(mg->lowest_change, record->energy_change);
     bool small =
-        fabs(record->energy_change) <= SMALL_CHANGE * -mg->largest_change;
+        fabs(record->energy_change) <= SMALL_CHANGE * -mg->lowest_change;
     bool last = record->iteration + 1 >= newton_iteration_limit(newton);
     bool stuck = status != STATUS_OK || record->iteration >= MAX_MG_ITERATIONS;
     mg->next_p_is_last =
         fmax(record->residual, 2 * mg->p_bound / newton->settings.h) <=
         newton->tolerance;
     bool is_tiny = mg->p_bound <= negligible_direction_size(newton);
-    bool ends = newton->passes_test || (!stuck && is_tiny);
+    bool ends = newton->meets_tolerance || (!stuck && is_tiny);
     if (ends && system_falls_freely(newton->system))
         record->energy_change +=
             grid_correct_momentum(&mg->grid) / mg->grid.energy_scale;
     /* Only these cases need the iterate in newton->iterate. */
     if (ends || stuck || small || last || newton->settings.observer) {
         swap_iterates(newton);
-        grid_write_iterate(&mg->grid, &newton->iterate);
+        grid_copy_to_iterate(&mg->grid, &newton->iterate);
     }
     const double turned =
         ends && newton->rounding.is_stiff ? turn_free_body(newton) : 0;
     record->energy_change += turned;
     /* p_bound was computed before the body was turned, and is not valid if the
      * turn may move a node by more than half of tolerance times h. */
-    bool overturns = !newton->passes_test &&
+    bool overturns = !newton->meets_tolerance &&
                      2 * bound_largest_movement(newton, sqrt(-2 * turned)) >
                          newton->tolerance * newton->settings.h;
     if (ends && !overturns && status != STATUS_NOT_FINITE)
         return STATUS_OK;
     stuck = stuck || overturns;
-    bool hidden = small && !(mg->p_bound < mg->last_p_bound) &&
+    bool hidden = small && !(mg->p_bound < mg->old_p_bound) &&
                   is_below_roundoff(newton, record->energy_change);
     if (stuck || (hidden && mg->change_was_hidden)) {
         newton->active_solver = SOLVER_NEWTON;
@@ -385,4 +385,4 @@ static Status multigrid_test_iterate(Newton *newton, Status status)
 
 const NewtonPhases multigrid_phases = {
     multigrid_find_direction, multigrid_find_step_length,
-    multigrid_update_iterate, multigrid_test_iterate};
+    multigrid_update_iterate, multigrid_test_convergence};

@@ -5,8 +5,9 @@
  * direction is made conjugate to the one before.  E along a direction is a
  * quartic, whose minimum is the step length.  After a poor direction tiles of
  * nodes find a second one (tiles.h); the direction that follows is not
- * conjugate.  From the second poor direction of a step to the next good one the
- * Hessian is clamped.  No update raises E.
+ * conjugate.  The Hessian is clamped from the second poor direction of a step
+ * on until one V-cycle gives a good one, and where E does not fall along p.  No
+ * update raises E.
  *
  * The test of Algorithm 3 needs p = -H^-1 g with the clamped H, which conjugate
  * gradients know up to a linear residual r = -g - H p, computed in double
@@ -15,7 +16,8 @@
  * |p_y|, over h, is known up to sqrt(2/m)/h |r|_(M^-1) with the smallest m.  p
  * passes the test if the residual plus this bound is at most the tolerance.
  * With p = 0, r = -g the bound limits the next p: a step also ends if that p is
- * negligible, or, after a p that seems to pass, at most half of the tolerance.
+ * negligible.  If p seems to pass, and the next p is at most half of the
+ * tolerance, the next p is the last one.
  *
  * A step depends on its arguments alone.  Results have the same bits for every
  * width of registers. */

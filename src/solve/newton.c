@@ -35,12 +35,13 @@ void newton_start(Newton *newton, const double *x_n, const double *u,
  * trial point is not finite or, with a line search, its E exceeds the limit. */
 static Status update_iterate(Newton *newton)
 {
-    if (!all_finite(newton->x_trial, 2 * (size_t)newton->system->nodes))
-        return STATUS_NOT_FINITE;
-    if (newton->settings.line_search != LINE_SEARCH_NONE &&
-        !energy_is_within_limit(newton, newton->u_trial, newton->x_trial)) {
+    const bool is_finite =
+        all_finite(newton->x_trial, 2 * (size_t)newton->system->nodes);
+    if (!is_finite ||
+        (newton->settings.line_search != LINE_SEARCH_NONE &&
+         !energy_is_within_limit(newton, newton->u_trial, newton->x_trial))) {
         newton->record.alpha = newton->record.energy_change = 0;
-        return STATUS_ROUNDING_LIMIT;
+        return is_finite ? STATUS_ROUNDING_LIMIT : STATUS_NOT_FINITE;
     }
     swap_iterates(newton);
     newton->factored_hessian.moved_since_factor +=
@@ -56,12 +57,12 @@ static Status update_iterate(Newton *newton)
  * p passes and rounding hides the decrease of E, the step has converged without
  * p.  Without a line search an end above the start is DIVERGED.
  *   status  in, result of direction, step length and update */
-static Status test_iterate(Newton *newton, Status status)
+static Status test_convergence(Newton *newton, Status status)
 {
     bool hidden = status == STATUS_ROUNDING_LIMIT;
     if (hidden || status == STATUS_OK)
         newton->record.energy_change += turn_free_body(newton);
-    if (newton->passes_test && (status == STATUS_OK || hidden))
+    if (newton->meets_tolerance && (status == STATUS_OK || hidden))
         status = STATUS_OK;
     else if (status == STATUS_OK && next_direction_is_negligible(newton))
         status = STATUS_OK;
@@ -99,7 +100,7 @@ static void add_energy_change(Newton *newton)
 /* The four phases of an iteration are functions of direction.c, line_search.c
  * and this file.  Large squares use those of multigrid.c. */
 static const NewtonPhases newton_phases = {find_direction, find_step_length,
-                                           update_iterate, test_iterate};
+                                           update_iterate, test_convergence};
 
 /* Algorithm 3 of the slides:
  *

@@ -7,15 +7,16 @@
  * writes newton->record and the iterate: Newton's phases newton->iterate, those
  * of multigrid their copy on the grid. */
 typedef struct NewtonPhases {
-    /* Computes g and p at x, and the residual of p.  Sets newton->passes_test
-     * if the residual plus a bound of its error is at most the tolerance, and,
-     * in Newton's phase, if turns_may_follow is false or turn_free_body makes
-     * the turn.  Returns OK, or why there is no p. */
+    /* Computes g and p at x, and the residual of p.  Sets
+     * newton->meets_tolerance if the residual plus a bound of its error is at
+     * most the tolerance, and, in Newton's phase, if next_direction_may_turn is
+     * false or turn_free_body makes the turn.  Returns OK, or why there is no
+     * p. */
     Status (*find_direction)(Newton *newton);
-    /* Computes alpha, trials, slope and change.  For Newton's method also
+    /* Computes alpha, trials, slope, energy_change.  For Newton's method also
      * stores the end of the step in u_trial and x_trial.  Returns OK, or why no
      * step lowers E: LINE_SEARCH_LIMIT, NOT_DESCENT, ROUNDING_LIMIT,
-     * NOT_FINITE; alpha and change are then 0. */
+     * NOT_FINITE; alpha and energy_change are then 0. */
     Status (*find_step_length)(Newton *newton);
     /* Adds alpha p to the iterate (u and x); multigrid may also relax tiles.
      * Returns OK, NOT_FINITE, ROUNDING_LIMIT. */
@@ -65,14 +66,15 @@ Status find_step_length(Newton *newton);
  * although p passes the test.  At x the forces g resist a turn.  At x + p most
  * of these forces are gone, and only the masses resist the remaining torque,
  * which is at most sum |p_i| |g_i| over the nodes i. */
-bool turns_may_follow(const Newton *newton);
+bool next_direction_may_turn(const Newton *newton);
 
 /* Turns all nodes to the angle at which E is lowest, where P is the same at all
- * angles (system_turns_freely).  The turn is made if the scene is stiff, and
- * also if p passes the test but turns_may_follow.  Angular momentum is then
- * exact: sum m d x (u - u_tilde) = 0, with d from the pivot to a node. Newton's
- * straight directions stretch a body that turns, so a stiff body would turn by
- * tiny steps, which pass the test.  Returns the change of E, J s^2. */
+ * angles (system_turns_freely).  The turn is made in stiff scenes, and in
+ * others if p passes the test although next_direction_may_turn is true.  Then
+ * angular momentum is exact: the sum of m cross(d, u - u_tilde) is 0, with d
+ * from the pivot to a node.  Newton's straight directions stretch a body that
+ * turns, so a stiff body would turn by tiny steps, which pass the test. Returns
+ * the change of E, J s^2. */
 double turn_free_body(Newton *newton);
 
 /* ---- multigrid.c: the same phases for large squares, without a factor */
@@ -90,10 +92,11 @@ void rounding_prepare(Newton *newton);
 /* Whether a change of E, J s^2, is at most a few units in E's last place. */
 bool is_below_roundoff(const Newton *newton, double change);
 
-/* Whether E at u_trial confirms record.change: E is not higher than predicted
- * by more than rounding explains.  True without a test if the scene is not
- * stiff, if there is no line search, or if rounding.energy_limit is finite. */
-bool rounding_confirms_change(Newton *newton);
+/* Whether E at u_trial confirms record.energy_change: E is not higher than
+ * predicted by more than rounding explains.  True without a test if the scene
+ * is not stiff, if there is no line search, or if rounding.energy_limit is
+ * finite. */
+bool energy_confirms_change(Newton *newton);
 
 /* Whether E at u, x [2n] is at most rounding.energy_limit. */
 bool energy_is_within_limit(const Newton *newton, const double *u,

@@ -132,7 +132,7 @@ static int smaller_of(int a, int b)
 
 /* Whether a call is a case that CHOLMOD never uses.  The result then becomes
  * NaN, so that the factorisation fails. */
-static bool mark_unsupported_case(bool known, double *result)
+static bool reject_unsupported_case(bool known, double *result)
 {
     if (!known)
         *result = NAN;
@@ -145,7 +145,7 @@ void dgemm_(const char *transa, const char *transb, const int *m, const int *n,
             const double *B, const int *ldb, const double *beta, double *C,
             const int *ldc)
 {
-    if (mark_unsupported_case(
+    if (reject_unsupported_case(
             *transa == 'N' && *transb != 'N' && *alpha == 1 && *beta == 0, C))
         return;
     for (int j = 0; j < *n; j += GROUP_COLUMNS)
@@ -160,7 +160,7 @@ void dsyrk_(const char *uplo, const char *trans, const int *n, const int *k,
             const double *alpha, const double *A, const int *lda,
             const double *beta, double *C, const int *ldc)
 {
-    if (mark_unsupported_case(
+    if (reject_unsupported_case(
             *uplo == 'L' && *trans == 'N' && *alpha == 1 && *beta == 0, C))
         return;
     for (int j = 0; j < *n; j += GROUP_COLUMNS)
@@ -174,9 +174,9 @@ void dtrsm_(const char *side, const char *uplo, const char *trans,
             const char *diag, const int *m, const int *n, const double *alpha,
             const double *L, const int *ldl, double *B, const int *ldb)
 {
-    if (mark_unsupported_case(*side == 'R' && *uplo == 'L' && *trans != 'N' &&
-                                  *diag == 'N' && *alpha == 1,
-                              B))
+    if (reject_unsupported_case(*side == 'R' && *uplo == 'L' && *trans != 'N' &&
+                                    *diag == 'N' && *alpha == 1,
+                                B))
         return;
     for (int j = 0; j < *n; j += GROUP_COLUMNS) {
         const double *D = L + (size_t)j * *ldl + j;
@@ -188,7 +188,7 @@ void dtrsm_(const char *side, const char *uplo, const char *trans,
 
 /* Factors D [n, n], n at most 4, as L L^T in place.  Returns the number, from
  * 1, of the first pivot that is not positive, or 0. */
-static int factor_block(int n, double *D, int ldd)
+static int factor_small_block(int n, double *D, int ldd)
 {
     for (int q = 0; q < n; q++) {
         double *d = D + (size_t)q * ldd;
@@ -216,7 +216,7 @@ void dpotrf_(const char *uplo, const int *n, double *A, const int *lda,
         double *D = A + (size_t)j * *lda + j;
         multiply_dense(&(DenseProduct){*n - j, wide, j, A + j, A + j, D, *lda,
                                        *lda, *lda, true, NULL, 0});
-        int failed = factor_block(wide, D, *lda);
+        int failed = factor_small_block(wide, D, *lda);
         if (failed) {
             *info = j + failed;
             return;
@@ -233,13 +233,13 @@ static inline Double2 load_double2(const double *a)
     return *(const Double2 *)a;
 }
 
-static const double *panel_get_column(const Panel *panel, int j)
+static const double *panel_get_column(const FactorPanel *panel, int j)
 {
     return panel->value + (size_t)j * (size_t)panel->rows;
 }
 
 /* Finds columns j to j + 3, and computes the inverses of their pivots. */
-static inline void load_column_group(const Panel *panel, int j,
+static inline void load_column_group(const FactorPanel *panel, int j,
                                      const double *a[GROUP_COLUMNS],
                                      double pivot[GROUP_COLUMNS])
 {
@@ -250,7 +250,7 @@ static inline void load_column_group(const Panel *panel, int j,
 }
 
 /* Solves L w = b for w[j] ... w[j + 3]; eliminates them from the rows below. */
-static void solve_forward_group(const Panel *panel, int j, double *w)
+static void solve_forward_group(const FactorPanel *panel, int j, double *w)
 {
     const double *a[GROUP_COLUMNS];
     double v[GROUP_COLUMNS], pivot[GROUP_COLUMNS];
@@ -272,7 +272,7 @@ static void solve_forward_group(const Panel *panel, int j, double *w)
 }
 
 /* Solves L^T w = b for w[j] ... w[j + 3]; the rows below are known. */
-static void solve_backward_group(const Panel *panel, int j, double *w)
+static void solve_backward_group(const FactorPanel *panel, int j, double *w)
 {
     const double *a[GROUP_COLUMNS];
     double v[GROUP_COLUMNS], pivot[GROUP_COLUMNS];
@@ -296,7 +296,7 @@ static void solve_backward_group(const Panel *panel, int j, double *w)
     }
 }
 
-void panel_forward(const Panel *panel, double *w)
+void panel_solve_forward(const FactorPanel *panel, double *w)
 {
     int j = 0;
     for (; j + GROUP_COLUMNS <= panel->columns; j += GROUP_COLUMNS)
@@ -309,7 +309,7 @@ void panel_forward(const Panel *panel, double *w)
     }
 }
 
-void panel_backward(const Panel *panel, double *w)
+void panel_solve_backward(const FactorPanel *panel, double *w)
 {
     int j = panel->columns;
     while (j % GROUP_COLUMNS > 0) {

@@ -16,15 +16,15 @@
  * time at 32 segments, four fifths at 64 and above. */
 #pragma once
 
-typedef struct Panel {
+typedef struct FactorPanel {
     int columns, rows;
     const int *row; /* [rows] index of each row in L, diagonal block first */
     const double *value; /* [rows * columns] by columns; entries above the
                             diagonal have no meaning */
-} Panel;
+} FactorPanel;
 
 /* Forward: solves for the panel's columns of L w = b, and subtracts their
  * products from the rows below.  Backward: solves for the panel's columns of
  * L^T w = b from known rows below.  w [rows] in/out. */
-void panel_forward(const Panel *panel, double *w);
-void panel_backward(const Panel *panel, double *w);
+void panel_solve_forward(const FactorPanel *panel, double *w);
+void panel_solve_backward(const FactorPanel *panel, double *w);

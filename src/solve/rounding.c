@@ -10,9 +10,9 @@ enum { MIN_STAGNANT_ITERATIONS = 20 };
 /* Without a line search updates may go round in circles.  After this many
  * iterations without a smaller residual the loop ends.  (Of 1100 steps with
  * contact one converged later.) */
-enum { MAX_CIRCLING_ITERATIONS = 500 };
+enum { MAX_STAGNANT_ITERATIONS = 500 };
 
-/* Limits of w max_curvature / min_mass, w being P's weight.  Above
+/* Limits of w max_stiffness / min_mass, w being P's weight.  Above
  * STIFF_MASSES, rounding of the gradient may hide that E rises along p.  Above
  * INEXACT_MASSES, a direction from a factor may have a relative error of 1e-5.
  * Above HIDDEN_MASSES, mass plus stiffness rounds to the stiffness. */
@@ -41,12 +41,12 @@ void rounding_prepare(Newton *newton)
         for (int s = 0; s < system->springs; s++)
             l2 = fmin(l2, system->l2[s]);
         rounding->shortest_spring = sqrt(l2);
-        rounding->max_curvature = system_curvature_estimate(system);
+        rounding->max_stiffness = system_max_stiffness(system);
     }
     rounding->best_residual = INFINITY;
     rounding->stagnant_iterations = 0;
     rounding->E = NAN;
-    double stiffness = at->E.weight * rounding->max_curvature;
+    double stiffness = at->E.weight * rounding->max_stiffness;
     rounding->is_stiff = stiffness > STIFF_MASSES * rounding->min_mass;
     rounding->factor_is_inexact =
         stiffness > INEXACT_MASSES * rounding->min_mass;
@@ -82,10 +82,11 @@ static double sample_coordinate_rounding(Newton *newton, const double *u,
         incremental_potential_value(&newton->iterate.E, near_u, near_x) - E);
 }
 
-/* The change of E may lie above record.change by the rounding of E and by that
- * of the coordinates.  The estimate for the coordinates needs E twice more, and
- * is computed only if the rounding of E does not explain the difference. */
-bool rounding_confirms_change(Newton *newton)
+/* The change of E may lie above record.energy_change by the rounding of E and
+ * by that of the coordinates.  The estimate for the coordinates needs E twice
+ * more, and is computed only if the rounding of E does not explain the
+ * difference. */
+bool energy_confirms_change(Newton *newton)
 {
     RoundingChecks *rounding = &newton->rounding;
     const Iterate *at = &newton->iterate;
@@ -125,7 +126,7 @@ Status rounding_test_stagnation(Newton *newton)
     if (rounding->stagnant_iterations >= MIN_STAGNANT_ITERATIONS &&
         is_below_roundoff(newton, newton->record.energy_change))
         return STATUS_ROUNDING_LIMIT;
-    return rounding->stagnant_iterations >= MAX_CIRCLING_ITERATIONS &&
+    return rounding->stagnant_iterations >= MAX_STAGNANT_ITERATIONS &&
                    newton->settings.line_search == LINE_SEARCH_NONE
                ? STATUS_ITERATION_LIMIT
                : STATUS_RUNNING;

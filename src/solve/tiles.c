@@ -30,7 +30,7 @@ static const double DIRECTION_SWEEPS = 7, WORTH = 0.25;
 /* Limit of the rounds, which rounding errors might continue for ever. */
 enum { MAX_TILE_ROUNDS = 10000 };
 
-void tiles_lay_out(const Grid *grid, ArrayArena *memory, Tiles *tiles)
+void tiles_init(const Grid *grid, ArrayArena *memory, Tiles *tiles)
 {
     int high = grid->segments / TILE_ROWS + 1;
     int wide = (grid->rows.column_count[0] + LANES - 1) / LANES;
@@ -64,8 +64,8 @@ INLINE float find_lowering_step(const float q[4], float *lower)
 
 /* Computes the sums over the springs of LANES nodes of a row.  A separate loop
  * is faster, since no iteration waits for another. */
-INLINE void compute_spring_sums(const Tiles *tiles, NodeRun at,
-                                bool has_tiny_moves, NodeSums of)
+INLINE void compute_spring_sums(const Tiles *tiles, NodeRange at,
+                                bool has_tiny_moves, SpringSums of)
 {
     const Grid *grid = tiles->grid;
     const ptrdiff_t plane = grid->rows.plane_length;
@@ -82,7 +82,7 @@ INLINE void compute_spring_sums(const Tiles *tiles, NodeRun at,
         FloatSpring s = evaluate_float_spring(grid, kind, q, to, numbers);     \
         const Floats w[2] = {FLOATS(ux, q) - FLOATS(ux, q + (to)),             \
                              FLOATS(uy, q) - FLOATS(uy, q + (to))};            \
-        add_spring(s, has_tiny_moves ? w : NULL, sum);                         \
+        add_spring_sums(s, has_tiny_moves ? w : NULL, sum);                    \
     }
         ALL_SPRINGS(ADD, at)
 #undef ADD
@@ -91,14 +91,14 @@ INLINE void compute_spring_sums(const Tiles *tiles, NodeRun at,
 }
 
 /* Moves LANES nodes of a row that share no spring; adds E's changes to sum. */
-INLINE void relax_nodes(const Tiles *tiles, NodeRun at, bool has_tiny_moves,
+INLINE void relax_nodes(const Tiles *tiles, NodeRange at, bool has_tiny_moves,
                         double *sum)
 {
     const Grid *grid = tiles->grid;
     const ptrdiff_t plane = grid->rows.plane_length;
     float *const x = grid->float_x, *const y = x + plane;
     float *const ux = tiles->u, *const uy = ux + plane;
-    NodeSums of;
+    SpringSums of;
     compute_spring_sums(tiles, at, has_tiny_moves, of);
     EACH_OF (NEXT(at, LANES)) {
         const ptrdiff_t q = at.first + e;
@@ -134,7 +134,7 @@ INLINE double relax_tile(const Tiles *tiles, int tile, bool has_tiny_moves)
         for (int i = top + colour / 2; i < top + TILE_ROWS; i += 2) {
             if (i >= grid.rows.nodes_per_side)
                 break;
-            NodeRun at = grid_get_node_run(&grid, i, colour % 2);
+            NodeRange at = grid_get_node_range(&grid, i, colour % 2);
             at.first += column * LANES;
             if (at.first < at.end)
                 relax_nodes(tiles, at, has_tiny_moves, sum);
@@ -199,7 +199,7 @@ INLINE void begin_relaxation(const Tiles *tiles, double *g)
 
 /* Returns the activity of the most active tile: the lowest number, since
  * activities are changes of E and <= 0. */
-INLINE double find_largest_activity(const Tiles *tiles)
+INLINE double find_lowest_activity(const Tiles *tiles)
 {
     double low[LANES] = {0}, largest = 0;
     for (int t = 0; t < tiles->rows * tiles->columns; t += LANES)
@@ -227,7 +227,7 @@ FAST double tiles_relax(Tiles *tiles, double pace, double *p)
         tiles->activity[t] = tiles->last_change[t];
     bool pays = change < 0;
     for (int round = 0; round < MAX_TILE_ROUNDS && pays; round++) {
-        double least = SHARE * find_largest_activity(tiles);
+        double least = SHARE * find_lowest_activity(tiles);
         double lowered = sweep_tiles(tiles, least, &visits);
         change += lowered;
         sweeps += visits;

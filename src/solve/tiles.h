@@ -32,7 +32,7 @@ typedef struct Tiles {
     long sweeps;         /* number of sweeps since the object was made */
 } Tiles;
 
-void tiles_lay_out(const Grid *grid, ArrayArena *memory, Tiles *tiles);
+void tiles_init(const Grid *grid, ArrayArena *memory, Tiles *tiles);
 
 /* Sweeps all tiles once, then in rounds those with the largest Tiles.activity,
  * until a sweep lowers E by less than the pace, or by little in comparison with

@@ -5,7 +5,7 @@
 #include "base/mathematics.h"
 #include "solve/newton_parts.h"
 
-bool turns_may_follow(const Newton *newton)
+bool next_direction_may_turn(const Newton *newton)
 {
     const Iterate *at = &newton->iterate;
     double torque = 0;
@@ -28,7 +28,7 @@ double turn_free_body(Newton *newton)
     double mass = 0, centre[2] = {0}, moved[2] = {0}, along = 0, across = 0;
     int pivot;
     bool turns = newton->rounding.is_stiff ||
-                 (newton->passes_test && turns_may_follow(newton));
+                 (newton->meets_tolerance && next_direction_may_turn(newton));
     if (!turns || !system_turns_freely(system, &pivot))
         return 0;
     for (int i = 0; i < size; i++) {

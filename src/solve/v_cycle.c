@@ -10,13 +10,13 @@
 /* Largest number of nodes along a side of the coarsest level. */
 enum { COARSEST_SIDE_NODES = 3 };
 
-void v_cycle_lay_out(const Grid *grid, ArrayArena *memory, VCycle *cycle)
+void v_cycle_init(const Grid *grid, ArrayArena *memory, VCycle *cycle)
 {
     Level *level = cycle->level;
     *cycle = (VCycle){.grid = grid};
     for (int nodes = grid->rows.nodes_per_side, more = 1; more; level++) {
         more = nodes > COARSEST_SIDE_NODES;
-        level->rows = lay_out_rows(nodes);
+        level->rows = make_row_layout(nodes);
         nodes = nodes / 2 + 1;
         size_t bytes = (size_t)level->rows.plane_length * sizeof(float);
         for (int i = 0; i < 3 * SPRING_KINDS; i++)
@@ -57,13 +57,13 @@ INLINE int count_rows_to_coarsen(const Level *level)
 /* ---- tensors ---- */
 
 /* Computes the tensors of the springs that start in row i. */
-INLINE void compute_tensor_row(const VCycle *cycle, int i, bool is_clamped)
+INLINE void compute_spring_tensors(const VCycle *cycle, int i, bool is_clamped)
 {
     const Grid grid = *cycle->grid;
     const Level level = cycle->level[0];
     for (int odd = 0; odd < 2; odd++)
-        for (NodeRun at = grid_get_node_run(&grid, i, odd); at.first < at.end;
-             at.first += LANES) {
+        for (NodeRange at = grid_get_node_range(&grid, i, odd);
+             at.first < at.end; at.first += LANES) {
 #define ADD(kind, to, numbers)                                                 \
     EACH_FLOATS (NEXT(at, LANES)) {                                            \
         const ptrdiff_t q = at.first + e;                                      \
@@ -83,8 +83,8 @@ INLINE void invert_diagonal_row(const Level *of, int i)
 {
     const Level level = *of;
     for (int odd = 0; odd < 2; odd++)
-        for (NodeRun at = get_node_run(&level.rows, i, odd); at.first < at.end;
-             at.first += LANES)
+        for (NodeRange at = get_node_range(&level.rows, i, odd);
+             at.first < at.end; at.first += LANES)
             EACH_OF (NEXT(at, LANES)) {
                 const ptrdiff_t q = at.first + e;
                 float mass = level.m[q], xx = mass, xy = 0, yy = mass;
@@ -168,14 +168,14 @@ INLINE void restrict_row(const RowLayout *finer, const RowLayout *coarse, int I,
 }
 
 /* Computes the matrices of rows i and i + 1, and tensors of coarse row i/2. */
-INLINE void compute_matrix_rows(const VCycle *cycle, const Level *level, int i)
+INLINE void compute_row_matrices(const VCycle *cycle, const Level *level, int i)
 {
     for (int row = i; row < i + 2; row++)
         if (row_exists(level->rows.nodes_per_side, row)) {
             if (level == cycle->level && cycle->is_clamped)
-                compute_tensor_row(cycle, row, true);
+                compute_spring_tensors(cycle, row, true);
             else if (level == cycle->level)
-                compute_tensor_row(cycle, row, false);
+                compute_spring_tensors(cycle, row, false);
             invert_diagonal_row(level, row);
         }
     if (level->coarse && row_exists(count_rows_to_coarsen(level), i))
@@ -208,38 +208,38 @@ void v_cycle_copy_system(VCycle *cycle)
 /* ---- the V-cycle: A x = b ---- */
 
 /* What a pass over one colour of a row computes. */
-typedef enum PassKind {
-    PASS_FIRST,    /* the first pass, from x = 0: x = D (b + sum of K x'), D the
-                      inverse diagonal, x' at neighbours of earlier colours */
-    PASS_RESIDUAL, /* w = b - A x after PASS_FIRST.  All terms cancel but the
+typedef enum SweepKind {
+    SWEEP_FIRST, /* the first pass, from x = 0: x = D (b + sum of K x'), D the
+                   inverse diagonal, x' at neighbours of earlier colours */
+    SWEEP_RESIDUAL, /* w = b - A x after SWEEP_FIRST.  All terms cancel but the
                       sum of K x' over springs to later colours */
-    PASS_SMOOTH,   /* Gauss-Seidel: x += D (b - A x), node by node */
-    PASS_PRODUCT   /* w = A x; adds x.b to xb and x.w to xw */
-} PassKind;
+    SWEEP_SMOOTH,   /* Gauss-Seidel: x += D (b - A x), node by node */
+    SWEEP_PRODUCT   /* w = A x; adds x.b to xb and x.w to xw */
+} SweepKind;
 
 /* Makes a pass over one colour of row i, if the level has this row.  The colour
  * is 2 in odd rows, plus 1 in odd columns.  Neighbours of earlier colours are
  * beside a node in an odd column, and above and below a node in an odd row. */
-INLINE void sweep_row(const Level *of, int i, int colour, PassKind result,
+INLINE void sweep_row(const Level *of, int i, int colour, SweepKind result,
                       float *xb, float *xw)
 {
     const Level level = *of;
     const ptrdiff_t plane = level.rows.plane_length;
-    const bool from_0 = result == PASS_FIRST || result == PASS_RESIDUAL;
-    const bool along = !from_0 || (colour % 2 != 0) == (result == PASS_FIRST);
-    const bool across = !from_0 || (colour / 2 != 0) == (result == PASS_FIRST);
+    const bool from_0 = result == SWEEP_FIRST || result == SWEEP_RESIDUAL;
+    const bool along = !from_0 || (colour % 2 != 0) == (result == SWEEP_FIRST);
+    const bool across = !from_0 || (colour / 2 != 0) == (result == SWEEP_FIRST);
     float *const x = level.x, *const y = x + plane;
     float *const wx = level.w, *const wy = wx + plane;
     const float *const bx = level.b, *const by = bx + plane;
     if (!row_exists(level.rows.nodes_per_side, i))
         return;
-    for (NodeRun at = get_node_run(&level.rows, i, colour % 2);
+    for (NodeRange at = get_node_range(&level.rows, i, colour % 2);
          at.first < at.end; at.first += LANES)
         EACH_FLOATS (NEXT(at, LANES)) {
             const ptrdiff_t q = at.first + e;
             /* (ax, ay) becomes b - A x if from_0, else A x. */
             Floats hx = {0}, hy = {0}, ax = {0}, ay = {0};
-            if (result == PASS_FIRST) {
+            if (result == SWEEP_FIRST) {
                 ax = FLOATS(bx, q);
                 ay = FLOATS(by, q);
             } else if (!from_0) {
@@ -267,12 +267,12 @@ INLINE void sweep_row(const Level *of, int i, int colour, PassKind result,
 #undef ADD
             Floats rx = from_0 ? ax : FLOATS(bx, q) - ax;
             Floats ry = from_0 ? ay : FLOATS(by, q) - ay;
-            if (result == PASS_FIRST || result == PASS_SMOOTH) {
+            if (result == SWEEP_FIRST || result == SWEEP_SMOOTH) {
                 Floats xx = FLOATS(level.D[0], q), xy = FLOATS(level.D[1], q);
                 Floats yy = FLOATS(level.D[2], q);
                 FLOATS(x, q) = hx + (xx * rx + xy * ry);
                 FLOATS(y, q) = hy + (xy * rx + yy * ry);
-            } else if (result == PASS_RESIDUAL) {
+            } else if (result == SWEEP_RESIDUAL) {
                 FLOATS(wx, q) = WHERE(FLOATS(level.D[0], q) != 0, rx);
                 FLOATS(wy, q) = WHERE(FLOATS(level.D[0], q) != 0, ry);
             } else {
@@ -316,15 +316,15 @@ FAST static void descend_level(const VCycle *cycle, const Level *l)
     const int rows = count_rows_to_coarsen(l);
     for (int i = 0; i < rows + 4; i += 2) {
         if (!cycle->has_matrices)
-            compute_matrix_rows(cycle, l, i);
-        sweep_row(l, i, 0, PASS_FIRST, NULL, NULL);
-        sweep_row(l, i, 1, PASS_FIRST, NULL, NULL);
-        sweep_row(l, i - 1, 2, PASS_FIRST, NULL, NULL);
-        sweep_row(l, i - 1, 3, PASS_FIRST, NULL, NULL);
-        sweep_row(l, i - 1, 2, PASS_RESIDUAL, NULL, NULL);
-        sweep_row(l, i - 1, 3, PASS_RESIDUAL, NULL, NULL);
-        sweep_row(l, i - 2, 0, PASS_RESIDUAL, NULL, NULL);
-        sweep_row(l, i - 2, 1, PASS_RESIDUAL, NULL, NULL);
+            compute_row_matrices(cycle, l, i);
+        sweep_row(l, i, 0, SWEEP_FIRST, NULL, NULL);
+        sweep_row(l, i, 1, SWEEP_FIRST, NULL, NULL);
+        sweep_row(l, i - 1, 2, SWEEP_FIRST, NULL, NULL);
+        sweep_row(l, i - 1, 3, SWEEP_FIRST, NULL, NULL);
+        sweep_row(l, i - 1, 2, SWEEP_RESIDUAL, NULL, NULL);
+        sweep_row(l, i - 1, 3, SWEEP_RESIDUAL, NULL, NULL);
+        sweep_row(l, i - 2, 0, SWEEP_RESIDUAL, NULL, NULL);
+        sweep_row(l, i - 2, 1, SWEEP_RESIDUAL, NULL, NULL);
         for (int c = 0; c < 2 && l->coarse && row_exists(rows, i - 4); c++)
             restrict_row(&l->rows, &l->coarse->rows, i / 2 - 2,
                          l->w + c * l->rows.plane_length,
@@ -344,15 +344,15 @@ FAST static void ascend_level(const Level *l, bool is_opposite)
                             l->coarse->x + c * l->coarse->rows.plane_length,
                             l->x + c * l->rows.plane_length);
         if (is_opposite) {
-            sweep_row(l, i - 1, 3, PASS_SMOOTH, NULL, NULL);
-            sweep_row(l, i - 1, 2, PASS_SMOOTH, NULL, NULL);
-            sweep_row(l, i - 2, 1, PASS_SMOOTH, NULL, NULL);
-            sweep_row(l, i - 2, 0, PASS_SMOOTH, NULL, NULL);
+            sweep_row(l, i - 1, 3, SWEEP_SMOOTH, NULL, NULL);
+            sweep_row(l, i - 1, 2, SWEEP_SMOOTH, NULL, NULL);
+            sweep_row(l, i - 2, 1, SWEEP_SMOOTH, NULL, NULL);
+            sweep_row(l, i - 2, 0, SWEEP_SMOOTH, NULL, NULL);
         } else {
-            sweep_row(l, i, 1, PASS_SMOOTH, NULL, NULL);
-            sweep_row(l, i, 0, PASS_SMOOTH, NULL, NULL);
-            sweep_row(l, i - 1, 2, PASS_SMOOTH, NULL, NULL);
-            sweep_row(l, i - 1, 3, PASS_SMOOTH, NULL, NULL);
+            sweep_row(l, i, 1, SWEEP_SMOOTH, NULL, NULL);
+            sweep_row(l, i, 0, SWEEP_SMOOTH, NULL, NULL);
+            sweep_row(l, i - 1, 2, SWEEP_SMOOTH, NULL, NULL);
+            sweep_row(l, i - 1, 3, SWEEP_SMOOTH, NULL, NULL);
         }
     }
 }
@@ -374,8 +374,8 @@ FAST static void multiply_by_level_matrix(const Level *level, double *sums)
     for (int i = 0; i < level->rows.nodes_per_side; i++) {
         float xb[LANES] = {0}, xw[LANES] = {0};
         double row[2] = {0, 0};
-        sweep_row(level, i, 0, PASS_PRODUCT, xb, xw);
-        sweep_row(level, i, 1, PASS_PRODUCT, xb, xw);
+        sweep_row(level, i, 0, SWEEP_PRODUCT, xb, xw);
+        sweep_row(level, i, 1, SWEEP_PRODUCT, xb, xw);
         for (int e = 0; e < LANES; e++) {
             row[0] += (double)xb[e];
             row[1] += (double)xw[e];
@@ -427,14 +427,14 @@ FAST static double advance_conjugate_gradients(const VCycle *of, float alpha,
     return total;
 }
 
-bool p_passes_test(const Grid *grid, double largest, double square,
-                   double longest)
+bool p_meets_tolerance(const Grid *grid, double largest, double square,
+                       double longest)
 {
     return largest + sqrt(2 / grid->min_mass * square) <= longest;
 }
 
 /* Limit of the V-cycles for one direction. */
-enum { MAX_CYCLES = 60 };
+enum { MAX_V_CYCLES = 60 };
 
 /* Conjugate gradients end when p passes the test with MARGIN times the bound of
  * its error, or when the linear residual, relative to the gradient in the norm
@@ -477,7 +477,7 @@ FAST bool v_cycle_solve(VCycle *cycle, const double *g, double square,
     if (!cycle->has_matrices)
         grid_update_float_x(grid);
     narrow_array_to_single(g, -unit, 0, numbers, cycle->level->b);
-    for (int i = 0; i < MAX_CYCLES && !passes; i++) {
+    for (int i = 0; i < MAX_V_CYCLES && !passes; i++) {
         double sums[2];
         run_v_cycle(cycle, cycle->level);
         cycle->has_matrices = true;
@@ -508,7 +508,7 @@ FAST bool v_cycle_solve(VCycle *cycle, const double *g, double square,
             advance_conjugate_gradients(cycle, (float)alpha, (float)beta);
         double share = sqrt(rest / square) / unit;
         *largest = find_largest_node_norm(found, plane) / unit;
-        passes = p_passes_test(
+        passes = p_meets_tolerance(
             grid, *largest, MARGIN * MARGIN * share * share * square, longest);
         if (share <= (*largest > SMALL_P * longest ? LOOSE : LEAST))
             break;

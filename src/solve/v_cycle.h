@@ -47,7 +47,7 @@ typedef struct VCycle {
     long cycles;       /* number of V-cycles so far */
 } VCycle;
 
-void v_cycle_lay_out(const Grid *grid, ArrayArena *memory, VCycle *cycle);
+void v_cycle_init(const Grid *grid, ArrayArena *memory, VCycle *cycle);
 
 /* Copies masses, pins and stiffnesses from the grid, coarsens the masses, and
  * sets the number of levels. */
@@ -70,5 +70,5 @@ bool v_cycle_solve(VCycle *cycle, const double *g, double square,
  *   largest  max over nodes of |p_x| + |p_y|
  *   square   |r|_(M^-1)^2
  *   longest  largest |p_x| + |p_y| of a node with which p passes the test */
-bool p_passes_test(const Grid *grid, double largest, double square,
-                   double longest);
+bool p_meets_tolerance(const Grid *grid, double largest, double square,
+                       double longest);

@@ -24,14 +24,14 @@ static void drift_positions(TimeIntegrator *run, const double *v)
 }
 
 /* Drifts with the velocity of t_n.  Order 1. */
-static void forward_euler_set_state(TimeIntegrator *run)
+static void forward_euler_set_x_v(TimeIntegrator *run)
 {
     kick_velocities(run);
     drift_positions(run, run->v);
 }
 
 /* Drifts with the velocity of t_(n+1).  Order 1. */
-static void symplectic_euler_set_state(TimeIntegrator *run)
+static void symplectic_euler_set_x_v(TimeIntegrator *run)
 {
     kick_velocities(run);
     drift_positions(run, run->new_v);
@@ -40,11 +40,11 @@ static void symplectic_euler_set_state(TimeIntegrator *run)
 /* Velocity Verlet: x_(n+1) = x_n + h v_n + h^2/2 a_n,
  * v_(n+1) = v_n + h/2 (a_n + a_(n+1)).  Order 2, symplectic; a_(n+1) is
  * remembered, so a step costs one evaluation. */
-static void verlet_set_state(TimeIntegrator *run)
+static void verlet_set_x_v(TimeIntegrator *run)
 {
-    double *a = run->memory, h = run->h;
+    double *a = run->history, h = run->h;
     double *new_x = run->new_x, *new_v = run->new_v;
-    if (run->memory_h == 0)
+    if (run->history_h == 0)
         system_acceleration(run->system, run->x, a);
     for (size_t i = 0; i < run->x_length; i++) {
         new_v[i] = run->v[i] + 0.5 * h * a[i];
@@ -53,7 +53,7 @@ static void verlet_set_state(TimeIntegrator *run)
     system_acceleration(run->system, new_x, a);
     for (size_t i = 0; i < run->x_length; i++)
         new_v[i] += 0.5 * h * a[i];
-    run->memory_h = h;
+    run->history_h = h;
 }
 
 /* ---- implicit methods: min |u - u_tilde|_M^2 / 2 + w P(x_n + u), u = x - x_n,
@@ -79,7 +79,7 @@ static void backward_euler_set_target(TimeIntegrator *run)
     set_drift_target(run, h, run->v, h * h);
 }
 
-static void backward_euler_set_state(TimeIntegrator *run)
+static void backward_euler_set_x_v(TimeIntegrator *run)
 {
     const Iterate *end = &run->newton->iterate;
     double h = run->h;
@@ -95,8 +95,8 @@ static void backward_euler_set_state(TimeIntegrator *run)
 static void bdf2_set_target(TimeIntegrator *run)
 {
     double h = run->h, *v = run->v;
-    double *du = run->memory, *v_old = du + run->x_length;
-    if (run->memory_h != h) {
+    double *du = run->history, *v_old = du + run->x_length;
+    if (run->history_h != h) {
         backward_euler_set_target(run);
         return;
     }
@@ -105,20 +105,20 @@ static void bdf2_set_target(TimeIntegrator *run)
         run->newton->u_tilde[i] = du[i] / 3 + 2 * h / 9 * (4 * v[i] - v_old[i]);
 }
 
-static void bdf2_set_state(TimeIntegrator *run)
+static void bdf2_set_x_v(TimeIntegrator *run)
 {
     const Iterate *end = &run->newton->iterate;
     double h = run->h, *v = run->v;
-    double *du = run->memory, *v_old = du + run->x_length;
-    if (run->memory_h != h)
-        backward_euler_set_state(run);
-    for (size_t i = 0; run->memory_h == h && i < run->x_length; i++) {
+    double *du = run->history, *v_old = du + run->x_length;
+    if (run->history_h != h)
+        backward_euler_set_x_v(run);
+    for (size_t i = 0; run->history_h == h && i < run->x_length; i++) {
         run->new_x[i] = end->x[i];
         run->new_v[i] = (3 * end->u[i] - du[i]) / (2 * h);
     }
     memcpy(du, end->u, run->x_length * sizeof *du);
     memcpy(v_old, v, run->x_length * sizeof *v_old);
-    run->memory_h = h;
+    run->history_h = h;
 }
 
 /* Two stages of a diagonally implicit Runge-Kutta method, L-stable (Alexander
@@ -143,7 +143,7 @@ static void sdirk2_set_target(TimeIntegrator *run)
     }
 }
 
-static void sdirk2_set_state(TimeIntegrator *run)
+static void sdirk2_set_x_v(TimeIntegrator *run)
 {
     const Iterate *end = &run->newton->iterate;
     double h = run->h, gh = SDIRK_G * h, rest = (1 - SDIRK_G) * h;
@@ -164,7 +164,7 @@ static void midpoint_set_target(TimeIntegrator *run)
     set_drift_target(run, half, run->v, half * half);
 }
 
-static void midpoint_set_state(TimeIntegrator *run)
+static void midpoint_set_x_v(TimeIntegrator *run)
 {
     const double *u = run->newton->iterate.u;
     for (size_t i = 0; i < run->x_length; i++) {
@@ -175,20 +175,19 @@ static void midpoint_set_state(TimeIntegrator *run)
 
 const IntegratorMethod integrator_methods[] = {
     {"backward-euler", "backward Euler", 1, .supports_all_terms = true,
-     .dissipates = true, .stages = 1, .set_target = backward_euler_set_target,
-     .set_state = backward_euler_set_state},
+     .is_damped = true, .stages = 1, .set_target = backward_euler_set_target,
+     .set_x_v = backward_euler_set_x_v},
     {"symplectic-euler", "symplectic Euler", 1,
-     .set_state = symplectic_euler_set_state},
-    {"forward-euler", "forward Euler", 1, .set_state = forward_euler_set_state},
-    {"verlet", "velocity Verlet", 2, .memory_arrays = 1,
-     .set_state = verlet_set_state},
+     .set_x_v = symplectic_euler_set_x_v},
+    {"forward-euler", "forward Euler", 1, .set_x_v = forward_euler_set_x_v},
+    {"verlet", "velocity Verlet", 2, .history_arrays = 1,
+     .set_x_v = verlet_set_x_v},
     {"midpoint", "implicit midpoint", 2, .stages = 1,
-     .set_target = midpoint_set_target, .set_state = midpoint_set_state},
-    {"bdf2", "BDF2", 2, .dissipates = true, .only_by_name = true,
-     .memory_arrays = 2, .stages = 1, .set_target = bdf2_set_target,
-     .set_state = bdf2_set_state},
-    {"sdirk2", "SDIRK2", 2, .dissipates = true, .only_by_name = true,
-     .stages = 2, .set_target = sdirk2_set_target,
-     .set_state = sdirk2_set_state},
+     .set_target = midpoint_set_target, .set_x_v = midpoint_set_x_v},
+    {"bdf2", "BDF2", 2, .is_damped = true, .only_by_name = true,
+     .history_arrays = 2, .stages = 1, .set_target = bdf2_set_target,
+     .set_x_v = bdf2_set_x_v},
+    {"sdirk2", "SDIRK2", 2, .is_damped = true, .only_by_name = true,
+     .stages = 2, .set_target = sdirk2_set_target, .set_x_v = sdirk2_set_x_v},
     {.name = NULL},
 };

@@ -19,13 +19,13 @@
  * wall at 50 m/s in steps of 0.01 s onto cells of 1/8 m needs 19 parts.  Where
  * a body leaves room for less than a thousandth of the way, the step ends,
  * because each further part would take more updates than the one before. */
-enum { MAX_HALVINGS = 10, MAX_MOTION_PARTS = 100 };
+enum { MAX_MOTION_HALVINGS = 10, MAX_MOTION_PARTS = 100 };
 
 /* Nodes that a wall would touch are carried along, with this fraction of the
  * barrier's width as their gap. */
 #define CARRIED_GAP 0.3
 
-/* Limits like MAX_HALVINGS and MAX_MOTION_PARTS for an obstacle that a
+/* Limits like MAX_MOTION_HALVINGS and MAX_MOTION_PARTS for an obstacle that a
  * hand moves: lower, as the rest of its way can wait for the next step. */
 enum { MAX_HAND_HALVINGS = 6, MAX_HAND_PARTS = 8 };
 
@@ -34,7 +34,7 @@ static bool obstacle_moves(const Contact *contact, int k)
 {
     const double *v = contact->obstacle[k].v;
     bool stopped =
-        contact->hand.is_blocked && k == contact->hand.obstacle_index;
+        contact->push.is_blocked && k == contact->push.obstacle_index;
     return !stopped && (v[0] != 0 || v[1] != 0);
 }
 
@@ -91,7 +91,7 @@ static void move_carried_nodes(const System *system, const Contact *contact,
             continue;
         for (int i = 0; i < system->nodes; i++) {
             if (!contact_includes_pair(contact, system, i, k) ||
-                system->pinned[i]) /* a pinned node stays */
+                system->is_pinned[i]) /* a pinned node stays */
                 continue;
             double now[2] = {x_n[2 * i] + u[2 * i],
                              x_n[2 * i + 1] + u[2 * i + 1]};
@@ -121,7 +121,7 @@ static bool try_prescribed_motion(TimeIntegrator *run, double part)
         u[i] = p[i] =
             run->motion_parts_made == 0 ? 0 : run->newton->iterate.u[i];
         before[i] = x_n[i] + u[i];
-        if (system->pin_v && system->pinned[i / 2])
+        if (system->pin_v && system->is_pinned[i / 2])
             u[i] += way * system->pin_v[i];
     }
     move_obstacles(contact, way);
@@ -155,26 +155,26 @@ static double make_longest_motion(TimeIntegrator *run, double part,
     return 0;
 }
 
-void prescribed_begin_part(TimeIntegrator *run)
+void prescribed_begin_motion_part(TimeIntegrator *run)
 {
     Contact *contact = get_contact(run->system);
     double part = 0;
-    if (contact && contact->hand.is_held &&
-        obstacle_moves(contact, contact->hand.obstacle_index)) {
+    if (contact && contact->push.is_held &&
+        obstacle_moves(contact, contact->push.obstacle_index)) {
         part =
             make_longest_motion(run,
                                 fmin(run->remaining_fraction,
-                                     push_max_step_fraction(contact, run->h)),
+                                     push_max_move_fraction(contact, run->h)),
                                 MAX_HAND_HALVINGS, MAX_HAND_PARTS);
-        contact->hand.is_blocked = part == 0;
-        contact->hand.moving_fraction = run->moved_fraction;
+        contact->push.is_blocked = part == 0;
+        contact->push.moving_fraction = run->moved_fraction;
     }
     bool others = run->system->pin_v != NULL;
     for (int k = 0; contact && k < contact->obstacle_count; k++)
         others = others || obstacle_moves(contact, k);
     if (part == 0 && others)
-        part = make_longest_motion(run, run->remaining_fraction, MAX_HALVINGS,
-                                   MAX_MOTION_PARTS);
+        part = make_longest_motion(run, run->remaining_fraction,
+                                   MAX_MOTION_HALVINGS, MAX_MOTION_PARTS);
     run->is_blocked = part == 0 && others;
     if (part == 0) /* no further motion in this step */
         try_prescribed_motion(run, 0);
@@ -202,7 +202,7 @@ static void report_motion_end(const Newton *newton, Status status)
         settings->observer(settings->user_data, &end);
 }
 
-bool prescribed_end_part(TimeIntegrator *run, Status *status)
+bool prescribed_end_motion_part(TimeIntegrator *run, Status *status)
 {
     const Newton *newton = run->newton;
     long updates = newton->counters.updates - run->updates_before_step;
@@ -237,7 +237,7 @@ double prescribed_compute_work(const TimeIntegrator *run)
             if (kind->gradient)
                 kind->gradient(&at, g);
         for (int i = 0; i < 2 * system->nodes; i++)
-            if (system->pinned[i / 2])
+            if (system->is_pinned[i / 2])
                 pins += g[i] * u[i] / at.weight;
     }
     at.term = system_find_term(system, &contact_energy);
@@ -247,8 +247,8 @@ double prescribed_compute_work(const TimeIntegrator *run)
             int k = walk.element.partner_index;
             const double *v = contact->obstacle[k].v, *n = walk.element.n;
             bool stopped =
-                contact->hand.is_blocked && k == contact->hand.obstacle_index;
-            sum += (stopped ? contact->hand.moving_fraction
+                contact->push.is_blocked && k == contact->push.obstacle_index;
+            sum += (stopped ? contact->push.moving_fraction
                             : run->moved_fraction) *
                    contact_normal_force(&contact->barrier, walk.element.s) *
                    (n[0] * v[0] + n[1] * v[1]);

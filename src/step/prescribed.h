@@ -1,8 +1,8 @@
 /* prescribed.h - motion of walls, pins and a pushed obstacle within a step.
  *
- * A step has one or several minimisations: prescribed_begin_part moves walls
- * and pins as far as there is room and starts one, prescribed_end_part says
- * whether another one follows. */
+ * A step has one or several minimisations: prescribed_begin_motion_part moves
+ * walls and pins as far as there is room and starts one,
+ * prescribed_end_motion_part says whether another one follows. */
 #pragma once
 
 #include "step/time_integrator.h"
@@ -15,14 +15,14 @@ bool prescribed_begin_step(TimeIntegrator *run);
  * there.  Where another part of the way follows, the minimiser is only a guess,
  * and the tolerance is loose.  An obstacle that a hand moves stops where there
  * is no room; walls and pins go on. */
-void prescribed_begin_part(TimeIntegrator *run);
+void prescribed_begin_motion_part(TimeIntegrator *run);
 
 /* Ends the part of the way whose minimisation has ended.  Returns whether
  * another part follows.  After the last part, a status that differs from that
  * of the minimisation is reported to Newton's observer.
  *   status  in: how the minimisation ended; out: how the step ends, BLOCKED if
  *           walls or pins could not move all their way */
-bool prescribed_end_part(TimeIntegrator *run, Status *status);
+bool prescribed_end_motion_part(TimeIntegrator *run, Status *status);
 
 /* Returns the work of the prescribed motion in a step, J.  The pins' work is
  * their reaction, the gradient of E there, times their way.  The obstacles'

@@ -37,13 +37,13 @@ Status time_integrator_create(const IntegratorMethod *method, System *system,
         integrator_method_refuses_system(method, system) ||
         (system->pin_v && !method->supports_all_terms))
         return STATUS_INVALID_INPUT;
-    run->x = calloc((4 + (size_t)method->memory_arrays) * size, sizeof *x);
+    run->x = calloc((4 + (size_t)method->history_arrays) * size, sizeof *x);
     if (!run->x)
         return STATUS_OUT_OF_MEMORY;
     run->v = run->x + size;
     run->new_x = run->v + size;
     run->new_v = run->new_x + size;
-    run->memory = run->new_v + size;
+    run->history = run->new_v + size;
     memcpy(run->x, x, size * sizeof *x);
     memcpy(run->v, v, size * sizeof *v);
     if (method->stages == 0)
@@ -67,15 +67,15 @@ void time_integrator_free(TimeIntegrator *run)
  *
  *     x_tilde = x + h v        method->set_target
  *     x = argmin of E          newton_minimise
- *     v = (x - x_n) / h        method->set_state */
+ *     v = (x - x_n) / h        method->set_x_v */
 
 /* Advances the clock by a step of h. */
 static void advance_step_clock(StepClock *clock, double h)
 {
     if (h != clock->h)
-        *clock = (StepClock){.change_time = clock->time, .h = h};
+        *clock = (StepClock){.h_change_time = clock->time, .h = h};
     clock->steps++;
-    clock->time = clock->change_time + (double)clock->steps * h;
+    clock->time = clock->h_change_time + (double)clock->steps * h;
 }
 
 /* Lets the terms begin a step: friction, for example, reads contacts. */
@@ -111,7 +111,7 @@ static void begin_hand_step(TimeIntegrator *run)
     if (!run->newton) {
         hand->k = 0;
         system_acceleration(system, run->x, run->new_x);
-        run->memory_h = 0; /* the stored acceleration lacks the hand's force */
+        run->history_h = 0; /* the stored acceleration lacks the hand's force */
     }
     hand_begin_step(hand, run->x + i, run->v + i, system->m[hand->node], run->h,
                     run->newton ? NULL : run->new_x + i);
@@ -129,7 +129,7 @@ static void begin_stage(TimeIntegrator *run)
             newton->u_tilde[i] += run->weight * system->gravity[i % 2];
     newton->step_number = run->steps + 1;
     if (run->is_driven)
-        prescribed_begin_part(run);
+        prescribed_begin_motion_part(run);
     else
         newton_start(newton, run->x, NULL, run->weight,
                      newton->settings.tolerance);
@@ -143,7 +143,7 @@ static Status end_step(TimeIntegrator *run, Status status)
     if (status_is_failure(status))
         return status;
     if (!all_finite(run->new_x, both)) {
-        run->memory_h = 0;
+        run->history_h = 0;
         return run->status = STATUS_NOT_FINITE;
     }
     const NodePull *hand = system_term_data(run->system, &hand_energy);
@@ -159,9 +159,9 @@ static Status end_step(TimeIntegrator *run, Status status)
     return run->status;
 }
 
-Status time_integrator_begin(TimeIntegrator *run)
+Status time_integrator_begin_step(TimeIntegrator *run)
 {
-    run->unconverged_status = STATUS_OK;
+    run->stage_status = STATUS_OK;
     run->stage = 0;
     if (run->newton)
         run->newton->total_energy_change = 0;
@@ -175,7 +175,7 @@ Status time_integrator_begin(TimeIntegrator *run)
     return run->status = STATUS_RUNNING;
 }
 
-Status time_integrator_advance(TimeIntegrator *run)
+Status time_integrator_continue(TimeIntegrator *run)
 {
     const IntegratorMethod *method = run->method;
     while (run->stage < method->stages) {
@@ -185,28 +185,28 @@ Status time_integrator_advance(TimeIntegrator *run)
             return status;
 
         /* Move walls and pins by the next part of their way */
-        if (run->is_driven && prescribed_end_part(run, &status)) {
-            prescribed_begin_part(run);
+        if (run->is_driven && prescribed_end_motion_part(run, &status)) {
+            prescribed_begin_motion_part(run);
             continue;
         }
         if (status_is_failure(status))
             return end_step(run, status);
-        run->unconverged_status = status ? status : run->unconverged_status;
+        run->stage_status = status ? status : run->stage_status;
 
         /* Compute x and v, or begin the next stage */
-        method->set_state(run);
+        method->set_x_v(run);
         if (++run->stage < method->stages)
             begin_stage(run);
     }
     if (method->stages == 0)
-        method->set_state(run);
-    return end_step(run, run->unconverged_status);
+        method->set_x_v(run);
+    return end_step(run, run->stage_status);
 }
 
-Status time_integrator_step(TimeIntegrator *run)
+Status time_integrator_make_step(TimeIntegrator *run)
 {
-    Status status = time_integrator_begin(run);
+    Status status = time_integrator_begin_step(run);
     while (status == STATUS_RUNNING)
-        status = time_integrator_advance(run);
+        status = time_integrator_continue(run);
     return status;
 }

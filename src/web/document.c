@@ -83,7 +83,7 @@ unsigned document_darken(Colour colour)
 static void write_text_lines(Writer *to, const LiveValues *values,
                              const char *word, const char *text)
 {
-    for (TextLine line = text_begin(values, text); text_next_line(&line);)
+    for (TextLine line = lines_begin(values, text); text_next_line(&line);)
         print(to, "%s\t#%06x\t%d\t%s\n", word, document_darken(line.colour),
               line.face == FACE_BOLD, line.text);
 }
@@ -103,7 +103,7 @@ static void write_page_texts(Writer *to, const FrameContent *content)
         print(
             to, "asks\t%s\t%d\n",
             page_wants_click(page) ? "place"
-            : page->answer         ? "number"
+            : page->answer_name    ? "number"
                                    : "words",
             simulation_find_shown_point(active_pane(content)->simulation, at));
     } else {
@@ -114,7 +114,7 @@ static void write_page_texts(Writer *to, const FrameContent *content)
     write_text_lines(to, values, "notes", page->notes);
     for (int i = 0; page->code[i]; i++)
         print(to, "code\t%d\t%s\n",
-              strstr(page->code[i], lecture_find_lit_code(content)) != NULL,
+              strstr(page->code[i], lecture_find_highlight(content)) != NULL,
               page->code[i]);
 }
 
@@ -198,7 +198,7 @@ static void write_document_card(Writer *to, const FrameContent *content,
     bool star =
         page && page->main_card && strcmp(page->main_card, card->name) == 0;
     bool closed = content->cards.closed_cards >> index & 1;
-    TextLine title = text_first_line(&pane->values, card->title);
+    TextLine title = text_find_known_line(&pane->values, card->title);
     CardTableRow row;
     char word[24];
     snprintf(word, sizeof word, "words\t%d", index);
@@ -211,7 +211,7 @@ static void write_document_card(Writer *to, const FrameContent *content,
              card->make_legend_row && card->make_legend_row(content, i, &row);
              i++)
             write_table_row(to, "legend", index, &row);
-        TextLine line = text_begin(&pane->values, card->legend);
+        TextLine line = lines_begin(&pane->values, card->legend);
         while (text_next_line(&line))
             print(to, "legend\t%d\t#%06x\t%s\n", index,
                   document_darken(line.colour), line.text);
@@ -260,13 +260,13 @@ static void write_options(Writer *to, const Player *player)
         bool shown = false;
         for (int k = 0; k < player->screen.frame.option_count; k++)
             shown = shown || player->screen.frame.option[k] == row[i];
-        option_write_short(row[i], &now, value, sizeof value);
+        option_write_short_value(row[i], &now, value, sizeof value);
         option_write_unit(row[i], unit, sizeof unit);
         print(to, "number\t%s\t%s\t%s\t%s\t", row[i]->name,
               option_get_label(row[i]), value, unit);
         bool named = row[i]->kind == OPTION_NAME;
-        for (int k = 0; named && names_get(row[i]->names, k); k++)
-            print(to, "%s%s", k ? "|" : "", names_get(row[i]->names, k));
+        for (int k = 0; named && names_get(row[i]->value_names, k); k++)
+            print(to, "%s%s", k ? "|" : "", names_get(row[i]->value_names, k));
         bool tried = !named && page && text_asks_to_change(page->try, row[i]);
         const char *place = tried ? "tried" : "row";
         print(to, "\t%s\t%s\t%s\n", row[i]->help, idle ? idle : "",
@@ -307,7 +307,7 @@ static void describe_shown_body(Writer *to, const Pane *pane)
 }
 
 /* Describes the picture: method and shape of each pane, energies, legend. */
-static void write_picture_fields(Writer *to, const Player *player)
+static void describe_picture(Writer *to, const Player *player)
 {
     const FrameContent *content = &player->screen.frame.content;
     const Simulation *simulation = player_get_simulation(player);
@@ -318,24 +318,24 @@ static void write_picture_fields(Writer *to, const Player *player)
         const IntegratorMethod *method = pane->simulation->run[0].method;
         if (content->panes > 1)
             print(to, " Picture %d of %d:", p + 1, content->panes);
-        if (method && pane->simulation->scene->parts & HAS_TIME)
+        if (method && pane->simulation->scene->traits & HAS_TIME)
             print(to, " %s.", method->label);
         describe_shown_body(to, pane);
     }
     print(to, " %s, %s.", content->time_line.label, content->title_bar.state);
-    if (simulation->scene->parts & HAS_BODY) {
+    if (simulation->scene->traits & HAS_BODY) {
         print(to, " Energies: ");
         write_energies(to, simulation);
         print(to, ".");
     }
-    for (TextLine line = text_begin(values, active_picture(content)->legend);
+    for (TextLine line = lines_begin(values, active_picture(content)->legend);
          text_next_line(&line);)
         print(to, " %s.", line.text);
     print(to, "\n");
 }
 
 /* Describes the last step: "step 12: 3 updates, E fell by 13.8". */
-static void describe_last_step(Writer *to, const Player *player)
+static void describe_shown_step(Writer *to, const Player *player)
 {
     const FrameContent *content = &player->screen.frame.content;
     const NewtonTrace *trace = active_pane(content)->shown_trace;
@@ -391,11 +391,11 @@ void document_write(const Player *player, char *text)
             write_document_card(to, content, i, picture->cards[i]);
     write_options(to, player);
     write_handles_and_switches(to, active_pane(content)->simulation);
-    write_picture_fields(to, player);
-    describe_last_step(to, player);
+    describe_picture(to, player);
+    describe_shown_step(to, player);
 }
 
-void document_write_contents(char *text)
+void document_write_lists(char *text)
 {
     Writer writer = {.text = text}, *to = &writer;
     text[0] = '\0';
@@ -404,7 +404,7 @@ void document_write_contents(char *text)
     for (const Scene *scene = scenes; scene->name && !scene->is_hidden; scene++)
         print(to, "scenes\t%s\t%s: %s\n", scene->name, scene->name,
               scene->description);
-    for (int kind = 1; kind < COMMAND_KINDS; kind++)
+    for (int kind = 1; kind < COMMAND_KIND_COUNT; kind++)
         if (command_rows[kind].keys && command_rows[kind].help)
             print(to, "keys\t%s\t%s\n", command_rows[kind].keys,
                   command_rows[kind].help);

@@ -4,7 +4,7 @@
 #include "play/player.h"
 
 /* Shows the canvas of a card in the page; card -1 is the picture. */
-Status page_show_card(const Canvas *canvas, int card);
+Status web_show_card(const Canvas *canvas, int card);
 
 enum { DOCUMENT_SIZE = 48 << 10 };
 
@@ -18,4 +18,4 @@ unsigned document_darken(Colour colour);
 /* Writes a line for each page of the lecture, each scene and each key:
  *     pages ADDRESS TOPIC, scenes ADDRESS TEXT, keys KEY MEANING
  *   text  [DOCUMENT_SIZE] out */
-void document_write_contents(char *text);
+void document_write_lists(char *text);

@@ -20,7 +20,7 @@ const parseLines = (text) => {
   return lines;
 };
 const field = (word, i = 0) => now[word]?.[0][i] ?? '';
-const obey = (line) => wake(ask('web_obey_lines', null, line));
+const obey = (line) => wake(ask('web_obey_script', null, line));
 
 // Keeps a value in `store` and returns whether it differs from the value before.
 const isNew = (store, key, value) => store[key] !== (store[key] = JSON.stringify(value));
@@ -296,7 +296,7 @@ const showDocument = (time) => {
 
 // Fills the lists of pages, scenes and keys.
 const listDocument = () => {
-  lists = parseLines(ask('web_list_contents', 'string'));
+  lists = parseLines(ask('web_get_lists', 'string'));
   const item = (content) => make('li', content);
   for (const id of ['pages', 'scenes']) {
     const links = lists[id].map(([words, text]) => make('a', [text], { href: '#' + words }));

@@ -63,7 +63,7 @@ EMSCRIPTEN_KEEPALIVE int web_begin_session(const char *words)
 /* Returns the command line that opens the shown scene or page with the shown
  * numbers, one word in each line; "": no such command line exists.  The text
  * is valid until the next call. */
-EMSCRIPTEN_KEEPALIVE const char *web_get_address(void)
+EMSCRIPTEN_KEEPALIVE const char *web_get_command_line(void)
 {
     static char words[MAX_COMMAND_LINE_BYTES];
     Player *player = &session->player;
@@ -79,7 +79,7 @@ EMSCRIPTEN_KEEPALIVE const char *web_get_address(void)
         (!same &&
          player_find_defaults(player, now->scene->name, now->page, base)))
         return words;
-    for (int i = 0; same && (i = player_find_scene_word(player, i + 1));)
+    for (int i = 0; same && (i = player_find_scene_argument(player, i + 1));)
         append(words, sizeof words, "%s\n", player->setup.arguments[i]);
     if (!same)
         append(words, sizeof words, "%s%s", now->page ? "--lecture\n" : "",
@@ -107,10 +107,10 @@ EMSCRIPTEN_KEEPALIVE const char *web_get_document(void)
 }
 
 /* Returns lines for the lists of pages, scenes and keys. */
-EMSCRIPTEN_KEEPALIVE const char *web_list_contents(void)
+EMSCRIPTEN_KEEPALIVE const char *web_get_lists(void)
 {
     static char text[DOCUMENT_SIZE];
-    document_write_contents(text);
+    document_write_lists(text);
     return text;
 }
 
@@ -134,10 +134,10 @@ EMSCRIPTEN_KEEPALIVE void web_draw_card(int card, int width, int height)
     if (card >= picture->card_count || !picture->cards[card]->draw)
         return;
     canvas_free(&paper.canvas);
-    paper.text = player->screen.paper.text;
+    paper.font = player->screen.paper.font;
     if (has_session && !canvas_create(width, height, &paper.canvas)) {
         frame_draw_card(&paper, &player->screen.frame.content, card);
-        page_show_card(&paper.canvas, card);
+        web_show_card(&paper.canvas, card);
     }
 }
 
@@ -150,12 +150,12 @@ static void obey_queued_commands(Player *player, Status status)
 }
 
 /* Obeys commands of a script: "set timestep 0.004; flip 1". */
-EMSCRIPTEN_KEEPALIVE void web_obey_lines(const char *lines)
+EMSCRIPTEN_KEEPALIVE void web_obey_script(const char *lines)
 {
     Player *player = &session->player;
     if (!has_session)
         return;
-    player->commands.gesture = player->hands.mouse.input_gesture =
+    player->commands.gesture_id = player->input.mouse.input_gesture_id =
         ++player->commands.gesture_count;
     obey_queued_commands(player, player_enqueue_lines(player, lines));
 }
@@ -205,9 +205,9 @@ EMSCRIPTEN_KEEPALIVE void web_print_page(int page, int width, int height)
     status = status ? status : player_obey_queue(player, false);
     status = status ? status : player_enqueue_lines(player, row->on_answer);
     status = status ? status : player_obey_queue(player, false);
-    for (int i = 0; i < row->print_presses && !status; i++)
+    for (int i = 0; i < row->key_presses && !status; i++)
         status = player_obey(player, &next);
-    if (!status && !row->print_presses)
+    if (!status && !row->key_presses)
         player_run(player);
     /* With a window the player also makes the texts beside the canvas. */
     player->screen.window = &window_web;
@@ -217,7 +217,7 @@ EMSCRIPTEN_KEEPALIVE void web_print_page(int page, int width, int height)
     if (!paper)
         return;
     player_paint_frame(player, paper);
-    page_show_card(&paper->canvas, -1);
+    web_show_card(&paper->canvas, -1);
 }
 
 /* Hides the answer of the printed page, as before a guess. */

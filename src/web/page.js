@@ -97,7 +97,7 @@ const readAddress = () => {
 const updateAddress = () => {
   looking = 0;
   if (location.hash !== shown) return; // a new address was not read yet
-  const words = ask('web_get_address', 'string').split('\n').filter(Boolean);
+  const words = ask('web_get_command_line', 'string').split('\n').filter(Boolean);
   const text = words.map((word) => encodeURIComponent(word).replace(/%2C/g, ',')).join('+');
   const address = `#${text}${bare ? '&bare' : ''}`;
   if (!text || address === shown) return;

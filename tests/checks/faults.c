@@ -73,7 +73,7 @@ static void fault_write_call_count(void)
     }
 }
 
-static void fault_begin(void)
+static void fault_init(void)
 {
     const char *at = getenv("FAULT_AT");
     atexit(fault_write_call_count);
@@ -81,23 +81,23 @@ static void fault_begin(void)
     fault_kind = getenv("FAULT");
 }
 
-typedef int Main(int, char **, char **);
-typedef int StartMain(Main *, int, char **, void (*)(void), void (*)(void),
-                      void (*)(void), void *);
-StartMain __libc_start_main;
-static Main *real_main;
+typedef int EntryPoint(int, char **, char **);
+typedef int LibcStartMain(EntryPoint *, int, char **, void (*)(void),
+                          void (*)(void), void (*)(void), void *);
+LibcStartMain __libc_start_main;
+static EntryPoint *real_main;
 
-static int fault_main(int argc, char **argv, char **environment)
+static int main_with_faults(int argc, char **argv, char **environment)
 {
-    fault_begin();
+    fault_init();
     return real_main(argc, argv, environment);
 }
 
-int __libc_start_main(Main *function, int argc, char **argv, void (*init)(void),
-                      void (*fini)(void), void (*rtld_fini)(void),
-                      void *stack_end)
+int __libc_start_main(EntryPoint *function, int argc, char **argv,
+                      void (*init)(void), void (*fini)(void),
+                      void (*rtld_fini)(void), void *stack_end)
 {
     real_main = function;
-    return REAL(__libc_start_main)(fault_main, argc, argv, init, fini,
+    return REAL(__libc_start_main)(main_with_faults, argc, argv, init, fini,
                                    rtld_fini, stack_end);
 }

@@ -4,7 +4,7 @@
 #include <float.h>
 #include <math.h>
 
-#define exact_rise          wide_exact_rise
+#define exact_E_change      wide_exact_E_change
 #define exact_residual      wide_exact_residual
 #define oracle_energy       wide_oracle_energy
 #define oracle_step_energy  wide_oracle_step_energy
@@ -12,7 +12,7 @@
 #define exact_strain        wide_exact_strain
 #define exact_derivatives   wide_exact_derivatives
 #define exact_eigenvectors  wide_exact_eigenvectors
-#define visit_blocks        wide_visit_blocks
+#define visit_E_parts       wide_visit_blocks
 #define exact_gap           wide_exact_gap
 #define find_smallest_gap   wide_find_smallest_gap
 #define smallest_area_ratio wide_smallest_area_ratio
@@ -34,7 +34,7 @@ static Real magnitude(Real a)
     return a < 0 ? -a : a;
 }
 
-static Real with_sign(Real size, Real sign)
+static Real copy_sign(Real size, Real sign)
 {
     return sign < 0 ? -magnitude(size) : magnitude(size);
 }
@@ -80,5 +80,5 @@ static Real logarithm(Real a)
 #define hypotl    hypotenuse
 #define fminl     smaller
 #define fmaxl     larger
-#define copysignl with_sign
+#define copysignl copy_sign
 #include "../unit/oracle.c"

@@ -25,7 +25,7 @@ static void report_endless_case(int number)
     _exit(written < 0 ? 2 : 1);
 }
 
-static void begin_case(const char *what)
+static void begin_test_case(const char *what)
 {
     snprintf(stress_line, sizeof stress_line, "%s", what);
     stress_set_time_limit(CASE_TIME_LIMIT);
@@ -38,7 +38,7 @@ static void print_tally(const char *name, const VerdictTally *tally)
     printf("%-22s %7ld %9ld %8ld %5ld %9ld %7ld\n", name, tally->cases,
            tally->steps_by_verdict[VERDICT_CONVERGED],
            tally->steps_by_verdict[VERDICT_REPORTED], tally->wrong_cases,
-           tally->judged_residuals, tally->undecided);
+           tally->judged_residuals, tally->undecided_tests);
     fflush(stdout);
 }
 
@@ -48,7 +48,7 @@ static void add_tally(const VerdictTally *tally, VerdictTally *sum)
     sum->wrong_cases += tally->wrong_cases;
     sum->updates += tally->updates;
     sum->judged_residuals += tally->judged_residuals;
-    sum->undecided += tally->undecided;
+    sum->undecided_tests += tally->undecided_tests;
     for (int i = 0; i < VERDICT_COUNT; i++)
         sum->steps_by_verdict[i] += tally->steps_by_verdict[i];
     for (int i = 0; i < STATUS_COUNT; i++)
@@ -62,7 +62,7 @@ static void run_named_cases(bool quick, VerdictTally *sum)
         VerdictTally tally = {0};
         if (quick && row->is_slow)
             continue;
-        begin_case(row->name);
+        begin_test_case(row->name);
         if (!row->run_case(&tally, reason)) {
             tally.wrong_cases += tally.wrong_cases == 0;
             printf("%s: %s\n", row->name, reason);
@@ -76,7 +76,7 @@ static void run_named_cases(bool quick, VerdictTally *sum)
  * steps of each, least share of converged steps. Steps with the status BLOCKED
  * do not count; one step of bodies in a thousand reaches the update limit. */
 static const struct {
-    const char *name, *kinds;
+    const char *name, *scene_kinds;
     long scene_count;
     int step_count;
     double least_converged_share;
@@ -93,8 +93,8 @@ static void run_random_families(uint64_t seed, bool quick, VerdictTally *sum)
         char reason[512];
         VerdictTally tally = {0};
         long count = families[i].scene_count / (quick ? 10 : 1);
-        begin_case(families[i].name);
-        if (!stress_run_scenes(families[i].kinds, seed, count,
+        begin_test_case(families[i].name);
+        if (!stress_run_scenes(families[i].scene_kinds, seed, count,
                                families[i].step_count, &tally, reason))
             printf("%s: %s\n", stress_line, reason);
         double good = (double)tally.steps_by_verdict[VERDICT_CONVERGED];
@@ -115,8 +115,8 @@ static int run_command_line(const char *line)
                                                      "WRONG"};
     VerdictTally tally = {0};
     char reason[512] = "";
-    begin_case(line);
-    Verdict verdict = stress_run_line(line, 10, &tally, reason);
+    begin_test_case(line);
+    StepVerdict verdict = stress_run_line(line, 10, &tally, reason);
     printf("%s %s\n", words[verdict], reason);
     return verdict == VERDICT_WRONG;
 }
@@ -124,7 +124,7 @@ static int run_command_line(const char *line)
 /* Makes three steps of the default square with each h from 1e-9 to 1e3 s by
  * half decades, k from 1e-6 to 1e15 J/m^2, and eight stretches. With a stretch
  * of 0.1 or more 99 % of the runs must converge, each with an update. */
-static void run_envelope(Solver solver, VerdictTally *sum)
+static void run_parameter_grid(Solver solver, VerdictTally *sum)
 {
     static const double stretch[] = {1e-6, 1e-3, 0.1, 0.5, 1.4, 10, 1e3, 1e6};
     enum { H = 25, K = 22, STRETCH_COUNT = sizeof stretch / sizeof *stretch };
@@ -138,8 +138,8 @@ static void run_envelope(Solver solver, VerdictTally *sum)
                  "--solver %s --stretch %g --stiffness %g --timestep %.17g",
                  get_solver_name(solver), s, pow(10, i / H % K - 6),
                  pow(10, 0.5 * (i % H) - 9));
-        begin_case(line);
-        Verdict verdict = stress_run_line(line, 3, &tally, reason);
+        begin_test_case(line);
+        StepVerdict verdict = stress_run_line(line, 3, &tally, reason);
         if (verdict == VERDICT_WRONG)
             printf("%s (%s)\n", reason, line);
         idle += s >= 0.1 && !verdict && tally.updates == before;
@@ -189,7 +189,7 @@ int main(int argc, char **argv)
     run_named_cases(quick, &sum);
     run_random_families(seed, quick, &sum);
     for (int solver = 0; solver < SOLVER_COUNT && !quick; solver++)
-        run_envelope((Solver)solver, &sum);
+        run_parameter_grid((Solver)solver, &sum);
     print_totals(&sum);
     return sum.wrong_cases > 0;
 }

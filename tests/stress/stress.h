@@ -30,24 +30,24 @@ typedef enum TestVerdict {
     TEST_UNDECIDED /* near the tolerance, or too many iterations */
 } TestVerdict;
 
-/* Tests whether the residual at u is below the tolerance, m/s: conjugate
- * gradients with clamped blocks compute the direction without a matrix. */
-TestVerdict test_large_square(const IncrementalPotential *E, const double *u,
-                              double h, double tolerance);
+/* Tests whether |p|_inf / h at u is below the tolerance, m/s.  Conjugate
+ * gradients without a matrix compute p from the clamped Hessian. */
+TestVerdict test_cg_residual(const IncrementalPotential *E, const double *u,
+                             double h, double tolerance);
 
 /* ---- judging steps (stress_watch.c) ------------------------------------ */
 
-typedef enum Verdict {
+typedef enum StepVerdict {
     VERDICT_CONVERGED, /* the oracle confirms that the step converged */
     VERDICT_REPORTED,  /* the step did not converge, and its status says so */
     VERDICT_WRONG,     /* the step failed a test */
     VERDICT_COUNT
-} Verdict;
+} StepVerdict;
 
 /* Counts of cases, wrong cases, updates, judged residuals, those of them that
  * rounding leaves undecided, and steps by verdict and by status. */
 typedef struct VerdictTally {
-    long cases, wrong_cases, updates, judged_residuals, undecided;
+    long cases, wrong_cases, updates, judged_residuals, undecided_tests;
     long steps_by_verdict[VERDICT_COUNT], steps_by_status[STATUS_COUNT];
 } VerdictTally;
 
@@ -82,7 +82,7 @@ void watch_free(RunWatch *watch);
 Status restart_watched_run(TimeIntegrator *run);
 
 /* Makes one step, tests it and returns the verdict. */
-Verdict make_judged_step(RunWatch *watch);
+StepVerdict make_judged_step(RunWatch *watch);
 
 /* ---- random scenes (stress_scenes.c) ----------------------------------- */
 
@@ -90,14 +90,14 @@ enum { STRESS_LINE_SIZE = 512 };
 
 /* Calls `take` with each row of tests/data/stress.txt below "= NAME" until it
  * returns false; returns what the last call did. */
-bool stress_visit_rows(const char *name, bool (*take)(void *user, char *row),
-                       void *user);
+bool stress_read_rows(const char *name, bool (*take)(void *user, char *row),
+                      void *user);
 
 /* Makes and tests `steps` steps of a command line, which may end with "shaken
  * N".
  *   reason  [512] out, if the verdict is WRONG */
-Verdict stress_run_line(const char *line, int steps, VerdictTally *tally,
-                        char *reason);
+StepVerdict stress_run_line(const char *line, int steps, VerdictTally *tally,
+                            char *reason);
 
 /* Command line that runs now */
 extern char stress_line[STRESS_LINE_SIZE];

@@ -88,7 +88,7 @@ static void store_block(void *blocks, const EnergyPart *block)
 static void clear_pinned_entries(const System *system, Real *vector)
 {
     for (int i = 0; i < 2 * system->nodes; i++)
-        vector[i] = system->pinned[i / 2] ? 0 : vector[i];
+        vector[i] = system->is_pinned[i / 2] ? 0 : vector[i];
 }
 
 /* Computes y = H d, which is 0 at pinned nodes. */
@@ -127,14 +127,14 @@ static Real squared_norm_by_inverse_mass(const System *system, const Real *r)
 
 /* Runs conjugate gradients, preconditioned with the masses, until the test is
  * decided. p, r, d, y [2n] workspace; p starts as 0, r as -grad E. */
-static TestVerdict decide_test(const System *system, Real h, Real tolerance,
+static TestVerdict run_cg_test(const System *system, Real h, Real tolerance,
                                const HessianBlocks *blocks, Real *p, Real *r,
                                Real *d, Real *y)
 {
     Real lightest = INFINITY;
     int size = 2 * system->nodes;
     for (int i = 0; i < system->nodes; i++)
-        if (!system->pinned[i])
+        if (!system->is_pinned[i])
             lightest = fminl(lightest, system->m[i]);
     Real now = squared_norm_by_inverse_mass(system, r), last = INFINITY;
     for (int k = 0; k < MAX_JUDGE_ITERATIONS; k++) {
@@ -159,18 +159,18 @@ static TestVerdict decide_test(const System *system, Real h, Real tolerance,
     return TEST_UNDECIDED;
 }
 
-TestVerdict test_large_square(const IncrementalPotential *E, const double *u,
-                              double h, double tolerance)
+TestVerdict test_cg_residual(const IncrementalPotential *E, const double *u,
+                             double h, double tolerance)
 {
     size_t size = 2 * (size_t)E->system->nodes;
     Real *r = calloc(4 * size, sizeof *r);
     HessianBlocks blocks = {.g = r};
     CHECK(r != NULL);
-    visit_blocks(E, u, 1, store_block, &blocks);
+    visit_E_parts(E, u, 1, store_block, &blocks);
     for (size_t i = 0; i < size; i++)
         r[i] = -r[i];
     clear_pinned_entries(E->system, r);
-    TestVerdict verdict = decide_test(E->system, h, tolerance, &blocks,
+    TestVerdict verdict = run_cg_test(E->system, h, tolerance, &blocks,
                                       r + size, r, r + 2 * size, r + 3 * size);
     free(blocks.entry);
     free(blocks.node);

@@ -11,8 +11,8 @@
 /* Processor time after which a scene counts as endless, s */
 enum { SCENE_TIME_LIMIT = 120 };
 
-bool stress_visit_rows(const char *name, bool (*take)(void *user, char *row),
-                       void *user)
+bool stress_read_rows(const char *name, bool (*take)(void *user, char *row),
+                      void *user)
 {
     char row[2 * STRESS_LINE_SIZE];
     bool good = true, below = false;
@@ -30,19 +30,19 @@ bool stress_visit_rows(const char *name, bool (*take)(void *user, char *row),
 }
 
 /* Parts of random command lines: the rows below "= draw" of stress.txt */
-static struct LinePart {
+static struct CommandPart {
     char kinds[16]; /* kinds of scenes that may have the part (stress.h) */
-    int one_in;     /* 1/one_in: probability that a scene has the part */
+    int rarity;     /* 1/rarity: probability that a scene has the part */
     char format[STRESS_LINE_SIZE];
-} line_parts[96];
-static int line_part_count;
+} command_parts[96];
+static int command_part_count;
 
-static bool store_line_part(void *unused, char *row)
+static bool store_command_part(void *unused, char *row)
 {
-    struct LinePart *part = &line_parts[line_part_count++];
+    struct CommandPart *part = &command_parts[command_part_count++];
     (void)unused;
-    CHECK(line_part_count <= 96);
-    CHECK(sscanf(row, "%15s %d %511[^\n]", part->kinds, &part->one_in,
+    CHECK(command_part_count <= 96);
+    CHECK(sscanf(row, "%15s %d %511[^\n]", part->kinds, &part->rarity,
                  part->format) == 3);
     return true;
 }
@@ -64,7 +64,7 @@ static size_t copy_random_word(Random *random, const char *words, char *text)
 
 /* Appends a part to a line: (a b) is one of the words, [low high] a uniform
  * random number, <low high> a logarithmic one. */
-static void append_line_part(Random *random, const char *part, char *line)
+static void append_command_part(Random *random, const char *part, char *line)
 {
     char *end = strcat(line, line[0] ? " " : "") + strlen(line);
     for (; *part; part++) {
@@ -87,18 +87,18 @@ static void append_line_part(Random *random, const char *part, char *line)
 }
 
 /* Makes the command line of the random scene with this number. */
-static void make_random_line(const char *kinds, uint64_t seed, long number,
-                             char line[STRESS_LINE_SIZE])
+static void make_random_command(const char *kinds, uint64_t seed, long number,
+                                char line[STRESS_LINE_SIZE])
 {
     Random random = {seed * 1000003 + (uint64_t)number};
     char kind = kinds[number % (long)strlen(kinds)];
     line[0] = '\0';
-    if (line_part_count == 0)
-        stress_visit_rows("draw", store_line_part, NULL);
-    for (int i = 0; i < line_part_count; i++)
-        if (strchr(line_parts[i].kinds, kind) &&
-            random_below(&random, line_parts[i].one_in) == 0)
-            append_line_part(&random, line_parts[i].format, line);
+    if (command_part_count == 0)
+        stress_read_rows("draw", store_command_part, NULL);
+    for (int i = 0; i < command_part_count; i++)
+        if (strchr(command_parts[i].kinds, kind) &&
+            random_below(&random, command_parts[i].rarity) == 0)
+            append_command_part(&random, command_parts[i].format, line);
 }
 
 /* Changes masses, springs, positions and velocities at random, each over some
@@ -118,7 +118,7 @@ static void perturb_start(uint64_t seed, TimeIntegrator *run)
     double speed = size / run->h * random_logarithmic(&random, 1e-6, 1);
     int shape = random_below(&random, 8), missing = random_below(&random, 4);
     for (int i = 0; i < 2 * system->nodes; i++) {
-        bool pinned = system->pinned[i / 2];
+        bool pinned = system->is_pinned[i / 2];
         if (shape == 1)
             run->x[i] = size * random_uniform(&random, -1, 1);
         if (shape == 2 && i % 2)
@@ -146,10 +146,10 @@ static void perturb_start(uint64_t seed, TimeIntegrator *run)
 
 /* Makes and tests `steps` steps of every run, after a perturbation if shaken is
  * not 0. Returns the worst verdict. */
-static Verdict run_steps(Simulation *simulation, uint64_t shaken, int steps,
-                         VerdictTally *tally, char *reason)
+static StepVerdict run_steps(Simulation *simulation, uint64_t shaken, int steps,
+                             VerdictTally *tally, char *reason)
 {
-    Verdict worst = VERDICT_CONVERGED;
+    StepVerdict worst = VERDICT_CONVERGED;
     for (int r = 0; r < simulation->runs; r++) {
         TimeIntegrator *run = &simulation->run[r];
         RunWatch watch;
@@ -159,7 +159,7 @@ static Verdict run_steps(Simulation *simulation, uint64_t shaken, int steps,
             !watch_create(run, tally, &watch))
             return snprintf(reason, 512, "no restart"), VERDICT_WRONG;
         for (int step = 0; step < steps && worst != VERDICT_WRONG; step++) {
-            Verdict verdict = make_judged_step(&watch);
+            StepVerdict verdict = make_judged_step(&watch);
             worst = verdict > worst ? verdict : worst;
             if (verdict == VERDICT_WRONG)
                 memcpy(reason, watch.reason, sizeof watch.reason);
@@ -171,8 +171,8 @@ static Verdict run_steps(Simulation *simulation, uint64_t shaken, int steps,
     return worst;
 }
 
-Verdict stress_run_line(const char *line, int steps, VerdictTally *tally,
-                        char *reason)
+StepVerdict stress_run_line(const char *line, int steps, VerdictTally *tally,
+                            char *reason)
 {
     char known[STRESS_LINE_SIZE];
     Simulation simulation;
@@ -182,7 +182,7 @@ Verdict stress_run_line(const char *line, int steps, VerdictTally *tally,
     if (word)
         *word = '\0';
     simulation_from_line(known, NULL, NULL, &simulation);
-    Verdict verdict = run_steps(&simulation, shaken, steps, tally, reason);
+    StepVerdict verdict = run_steps(&simulation, shaken, steps, tally, reason);
     simulation_free(&simulation);
     tally->cases++;
     tally->wrong_cases += verdict == VERDICT_WRONG;
@@ -200,9 +200,9 @@ void stress_set_time_limit(long seconds)
 bool stress_run_scenes(const char *kinds, uint64_t seed, long count, int steps,
                        VerdictTally *tally, char *reason)
 {
-    Verdict verdict = VERDICT_CONVERGED;
+    StepVerdict verdict = VERDICT_CONVERGED;
     for (long i = 0; i < count && verdict != VERDICT_WRONG; i++) {
-        make_random_line(kinds, seed, i, stress_line);
+        make_random_command(kinds, seed, i, stress_line);
         stress_set_time_limit(SCENE_TIME_LIMIT);
         verdict = stress_run_line(stress_line, steps, tally, reason);
     }
@@ -212,18 +212,18 @@ bool stress_run_scenes(const char *kinds, uint64_t seed, long count, int steps,
 
 /* ---- cases that have a name ---------------------------------------------- */
 
-typedef struct RowContext {
+typedef struct CaseContext {
     VerdictTally *tally;
     char *reason;
     bool uses_each_solver;
-} RowContext;
+} CaseContext;
 
 /* Runs a row "STEPS ! LINE", which must converge; "STEPS ? LINE" need not. */
-static bool run_stress_row(void *user, char *row)
+static bool run_file_row(void *user, char *row)
 {
     static const char *const solvers[] = {" --solver multigrid",
                                           " --solver newton"};
-    const RowContext *context = user;
+    const CaseContext *context = user;
     char must, given[STRESS_LINE_SIZE], line[STRESS_LINE_SIZE + 32];
     int steps;
     CHECK(sscanf(row, "%d %c %511[^\n]", &steps, &must, given) == 3);
@@ -231,7 +231,7 @@ static bool run_stress_row(void *user, char *row)
         snprintf(line, sizeof line, "%s%s", given,
                  context->uses_each_solver ? solvers[i] : "");
         long judged = context->tally->judged_residuals;
-        Verdict verdict =
+        StepVerdict verdict =
             stress_run_line(line, steps, context->tally, context->reason);
         bool good = verdict != VERDICT_WRONG;
         if (good && must == '!') {
@@ -249,20 +249,20 @@ static bool run_stress_row(void *user, char *row)
 
 static bool run_extreme_squares(VerdictTally *tally, char *reason)
 {
-    return stress_visit_rows("extreme squares", run_stress_row,
-                             &(RowContext){tally, reason, true});
+    return stress_read_rows("extreme squares", run_file_row,
+                            &(CaseContext){tally, reason, true});
 }
 
 static bool run_large_squares(VerdictTally *tally, char *reason)
 {
-    return stress_visit_rows("large squares", run_stress_row,
-                             &(RowContext){tally, reason, false});
+    return stress_read_rows("large squares", run_file_row,
+                            &(CaseContext){tally, reason, false});
 }
 
 static bool run_earlier_failures(VerdictTally *tally, char *reason)
 {
-    return stress_visit_rows("once wrong", run_stress_row,
-                             &(RowContext){tally, reason, false});
+    return stress_read_rows("once wrong", run_file_row,
+                            &(CaseContext){tally, reason, false});
 }
 
 /* Runs every integrator with a short and a long time step. */
@@ -273,7 +273,7 @@ static bool run_every_integrator(VerdictTally *tally, char *reason)
             char row[128];
             snprintf(row, sizeof row, "20 ? --integrator %s --timestep %s",
                      integrator_methods[i].name, gently ? "1e-3" : "0.05");
-            if (!run_stress_row(&(RowContext){tally, reason, true}, row))
+            if (!run_file_row(&(CaseContext){tally, reason, true}, row))
                 return false;
         }
     return true;

@@ -17,7 +17,7 @@
 #include <string.h>
 
 /* Factor of the allowed rounding error, for sums of many terms */
-enum { SUM_ERROR_FACTOR = 16 };
+enum { ROUNDING_SAFETY_FACTOR = 16 };
 
 /* Energy, J s^2, above which overflow is near and NOT_FINITE is right */
 static const long double HUGE_ENERGY = 1e280L;
@@ -59,7 +59,7 @@ static int count_unknowns(const RunWatch *watch)
 }
 
 /* Returns the potential of the present minimisation, with the stored x_n. */
-static IncrementalPotential get_potential(const RunWatch *watch)
+static IncrementalPotential get_minimised_E(const RunWatch *watch)
 {
     IncrementalPotential E = watch->run->newton->iterate.E;
     E.x_n = watch->x_n;
@@ -71,20 +71,20 @@ static StepPotential get_step_potential(const RunWatch *watch)
 {
     double moved =
         watch->run->is_driven ? watch->run->moved_fraction * watch->run->h : 0;
-    return (StepPotential){get_potential(watch), moved};
+    return (StepPotential){get_minimised_E(watch), moved};
 }
 
 /* Tests the residual of a large square of springs, whose blocks are clamped. */
-static void judge_large_square(RunWatch *watch, const double *u,
-                               double tolerance)
+static void judge_cg_residual(RunWatch *watch, const double *u,
+                              double tolerance)
 {
-    IncrementalPotential E = get_potential(watch);
+    IncrementalPotential E = get_minimised_E(watch);
     const NewtonSettings *settings = &watch->run->newton->settings;
     if (settings->projection != PROJECTION_CLAMP)
         return;
-    TestVerdict verdict = test_large_square(&E, u, settings->h, tolerance);
+    TestVerdict verdict = test_cg_residual(&E, u, settings->h, tolerance);
     watch->tally->judged_residuals++;
-    watch->tally->undecided += verdict == TEST_UNDECIDED;
+    watch->tally->undecided_tests += verdict == TEST_UNDECIDED;
     if (verdict == TEST_FAILED)
         mark_wrong(watch, "converged, but the residual is above %g m/s",
                    tolerance);
@@ -95,11 +95,11 @@ typedef double (*ResidualFunction)(const IncrementalPotential *E,
                                    const double *u, const double *x, double h,
                                    double moved, int lifts, double *noise);
 
-/* Returns true if the residual at u is at most the limit, m/s. For projection
- * on demand the projected or the exact Hessian must give this residual.
+/* Returns true if the residual at u is at most the limit, m/s. With projection
+ * on demand p may come from either Hessian, projected or exact.
  *   noise  out, m/s, allowed error by rounding; NULL: none
  *   least  out, m/s, smallest residual */
-static bool residual_passes(const RunWatch *watch, const double *u,
+static bool residual_is_low(const RunWatch *watch, const double *u,
                             double limit, ResidualFunction judge, double *noise,
                             double *least)
 {
@@ -134,11 +134,11 @@ static void judge_residual(RunWatch *watch, const double *u, double limit)
     double noise, residual;
     watch->tally->judged_residuals++;
     limit *= 1 + DIGITS_OF_DIRECTION;
-    if (residual_passes(watch, u, limit, exact_residual, NULL, &residual) ||
-        residual_passes(watch, u, limit, wide_exact_residual, NULL, &residual))
+    if (residual_is_low(watch, u, limit, exact_residual, NULL, &residual) ||
+        residual_is_low(watch, u, limit, wide_exact_residual, NULL, &residual))
         return;
-    watch->tally->undecided++;
-    if (!residual_passes(watch, u, limit, wide_exact_residual, &noise,
+    watch->tally->undecided_tests++;
+    if (!residual_is_low(watch, u, limit, wide_exact_residual, &noise,
                          &residual))
         mark_wrong(
             watch,
@@ -153,7 +153,7 @@ static void judge_convergence(RunWatch *watch, const double *u, double limit)
     if (watch->tests_residuals && count_unknowns(watch) <= MAX_DENSE_UNKNOWNS)
         judge_residual(watch, u, limit);
     else if (watch->tests_residuals && watch->only_springs)
-        judge_large_square(watch, u, limit);
+        judge_cg_residual(watch, u, limit);
 }
 
 /* Tests the residual at the end of a minimisation: before the last update if
@@ -168,7 +168,7 @@ static void judge_step_end(RunWatch *watch)
         l2 = fmin(l2, system->l2[s]);
     bool guess = watch->run->is_driven && watch->run->remaining_fraction > 0;
     double limit = guess ? newton->tolerance : watch->tolerance;
-    if (newton->passes_test)
+    if (newton->meets_tolerance)
         judge_convergence(watch, watch->u, limit);
     else if (newton->active_solver == SOLVER_MULTIGRID)
         judge_convergence(watch, newton->iterate.u, limit);
@@ -187,13 +187,13 @@ static bool energy_rises(RunWatch *watch, const double *from, const double *to,
         return false;
     for (int i = 0; i < count_unknowns(watch); i++)
         watch->workspace[i] = to[i] - from[i];
-    Real allowed = SUM_ERROR_FACTOR *
+    Real allowed = ROUNDING_SAFETY_FACTOR *
                    (DBL_EPSILON * scale +
                     estimate_energy_noise(&potential, from, watch->workspace) +
                     estimate_energy_noise(&potential, to, watch->workspace));
     return !(rise <= allowed) &&
-           !(wide_exact_rise(&potential.E, from, to, potential.motion_time) <=
-             allowed);
+           !(wide_exact_E_change(&potential.E, from, to,
+                                 potential.motion_time) <= allowed);
 }
 
 /* Begins to watch a minimisation, which starts at u = 0 or where the walls and
@@ -239,7 +239,7 @@ static void check_descent(RunWatch *watch, const double *u, const char *where)
  * does not hide the slope. */
 static void check_failure_reason(RunWatch *watch, const NewtonRecord *record)
 {
-    IncrementalPotential E = get_potential(watch);
+    IncrementalPotential E = get_minimised_E(watch);
     long double scale = 0;
     if (!watch->only_springs || (record->status != STATUS_LINE_SEARCH_LIMIT &&
                                  record->status != STATUS_NOT_DESCENT))
@@ -402,8 +402,8 @@ static bool momentum_is_conserved(const TimeIntegrator *run, int *pin)
     bool free =
         !run->is_driven && strcmp(run->method->name, "backward-euler") == 0;
     *pin = -1;
-    for (int i = 0; i < run->system->nodes && run->system->pinned; i++)
-        if (run->system->pinned[i]) {
+    for (int i = 0; i < run->system->nodes && run->system->is_pinned; i++)
+        if (run->system->is_pinned[i]) {
             free = free && *pin < 0;
             *pin = i;
         }
@@ -440,7 +440,7 @@ static void check_step_momentum(RunWatch *watch, int pin)
         turn += (i % 2 ? 1 : -1) * m[i / 2] * arm * change;
         arms = fmaxl(arms, fabsl(arm));
         unsure += m[i / 2] * fabsl(change) * DBL_EPSILON * fabs(run->x[i ^ 1]);
-        noise += m[i / 2] * SUM_ERROR_FACTOR * DBL_EPSILON *
+        noise += m[i / 2] * ROUNDING_SAFETY_FACTOR * DBL_EPSILON *
                  (fabs(run->v[i]) + fabs(watch->v[i]) +
                   (fabs(run->x[i]) + fabs(watch->x[i])) / run->h);
     }
@@ -458,13 +458,13 @@ static void check_step_momentum(RunWatch *watch, int pin)
         mark_wrong(watch, "angular momentum is off by %Lg kg m^2/s", turn);
 }
 
-static void check_step_state(RunWatch *watch)
+static void check_end_state(RunWatch *watch)
 {
     const TimeIntegrator *run = watch->run;
     for (int i = 0; i < count_unknowns(watch); i++) {
         if (!isfinite(run->x[i]) || !isfinite(run->v[i]))
             mark_wrong(watch, "the state is not finite");
-        if (run->system->pinned && run->system->pinned[i / 2] &&
+        if (run->system->is_pinned && run->system->is_pinned[i / 2] &&
             !run->system->pin_v && (run->x[i] != watch->x[i] || run->v[i] != 0))
             mark_wrong(watch, "a pinned node moved");
     }
@@ -477,7 +477,7 @@ static void check_step_state(RunWatch *watch)
         check_descent(watch, run->newton->iterate.u, "as the step ends");
 }
 
-Verdict make_judged_step(RunWatch *watch)
+StepVerdict make_judged_step(RunWatch *watch)
 {
     TimeIntegrator *run = watch->run;
     size_t bytes = (size_t)count_unknowns(watch) * sizeof *watch->x;
@@ -486,16 +486,16 @@ Verdict make_judged_step(RunWatch *watch)
     watch->is_wrong = false;
     watch->update_count = 0;
     watch->tolerance = run->newton ? run->newton->settings.tolerance : 0;
-    Status status = watch->status = time_integrator_step(run);
+    Status status = watch->status = time_integrator_make_step(run);
     if ((int)status < 0 || status >= STATUS_COUNT || status == STATUS_RUNNING)
         mark_wrong(watch, "status %d has no name", (int)status);
     else if (status == STATUS_OK || status_is_unconverged(status))
-        check_step_state(watch);
+        check_end_state(watch);
     else
         check_failed_step(watch, status);
-    Verdict verdict = watch->is_wrong ? VERDICT_WRONG
-                      : status        ? VERDICT_REPORTED
-                                      : VERDICT_CONVERGED;
+    StepVerdict verdict = watch->is_wrong ? VERDICT_WRONG
+                          : status        ? VERDICT_REPORTED
+                                          : VERDICT_CONVERGED;
     watch->tally->steps_by_verdict[verdict]++;
     watch->tally->steps_by_status[status]++;
     return verdict;

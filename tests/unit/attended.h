@@ -49,11 +49,11 @@ static inline void begin_player(const char *line)
 
 static inline void end_player(void)
 {
-    CHECK_OK(player_finish(&player, STATUS_OK));
+    CHECK_OK(player_close_files(&player, STATUS_OK));
     player_free(&player);
 }
 
-static inline Status obey_line(const char *line)
+static inline Status obey_command(const char *line)
 {
     Command command;
     char message[128];

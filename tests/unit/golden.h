@@ -61,14 +61,14 @@ static inline void mask_words(const Canvas *words, const Canvas *plain,
 static inline void paint_frame_pair(Canvas frame[2])
 {
     /* This font measures the words of both frames. */
-    if (!player.screen.paper.text)
-        assert_int_equal(text_create(&player.screen.paper.text), 0);
+    if (!player.screen.paper.font)
+        assert_int_equal(font_create(&player.screen.paper.font), 0);
     for (int plain = 0; plain < 2; plain++) {
         Paper paper;
         assert_int_equal(paper_create(SIDE, SIDE, &paper), 0);
         if (plain) {
-            text_free(paper.text);
-            paper.text = NULL;
+            font_free(paper.font);
+            paper.font = NULL;
         }
         player_paint_frame(&player, &paper);
         frame[plain] = paper.canvas;

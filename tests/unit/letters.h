@@ -9,10 +9,10 @@
 
 static bool letters_are_boxes;
 
-const Glyph *__real_font_get_glyph(Text *text, Face face, int size,
+const Glyph *__real_font_get_glyph(Font *text, Face face, int size,
                                    uint32_t letter);
 
-const Glyph *__wrap_font_get_glyph(Text *text, Face face, int size,
+const Glyph *__wrap_font_get_glyph(Font *text, Face face, int size,
                                    uint32_t letter)
 {
     static uint8_t mask[1 << 16];

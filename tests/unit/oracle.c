@@ -29,7 +29,7 @@ static Jet jet_mul(Jet a, Jet b)
 }
 
 /* Returns F(a), given the values of F, F' and F'' at a. */
-static Jet jet_chain(Jet a, Real F, Real F1, Real F2)
+static Jet jet_apply(Jet a, Real F, Real F1, Real F2)
 {
     return (Jet){F, F1 * a.p, F1 * a.q, F1 * a.pq + F2 * a.p * a.q};
 }
@@ -78,10 +78,10 @@ Real exact_strain(const System *system, const double *x, int s)
 
 /* Returns the random or chosen error of a flow limit. A spring that has flowed
  * begins the next step at its limit, and rounding decides whether it flows. */
-static Real find_flow_limit_error(Probe *probe, Real E)
+static Real find_yield_error(Probe *probe, Real E)
 {
-    Real side =
-        probe->jitter ? random_uniform(probe->jitter, -1, 1) : probe->flow_side;
+    Real side = probe->jitter ? random_uniform(probe->jitter, -1, 1)
+                              : probe->yield_side;
     return 8 * DBL_EPSILON * (1 + fabsl(E)) * side;
 }
 
@@ -109,9 +109,9 @@ static void add_spring_energy(Probe *probe, Jet *sum, const void *data, int s)
         Real yield = flow->initial_yield_strain + flow->hardening * (Real)kappa;
         held = fminl(held, yield);
         over = fabsl(e) - held;
-        flows = fabsl(e) - yield > find_flow_limit_error(probe, E.f);
+        flows = fabsl(e) - yield > find_yield_error(probe, E.f);
     }
-    V = jet_chain(E, held * (held / 2 + over) + hard * over * over / 2,
+    V = jet_apply(E, held * (held / 2 + over) + hard * over * over / 2,
                   copysignl(held + hard * over, e), flows ? hard : 1);
     Jet rate = E;
     rate.f -= theta > 0 ? exact_strain(system, probe->at->x_n, s) : 0;
@@ -125,27 +125,28 @@ static void add_barrier(Probe *probe, Jet *sum, Real c, Jet s)
 {
     if (s.f < 1)
         add_part(probe, sum, c,
-                 jet_chain(s, s.f > 0 ? (s.f - 1) * logl(s.f) : INFINITY,
+                 jet_apply(s, s.f > 0 ? (s.f - 1) * logl(s.f) : INFINITY,
                            logl(s.f) + 1 - 1 / s.f, (1 + s.f) / (s.f * s.f)));
 }
 
 /* Returns the gap of contact.h divided by d_hat, and the gap's direction n. */
-static Jet find_scaled_gap(Probe *probe, const Contact *contact, int i, int k,
-                           Real n[2])
+static Jet find_relative_gap(Probe *probe, const Contact *contact, int i, int k,
+                             Real n[2])
 {
     const Obstacle *it = &contact->obstacle[k];
     Jet d[2], s = {0};
     for (int axis = 0; axis < 2; axis++) {
-        d[axis] = it->node >= 0 ? node_offset(probe, i, it->node, axis, false)
-                                : get_coordinate(probe, 2 * i + axis, false);
+        d[axis] = it->ball_node >= 0
+                      ? node_offset(probe, i, it->ball_node, axis, false)
+                      : get_coordinate(probe, 2 * i + axis, false);
         Real o = it->o[axis] - probe->rewind_time * it->v[axis];
-        d[axis].f -= it->node >= 0 ? 0 : add_jitter(probe, o);
+        d[axis].f -= it->ball_node >= 0 ? 0 : add_jitter(probe, o);
         n[axis] = it->n[axis];
     }
     if (it->kind == OBSTACLE_BALL) {
         Jet r2 = jet_add(jet_mul(d[0], d[0]), 1, jet_mul(d[1], d[1]));
         Real r = sqrtl(r2.f);
-        s = jet_chain(r2, r - it->radius, 1 / (2 * r), -1 / (4 * r2.f * r));
+        s = jet_apply(r2, r - it->radius, 1 / (2 * r), -1 / (4 * r2.f * r));
         n[0] = d[0].f / r;
         n[1] = d[1].f / r;
     } else {
@@ -153,7 +154,7 @@ static Jet find_scaled_gap(Probe *probe, const Contact *contact, int i, int k,
         s = jet_add(s, n[1], d[1]);
     }
     if (contact->free_ball_index >= 0 &&
-        contact->obstacle[contact->free_ball_index].node == i)
+        contact->obstacle[contact->free_ball_index].ball_node == i)
         s.f -= contact->obstacle[contact->free_ball_index].radius;
     return jet_add((Jet){0}, 1 / (Real)contact->barrier.d_hat, s);
 }
@@ -162,9 +163,9 @@ static Jet find_scaled_gap(Probe *probe, const Contact *contact, int i, int k,
 static Jet evaluate_friction_law(Jet y, Real e)
 {
     Real a = fabsl(y.f) / e, sign = copysignl(1, y.f);
-    return a < 1 ? jet_chain(y, y.f * y.f / e * (1 - a / 3), sign * a * (2 - a),
+    return a < 1 ? jet_apply(y, y.f * y.f / e * (1 - a / 3), sign * a * (2 - a),
                              2 / e * (1 - a))
-                 : jet_chain(y, fabsl(y.f) - e / 3, sign, 0);
+                 : jet_apply(y, fabsl(y.f) - e / 3, sign, 0);
 }
 
 /* Adds W of friction.h for node i and obstacle k, with the contact at x_n. */
@@ -174,7 +175,7 @@ static void add_wall_friction(Probe *probe, Jet *sum, const Contact *contact,
     const Obstacle *it = &contact->obstacle[k];
     const EnergyTerm *term =
         system_find_term(probe->at->system, &friction_energy);
-    if (!term || !probe->at->u || !(it->friction > 0))
+    if (!term || !probe->at->u || !(it->mu > 0))
         return;
     EvalPoint start = *probe->at;
     Probe before = {.at = &start,
@@ -182,17 +183,18 @@ static void add_wall_friction(Probe *probe, Jet *sum, const Contact *contact,
                     .rewind_time = probe->motion_time};
     Real n[2], e = ((const Friction *)term->data)->slip_speed * probe->h;
     start.x = start.x_n;
-    Real s = find_scaled_gap(&before, contact, i, k, n).f;
+    Real s = find_relative_gap(&before, contact, i, k, n).f;
     if (!(s < 1))
         return;
     Jet y = {.f = -probe->h * (n[0] * add_jitter(probe, it->v[1]) -
                                n[1] * add_jitter(probe, it->v[0]))};
     for (int axis = 0; axis < 2; axis++)
         y = jet_add(y, axis ? n[0] : -n[1],
-                    it->node >= 0 ? node_offset(probe, i, it->node, axis, true)
-                                  : get_coordinate(probe, 2 * i + axis, true));
+                    it->ball_node >= 0
+                        ? node_offset(probe, i, it->ball_node, axis, true)
+                        : get_coordinate(probe, 2 * i + axis, true));
     add_part(probe, sum,
-             it->friction * contact->barrier.c / contact->barrier.d_hat *
+             it->mu * contact->barrier.c / contact->barrier.d_hat *
                  -(logl(s) + 1 - 1 / s),
              evaluate_friction_law(y, e));
 }
@@ -203,7 +205,7 @@ static void add_wall_barrier(Probe *probe, Jet *sum, const Contact *contact,
 {
     Real n[2];
     add_barrier(probe, sum, contact->barrier.c,
-                find_scaled_gap(probe, contact, i, k, n));
+                find_relative_gap(probe, contact, i, k, n));
 }
 
 static void add_wall_contact(Probe *probe, Jet *sum, const void *data, int i)
@@ -221,13 +223,13 @@ static void add_wall_contact(Probe *probe, Jet *sum, const void *data, int i)
 typedef struct Outline {
     int edge_count, point_count, *point_node,
         (*edge_nodes)[2];               /* counts; nodes of points, edges */
-    unsigned char (*is_whole)[4];       /* [n] 1: the spring is unbroken */
+    unsigned char (*is_intact)[4];      /* [n] 1: the spring is unbroken */
     unsigned char (*triangle_count)[4]; /* [n] triangles at a spring */
-    unsigned char *role; /* [n] flags IN_A_TRIANGLE, ON_AN_EDGE */
+    unsigned char *role; /* [n] flags NODE_IN_TRIANGLE, NODE_ON_EDGE */
     double *x;           /* [2n] m, positions rounded to doubles */
 } Outline;
 
-enum { IN_A_TRIANGLE = 1, ON_AN_EDGE = 2 };
+enum { NODE_IN_TRIANGLE = 1, NODE_ON_EDGE = 2 };
 
 static void add_outline_triangle(Outline *outline, int a, int high, int corner)
 {
@@ -237,17 +239,17 @@ static void add_outline_triangle(Outline *outline, int a, int high, int corner)
     ++*(corner % 3 ? &sides[node[1]][0] : &sides[a][0]);
     ++*(corner % 2 ? &sides[a][2] : &sides[node[3]][3]);
     for (int k = 0; k < 4; k++)
-        outline->role[node[k]] |= k != (corner + 2) % 4 ? IN_A_TRIANGLE : 0;
+        outline->role[node[k]] |= k != (corner + 2) % 4 ? NODE_IN_TRIANGLE : 0;
 }
 
 static void add_outline_cell(Outline *outline, int a, int high)
 {
     bool solid[4];
     for (int corner = 0; corner < 4; corner++)
-        solid[corner] = outline->is_whole[corner / 2 ? a + 1 : a][1] &&
-                        outline->is_whole[corner % 3 ? a + high : a][0] &&
-                        (corner % 2 ? outline->is_whole[a][2]
-                                    : outline->is_whole[a + 1][3]);
+        solid[corner] = outline->is_intact[corner / 2 ? a + 1 : a][1] &&
+                        outline->is_intact[corner % 3 ? a + high : a][0] &&
+                        (corner % 2 ? outline->is_intact[a][2]
+                                    : outline->is_intact[a + 1][3]);
     bool both = solid[0] && solid[2], others = solid[1] && solid[3];
     for (int corner = 0; corner < 4; corner++)
         if (solid[corner] && corner % 2 == (others && !both))
@@ -266,18 +268,18 @@ static Outline find_outline(const System *system)
     CHECK(bytes != NULL);
     Outline it = {.x = bytes, .point_node = (int *)(bytes + 2 * n)};
     it.edge_nodes = (int(*)[2])(it.point_node + n);
-    it.is_whole = (unsigned char(*)[4])(it.edge_nodes + 4 * n);
-    it.triangle_count = it.is_whole + n;
+    it.is_intact = (unsigned char(*)[4])(it.edge_nodes + 4 * n);
+    it.triangle_count = it.is_intact + n;
     it.role = (unsigned char *)(it.triangle_count + n);
-    memset(it.is_whole, 0, 9 * (size_t)n);
+    memset(it.is_intact, 0, 9 * (size_t)n);
     for (int s = 0; s < system->springs; s++) {
         int i = system->e[2 * s], j = system->e[2 * s + 1];
         int low = i < j ? i : j, way = i + j - 2 * low;
         bool up = way == 1 && low % high < high - 1;
-        it.is_whole[low][up            ? 0
-                         : way < high  ? 3
-                         : way == high ? 1
-                                       : 2] = system->k[s] != 0;
+        it.is_intact[low][up            ? 0
+                          : way < high  ? 3
+                          : way == high ? 1
+                                        : 2] = system->k[s] != 0;
     }
     for (int i = 0; i < n; i++)
         if (i % high < high - 1 && i / high % wide < wide - 1)
@@ -288,11 +290,11 @@ static Outline find_outline(const System *system)
             int *edge = it.edge_nodes[it.edge_count++];
             edge[0] = i / 4;
             edge[1] = i / 4 + way[i % 4];
-            it.role[edge[0]] |= ON_AN_EDGE;
-            it.role[edge[1]] |= ON_AN_EDGE;
+            it.role[edge[0]] |= NODE_ON_EDGE;
+            it.role[edge[1]] |= NODE_ON_EDGE;
         }
     for (int i = 0; i < n; i++)
-        if (it.role[i] != IN_A_TRIANGLE)
+        if (it.role[i] != NODE_IN_TRIANGLE)
             it.point_node[it.point_count++] = i;
     return it;
 }
@@ -319,7 +321,7 @@ static Jet find_point_edge_gap(Probe *probe, const SelfContact *self, int p,
     if (*r > 0 && *r < 1) {
         Jet side = jet_add(jet_mul(e[0], q[1]), -1, jet_mul(e[1], q[0]));
         d2 = jet_mul(jet_mul(side, side),
-                     jet_chain(length2, 1 / l, -1 / (l * l), 2 / (l * l * l)));
+                     jet_apply(length2, 1 / l, -1 / (l * l), 2 / (l * l * l)));
     }
     for (int axis = 0; axis < 2; axis++)
         n[axis] = (q[axis].f - *r * e[axis].f) / sqrtl(d2.f);
@@ -350,7 +352,7 @@ static void add_self_friction(Probe *probe, Jet *sum, const SelfContact *self,
         y = jet_add(y, -t * r, get_coordinate(probe, 2 * end[1] + axis, true));
     }
     add_part(probe, sum,
-             self->friction * self->c / self->d_hat * 2 * sqrtl(S) *
+             self->mu * self->c / self->d_hat * 2 * sqrtl(S) *
                  -(logl(S) + 1 - 1 / S),
              evaluate_friction_law(y, e));
 }
@@ -430,7 +432,7 @@ static void add_triangle_energy(Probe *probe, Jet *sum, const void *data, int t)
         add_part(probe, sum, 1, (Jet){.f = INFINITY});
         return;
     }
-    L = jet_chain(J, logl(J.f), 1 / J.f, -1 / (J.f * J.f));
+    L = jet_apply(J, logl(J.f), 1 / J.f, -1 / (J.f * J.f));
     add_part(probe, sum, solid->triangles.rest_area * (Real)solid->mu / 2,
              size);
     add_part(probe, sum, -solid->triangles.rest_area * (Real)solid->mu, L);
@@ -449,16 +451,16 @@ static void add_pull_energy(Probe *probe, Jet *sum, const void *data, int c)
 }
 
 /* Objects over which a term sums */
-typedef enum PartKind {
+typedef enum TermPart {
     PART_SPRING,
     PART_COORDINATE,
     PART_WALL_PAIR,
     PART_CELL,
     PART_TRIANGLE,
     PART_EDGE_PAIR
-} PartKind;
+} TermPart;
 
-static int count_parts(const Probe *probe, PartKind parts, const void *data)
+static int count_parts(const Probe *probe, TermPart parts, const void *data)
 {
     const System *system = probe->at->system;
     const Contact *contact = get_contact(system);
@@ -480,41 +482,41 @@ static int count_parts(const Probe *probe, PartKind parts, const void *data)
 /* ---- what clamping adds ------------------------------------------------- */
 
 /* Own coordinates q_k of a part, on which its energy depends. derivative: of
- * q_k by the nodes' x and y; unit_move: displacement that adds 1 to q_k only */
-typedef struct PartFrame {
+ * q_k by the nodes' x and y; dx_dq: displacement that adds 1 to q_k only */
+typedef struct LocalAxes {
     int n, node[3];
-    Real derivative[4][6];
-    double unit_move[4][6];
-} PartFrame;
+    Real dq_dx[4][6];
+    double dx_dq[4][6];
+} LocalAxes;
 
 /* Fills the frame of the difference of two nodes, or of one node if j < 0. */
-static void fill_pair_frame(PartFrame *frame, int i, int j)
+static void fill_two_node_axes(LocalAxes *frame, int i, int j)
 {
-    *frame = (PartFrame){.n = 2, .node = {i, j < 0 ? i : j, i}};
+    *frame = (LocalAxes){.n = 2, .node = {i, j < 0 ? i : j, i}};
     for (int c = 0; c < 2; c++) {
-        frame->derivative[c][c] = frame->unit_move[c][c] = 1;
-        frame->derivative[c][2 + c] = j < 0 ? 0 : -1;
+        frame->dq_dx[c][c] = frame->dx_dq[c][c] = 1;
+        frame->dq_dx[c][2 + c] = j < 0 ? 0 : -1;
     }
 }
 
 /* Fills the frame of two vectors, which are weighted sums of three nodes. */
-static void fill_frame_of_three(PartFrame *frame, const int node[3],
-                                const double w[2][3])
+static void fill_three_node_axes(LocalAxes *frame, const int node[3],
+                                 const double w[2][3])
 {
-    *frame = (PartFrame){.n = 4, .node = {node[0], node[1], node[2]}};
+    *frame = (LocalAxes){.n = 4, .node = {node[0], node[1], node[2]}};
     double det = w[0][1] * w[1][2] - w[0][2] * w[1][1];
     for (int k = 0; k < 4; k++) {
         int m = k / 2, c = k % 2;
         for (int i = 0; i < 3; i++)
-            frame->derivative[k][2 * i + c] = w[m][i];
-        frame->unit_move[k][2 + c] = (m ? -w[0][2] : w[1][2]) / det;
-        frame->unit_move[k][4 + c] = (m ? w[0][1] : -w[1][1]) / det;
+            frame->dq_dx[k][2 * i + c] = w[m][i];
+        frame->dx_dq[k][2 + c] = (m ? -w[0][2] : w[1][2]) / det;
+        frame->dx_dq[k][4 + c] = (m ? w[0][1] : -w[1][1]) / det;
     }
 }
 
 /* Fills the frame of a point and an edge with the two motions that can have a
  * negative curvature: the point slides along the edge, and the edge turns. */
-static void fill_frame_of_pair(Probe *probe, PartFrame *frame, int i)
+static void fill_point_edge_axes(Probe *probe, LocalAxes *frame, int i)
 {
     const SelfContact *self = get_self_contact(probe->at->system);
     const Outline *outline = probe->outline;
@@ -524,45 +526,45 @@ static void fill_frame_of_pair(Probe *probe, PartFrame *frame, int i)
     if (p == end[0] || p == end[1] || is_far(outline->x, p, end, self->d_hat))
         return;
     find_point_edge_gap(probe, self, p, end, &r, n);
-    *frame = (PartFrame){.n = 2, .node = {p, end[0], end[1]}};
+    *frame = (LocalAxes){.n = 2, .node = {p, end[0], end[1]}};
     for (int c = 0; c < 2; c++) {
         Real t = c ? n[0] : -n[1];
         const Real read[2][6] = {{t, 0, (r - 1) * t, 0, -r * t, 0},
                                  {0, 0, -n[c], 0, n[c], 0}};
         for (int k = 0; k < 6; k += 2)
             for (int m = 0; m < 2; m++)
-                frame->derivative[m][k + c] = read[m][k];
-        frame->unit_move[0][c] = (double)t;
-        frame->unit_move[1][c] = (double)(r * n[c]);
-        frame->unit_move[1][4 + c] = (double)n[c];
+                frame->dq_dx[m][k + c] = read[m][k];
+        frame->dx_dq[0][c] = (double)t;
+        frame->dx_dq[1][c] = (double)(r * n[c]);
+        frame->dx_dq[1][4 + c] = (double)n[c];
     }
 }
 
 /* Returns the frame of part i; n = 0 if the energy of the part is convex. */
-static PartFrame make_part_frame(Probe *probe, PartKind parts, const void *data,
+static LocalAxes make_local_axes(Probe *probe, TermPart parts, const void *data,
                                  int i)
 {
     static const double edges[2][3] = {{-1, 1, 0}, {-1, 0, 1}};
     const System *system = probe->at->system;
     const Triangles *triangles = data;
-    PartFrame frame = {0};
+    LocalAxes frame = {0};
     if (parts == PART_SPRING)
-        fill_pair_frame(&frame, system->e[2 * i], system->e[2 * i + 1]);
+        fill_two_node_axes(&frame, system->e[2 * i], system->e[2 * i + 1]);
     else if (parts == PART_WALL_PAIR)
-        fill_pair_frame(
+        fill_two_node_axes(
             &frame, i % system->nodes,
-            ((const Contact *)data)->obstacle[i / system->nodes].node);
+            ((const Contact *)data)->obstacle[i / system->nodes].ball_node);
     else if (parts == PART_CELL || parts == PART_TRIANGLE)
-        fill_frame_of_three(&frame, triangles->node[i], edges);
+        fill_three_node_axes(&frame, triangles->node[i], edges);
     else if (parts == PART_EDGE_PAIR)
-        fill_frame_of_pair(probe, &frame, i);
+        fill_point_edge_axes(probe, &frame, i);
     return frame;
 }
 
 /* Formula of each term, and its parts; data is the term's EnergyTerm.data */
 static const struct {
     const TermKind *kind;
-    PartKind part_kind;
+    TermPart part_kind;
     void (*add_energy)(Probe *probe, Jet *sum, const void *data, int i);
 } formulas[] = {{&mass_spring_energy, PART_SPRING, add_spring_energy},
                 {&plastic_energy, PART_SPRING, add_spring_energy},
@@ -584,33 +586,33 @@ static int find_formula_row(const TermKind *kind)
 }
 
 /* Adds to p [2n] the displacement that changes own coordinate k by `sign`. */
-static void add_unit_move(const PartFrame *frame, int k, double sign, double *p)
+static void add_dx_dq(const LocalAxes *frame, int k, double sign, double *p)
 {
     for (int i = 0; i < 6; i++)
-        p[2 * frame->node[i / 2] + i % 2] += sign * frame->unit_move[k][i];
+        p[2 * frame->node[i / 2] + i % 2] += sign * frame->dx_dq[k][i];
 }
 
 /* Finds the negative eigenvalues of a part's Hessian block, in the part's own
  * coordinates; returns their number. p, q [2n] are 0 before and after.
  *   lift  [4] out, the change that makes each of these eigenvalues 0
  *   rows  [4][6] out, eigenvectors over the coordinates of the frame's nodes */
-static int find_clamping(const Probe *probe, int row, const void *data,
-                         int part, double *p, double *q, PartFrame *frame,
-                         Real lift[4], Real rows[4][6])
+static int find_projection(const Probe *probe, int row, const void *data,
+                           int part, double *p, double *q, LocalAxes *frame,
+                           Real lift[4], Real rows[4][6])
 {
     Probe own = *probe;
-    *frame = make_part_frame(&own, formulas[row].part_kind, data, part);
+    *frame = make_local_axes(&own, formulas[row].part_kind, data, part);
     Real A[16], v[16];
     int n = frame->n;
     own.p = p;
     own.q = q;
     for (int i = 0; i < n * n; i++) {
         Jet W = {0};
-        add_unit_move(frame, i / n, 1, p);
-        add_unit_move(frame, i % n, 1, q);
+        add_dx_dq(frame, i / n, 1, p);
+        add_dx_dq(frame, i % n, 1, q);
         formulas[row].add_energy(&own, &W, data, part);
-        add_unit_move(frame, i / n, -1, p);
-        add_unit_move(frame, i % n, -1, q);
+        add_dx_dq(frame, i / n, -1, p);
+        add_dx_dq(frame, i % n, -1, q);
         A[i] = W.pq;
     }
     exact_eigenvectors(n, A, v);
@@ -619,7 +621,7 @@ static int find_clamping(const Probe *probe, int row, const void *data,
         for (int i = 0; i < 6; i++) {
             rows[k][i] = 0;
             for (int m = 0; m < n; m++)
-                rows[k][i] += v[n * m + k] * frame->derivative[m][i];
+                rows[k][i] += v[n * m + k] * frame->dq_dx[m][i];
         }
     }
     return n;
@@ -680,7 +682,7 @@ Real exact_potential(const System *system, const double *x)
 /* ---- derivatives of a step ---------------------------------------------- */
 
 /* Finds the nodes of part i, and returns their number. */
-static int find_part_nodes(const Probe *probe, PartKind parts, const void *data,
+static int find_part_nodes(const Probe *probe, TermPart parts, const void *data,
                            int i, int node[3])
 {
     const System *system = probe->at->system;
@@ -693,7 +695,7 @@ static int find_part_nodes(const Probe *probe, PartKind parts, const void *data,
         node[0] = i / 2;
     else if (parts == PART_WALL_PAIR) {
         node[0] = i % system->nodes;
-        node[1] = get_contact(system)->obstacle[i / system->nodes].node;
+        node[1] = get_contact(system)->obstacle[i / system->nodes].ball_node;
     } else if (parts == PART_EDGE_PAIR) {
         node[0] = outline->point_node[i % outline->point_count];
         memcpy(node + 1, outline->edge_nodes[i / outline->point_count],
@@ -708,16 +710,15 @@ static int find_part_nodes(const Probe *probe, PartKind parts, const void *data,
     return count;
 }
 
-/* Raises each negative eigenvalue of a block by `lift_factor` times its amount.
- */
-static void clamp_block(const Probe *probe, int row, const void *data, int part,
-                        int lift_factor, double *p, double *q,
-                        EnergyPart *block)
+/* Raises each negative eigenvalue by `lift_factor` times its amount. */
+static void project_block(const Probe *probe, int row, const void *data,
+                          int part, int lift_factor, double *p, double *q,
+                          EnergyPart *block)
 {
-    PartFrame frame;
+    LocalAxes frame;
     Real lift[4], rows[4][6];
     int size = 2 * block->node_count;
-    int n = find_clamping(probe, row, data, part, p, q, &frame, lift, rows);
+    int n = find_projection(probe, row, data, part, p, q, &frame, lift, rows);
     for (int i = 0; i < size * size; i++)
         for (int k = 0; k < n; k++)
             block->H[i] += lift_factor * probe->at->weight * lift[k] *
@@ -750,7 +751,7 @@ static bool evaluate_energy_part(Probe *probe, int row, const void *data,
         block->g[i / n] = w * W.p;
     }
     if (lift_factor && formulas[row].kind->rank != RANK_FRICTION)
-        clamp_block(probe, row, data, part, lift_factor, p, q, block);
+        project_block(probe, row, data, part, lift_factor, p, q, block);
     return true;
 }
 
@@ -790,9 +791,9 @@ static void visit_parts(const Probe *there, const double *u,
     free(p);
 }
 
-void visit_blocks(const IncrementalPotential *E, const double *u,
-                  int lift_factor,
-                  void (*take)(void *to, const EnergyPart *block), void *to)
+void visit_E_parts(const IncrementalPotential *E, const double *u,
+                   int lift_factor,
+                   void (*take)(void *to, const EnergyPart *block), void *to)
 {
     EvalPoint at = make_eval_point(E->system, E->x_n, u, NULL);
     at.weight = E->weight;
@@ -804,18 +805,18 @@ void visit_blocks(const IncrementalPotential *E, const double *u,
  * values of its parts [2n], and H [2n 2n] */
 typedef struct DenseSystem {
     const System *system;
-    Real *g, *abs_sum, *H;
+    Real *g, *g_abs_sum, *H;
     int n, lift_factor;
 } DenseSystem;
 
-static void add_block(void *assembly, const EnergyPart *block)
+static void assemble_part(void *assembly, const EnergyPart *block)
 {
     const DenseSystem *to = assembly;
     int n = 2 * block->node_count;
     for (int i = 0; i < n; i++) {
         int r = 2 * block->node[i / 2] + i % 2;
         to->g[r] += block->g[i];
-        to->abs_sum[r] += fabsl(block->g[i]);
+        to->g_abs_sum[r] += fabsl(block->g[i]);
         for (int k = 0; k < n; k++)
             to->H[to->n * r + 2 * block->node[k / 2] + k % 2] +=
                 block->H[n * i + k];
@@ -829,15 +830,15 @@ static void assemble_system(const Probe *probe, const double *u,
     const System *system = to->system;
     size_t n = (size_t)to->n;
     memset(to->g, 0, n * sizeof *to->g);
-    memset(to->abs_sum, 0, n * sizeof *to->abs_sum);
+    memset(to->g_abs_sum, 0, n * sizeof *to->g_abs_sum);
     memset(to->H, 0, n * n * sizeof *to->H);
-    visit_parts(probe, u, u_tilde, to->lift_factor, add_block, (void *)to);
+    visit_parts(probe, u, u_tilde, to->lift_factor, assemble_part, (void *)to);
     for (size_t r = 0; r < n; r++) {
-        if (!system->pinned[r / 2])
+        if (!system->is_pinned[r / 2])
             continue;
         for (size_t c = 0; c < n; c++)
             to->H[n * r + c] = to->H[n * c + r] = r == c;
-        to->g[r] = to->abs_sum[r] = 0;
+        to->g[r] = to->g_abs_sum[r] = 0;
     }
 }
 
@@ -864,7 +865,7 @@ static bool factor_densely(const DenseSystem *of)
     int n = of->n;
     Real *H = of->H;
     for (int c = 0; c < n; c++) {
-        Real m = of->system->pinned[c / 2] ? 0 : of->system->m[c / 2];
+        Real m = of->system->is_pinned[c / 2] ? 0 : of->system->m[c / 2];
         if (of->lift_factor && H[n * c + c] < m)
             H[n * c + c] = m;
         if (!(fabsl(H[n * c + c]) > 0))
@@ -901,8 +902,8 @@ static Real solve_densely(const DenseSystem *of)
     return most;
 }
 
-double exact_rise(const IncrementalPotential *E, const double *from,
-                  const double *to, double moved)
+double exact_E_change(const IncrementalPotential *E, const double *from,
+                      const double *to, double moved)
 {
     Real energy[2];
     for (int i = 0; i < 2; i++) {
@@ -941,19 +942,19 @@ static Real find_perturbed_residual(const Probe *probe, const double *u,
     }
     assemble_system(&own, u, u_tilde, of);
     for (int i = 0; i < of->n; i++) {
-        Real m = system->pinned[i / 2] ? 0 : system->m[i / 2];
+        Real m = system->is_pinned[i / 2] ? 0 : system->m[i / 2];
         of->g[i] += (2 * random_below(random, 2) - 1) * DBL_EPSILON *
-                    (ERROR_ULPS * of->abs_sum[i] + m * fabsl(u[i]) / 2);
+                    (ERROR_ULPS * of->g_abs_sum[i] + m * fabsl(u[i]) / 2);
     }
     return solve_densely(of);
 }
 
-/* Returns the exact residual for one flow_side of Probe. */
-static double find_residual_on_flow_side(const IncrementalPotential *E,
-                                         const double *u, const double *x,
-                                         double h, double moved,
-                                         int lift_factor, int side,
-                                         double *noise)
+/* Returns the exact residual for one yield_side of Probe. */
+static double find_residual_on_yield_side(const IncrementalPotential *E,
+                                          const double *u, const double *x,
+                                          double h, double moved,
+                                          int lift_factor, int side,
+                                          double *noise)
 {
     size_t n = 2 * (size_t)E->system->nodes;
     double *place = calloc(2 * n, sizeof *place);
@@ -965,7 +966,7 @@ static double find_residual_on_flow_side(const IncrementalPotential *E,
     const Probe probe = {.at = &at,
                          .h = sqrtl(E->weight),
                          .motion_time = moved,
-                         .flow_side = side};
+                         .yield_side = side};
     const DenseSystem to = {E->system, g,      g + n,
                             g + 2 * n, (int)n, lift_factor};
     assemble_system(&probe, u, E->u_tilde, &to);
@@ -990,7 +991,7 @@ double exact_residual(const IncrementalPotential *E, const double *u,
     bool flows = system_find_term(E->system, &plastic_energy) != NULL;
     double least = INFINITY, blur;
     for (int side = flows ? -1 : 0; side <= flows; side++) {
-        double residual = find_residual_on_flow_side(
+        double residual = find_residual_on_yield_side(
             E, u, x, h, moved, lift_factor, side, noise ? &blur : NULL);
         if (noise && (residual <= least || side <= 0))
             *noise = blur;
@@ -1058,7 +1059,7 @@ double exact_gap(const System *system, const double *x, int node, int obstacle)
     Probe probe = {.at = &at};
     Real n[2];
     return (double)(contact->barrier.d_hat *
-                    find_scaled_gap(&probe, contact, node, obstacle, n).f);
+                    find_relative_gap(&probe, contact, node, obstacle, n).f);
 }
 
 double find_smallest_gap(const System *system, const double *x)

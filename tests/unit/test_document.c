@@ -123,7 +123,7 @@ TEST(a_table_is_text_after_the_guess)
     write_document();
     assert_true(count_lines("cells") > 4); /* rows: heads, updates, end */
     assert_non_null(strstr(text, ": the loop ends\t"));
-    CHECK_OK(obey_line("set stretch 1"));
+    CHECK_OK(obey_command("set stretch 1"));
     CHECK_OK(player_make_step(&player));
     write_document();
     assert_int_equal(count_lines("cells"), 3); /* rows: heads, update, end */
@@ -132,7 +132,7 @@ TEST(a_table_is_text_after_the_guess)
 
 TEST(lists_have_all_pages_and_scenes)
 {
-    document_write_contents(text);
+    document_write_lists(text);
     assert_int_equal(count_lines("pages"), lecture_count_pages());
     assert_true(count_lines("scenes") == 18 && count_lines("keys") > 20);
 }

@@ -30,7 +30,6 @@ static const struct FilmRow {
 };
 enum { FILM_ROW_COUNT = sizeof rows / sizeof *rows };
 
-/* Returns a pixel of a block that moves and changes its colour, on white. */
 static uint32_t film_pixel(int frame, int x, int y)
 {
     int i = frame == 5 ? 4 : frame; /* frames 4 and 5 are equal */
@@ -64,7 +63,6 @@ static void make_film(const char *name, int frames)
     canvas_free(&canvas);
 }
 
-/* Opens the output of a shell command, in which %s is the film. */
 static FILE *open_command_output(const char *format, const char *name)
 {
     char line[512];

@@ -21,12 +21,12 @@ static const double G = 9.81;
 
 /* ---- some masses ------------------------------------------------------- */
 
-/* System and run of the current test; create_masses frees both first */
+/* System and run of the current test; create_system frees both first */
 static System masses;
 static TimeIntegrator run;
 
 /* Creates nodes of 1 kg; spring s (1 J/m^2, 1 m) joins nodes 0 and s + 1. */
-static System *create_masses(int nodes, int springs)
+static System *create_system(int nodes, int springs)
 {
     time_integrator_free(&run);
     system_free(&masses);
@@ -47,9 +47,9 @@ static void put_mass_on_wall(const double n[2], double friction,
 {
     const Obstacle wall = {.kind = OBSTACLE_WALL,
                            .n = {n[0], n[1]},
-                           .friction = friction,
-                           .node = -1};
-    create_masses(1, 0)->gravity[1] = -gravity;
+                           .mu = friction,
+                           .ball_node = -1};
+    create_system(1, 0)->gravity[1] = -gravity;
     CHECK_OK(contact_configure(&masses, &(Barrier){0.01, 1}, 1, &wall));
     if (friction > 0)
         CHECK_OK(
@@ -65,14 +65,14 @@ static void begin_free_masses(double h, const double *x, const double *v)
                                     x, v, &run));
 }
 
-static double get_booked_loss(void)
+static double get_lost_energy(void)
 {
     return masses.losses[0].energy;
 }
 
 static void step_masses(void)
 {
-    CHECK_OK(time_integrator_step(&run));
+    CHECK_OK(time_integrator_make_step(&run));
 }
 
 /* A belt, an inclined wall with the tangential speed W, carries a block of 1
@@ -91,14 +91,14 @@ TEST(a_belt_takes_its_load_along)
     begin_free_masses(h, (double[2]){0.005 * n[0], 0.005 * n[1]}, still);
     for (int i = 0; i < 200; i++) {
         double before = speed, done = run.external_work;
-        double heat = get_booked_loss();
+        double heat = get_lost_energy();
         step_masses();
         speed = run.v[0] * t[0] + run.v[1] * t[1];
         if (i < 60 || speed > 0.9 * W)
             continue; /* the block still falls onto the belt, or sticks */
         CHECK_NEAR((speed - before) / h, mu * N - G * sin(angle), 1e-6);
         CHECK_NEAR((run.external_work - done) / h, mu * N * W, 1e-5);
-        CHECK_NEAR((get_booked_loss() - heat) / h, mu * N * (W - speed), 1e-5);
+        CHECK_NEAR((get_lost_energy() - heat) / h, mu * N * (W - speed), 1e-5);
         slips++;
     }
     CHECK(slips > 30);
@@ -110,7 +110,7 @@ static Obstacle *add_hand_on_wall(void)
 {
     Contact *contact = get_contact(&masses);
     contact->obstacle[0].o[0] = -0.1;
-    contact->hand =
+    contact->push =
         (ObstaclePush){.is_held = 1, .target = {1, 0}, .mesh = {.side = 1}};
     return &contact->obstacle[0];
 }
@@ -133,12 +133,12 @@ TEST(a_hand_pushes_with_a_bounded_speed)
     }
     CHECK_NEAR(wall->o[0], 1, 1e-12);
     CHECK(run.v[0] > 1 && run.external_work >= 0.5 * run.v[0] * run.v[0]);
-    get_contact(&masses)->hand.is_held = false;
+    get_contact(&masses)->push.is_held = false;
     double work = run.external_work;
     step_masses();
     CHECK(wall->o[0] == 1 && run.external_work == work);
     *wall = (Obstacle){.kind = OBSTACLE_BALL, .radius = 0.2, .v = {0, 40}};
-    CHECK_NEAR(push_max_step_fraction(get_contact(&masses), h) * h * 40, 0.1,
+    CHECK_NEAR(push_max_move_fraction(get_contact(&masses), h) * h * 40, 0.1,
                1e-15);
 }
 
@@ -149,18 +149,18 @@ TEST(a_fixed_body_stops_the_hand)
 {
     const double still[2] = {0, 0}, right[2] = {1, 0}, left[2] = {-1, 0};
     put_mass_on_wall(right, 0, 0, 0);
-    masses.pinned[0] = 1;
+    masses.is_pinned[0] = 1;
     Obstacle *wall = add_hand_on_wall();
     begin_free_masses(0.01, still, still);
     for (int i = 0; i < 100; i++)
         step_masses();
     CHECK(-0.0035 < wall->o[0] && wall->o[0] <= -0.003 && run.x[0] == 0);
-    create_masses(1, 0);
-    Obstacle walls[2] = {{.n = {right[0], 0}, .o = {-0.1, 0}, .node = -1},
-                         {.n = {left[0], 0}, .o = {0.05, 0}, .node = -1}};
+    create_system(1, 0);
+    Obstacle walls[2] = {{.n = {right[0], 0}, .o = {-0.1, 0}, .ball_node = -1},
+                         {.n = {left[0], 0}, .o = {0.05, 0}, .ball_node = -1}};
     CHECK_OK(contact_configure(&masses, &(Barrier){0.01, 1}, 2, walls));
     wall = add_hand_on_wall();
-    get_contact(&masses)->hand.target[0] = 0.05; /* near target: slow push */
+    get_contact(&masses)->push.target[0] = 0.05; /* near target: slow push */
     begin_free_masses(0.01, still, still);
     for (int i = 0; i < 300; i++)
         step_masses();
@@ -173,12 +173,14 @@ TEST(a_fixed_body_stops_the_hand)
 TEST(a_ball_that_is_pushed_jumps_over_nothing)
 {
     const double still[2] = {0, 0};
-    const Obstacle ball = {
-        .kind = OBSTACLE_BALL, .o = {-0.05, 0}, .radius = 0.02, .node = -1};
-    create_masses(1, 0);
+    const Obstacle ball = {.kind = OBSTACLE_BALL,
+                           .o = {-0.05, 0},
+                           .radius = 0.02,
+                           .ball_node = -1};
+    create_system(1, 0);
     CHECK_OK(contact_configure(&masses, &(Barrier){0.002, 1}, 1, &ball));
     Contact *contact = get_contact(&masses);
-    contact->hand =
+    contact->push =
         (ObstaclePush){.is_held = 1, .target = {9, 0}, .mesh = {.side = 1}};
     begin_free_masses(0.01, still, still);
     for (int i = 0; i < 50; i++) {
@@ -193,7 +195,7 @@ TEST(broken_springs_neither_flow_nor_damp)
 {
     const double x[4] = {0, 0, 3, 0}, far[4] = {0, 0, 30, 0};
     const double apart[4] = {-0.5, 0, 0.5, 0}, v[4] = {-30, 0, 30, 0};
-    create_masses(2, 1);
+    create_system(2, 1);
     CHECK_OK(plastic_energy.configure(&masses, NULL, (double[]){0.1, 0}));
     const Plasticity *flow = system_term_data(&masses, &plastic_energy);
     plastic_energy.end_step(&(TermStep){&masses, masses.term, x, x, 1});
@@ -205,25 +207,25 @@ TEST(broken_springs_neither_flow_nor_damp)
     CHECK_NEAR(flow->ep[0], 8 - 0.1, 1e-14);
     CHECK_NEAR(flow->kappa[0], 8 - 0.1, 1e-14);
 
-    create_masses(2, 1)->k[0] = 1000;
+    create_system(2, 1)->k[0] = 1000;
     CHECK_OK(damping.configure(&masses, NULL, &(double){0.01}));
     CHECK_OK(fracture.configure(&masses, NULL, &(double){0.01}));
     begin_free_masses(0.001, apart, v);
     for (int i = 0; i < 200 && !spring_is_broken(&masses, 0); i++)
         step_masses();
     CHECK(spring_is_broken(&masses, 0));
-    double damped = get_booked_loss(), speed = run.v[2];
+    double damped = get_lost_energy(), speed = run.v[2];
     CHECK(damped > 0 && speed > 0);
     for (int i = 0; i < 5; i++)
         step_masses();
     CHECK_NEAR(run.v[2], speed, 1e-12 * speed);
-    CHECK(get_booked_loss() == damped);
+    CHECK(get_lost_energy() == damped);
 }
 
 /* ---- whole scenes ------------------------------------------------------ */
 
 /* Upper limits for the nodes and springs of the scenes in this file */
-enum { MOST_NODES = 1024, MOST_SPRINGS = 8 * MOST_NODES };
+enum { NODE_LIMIT = 1024, SPRING_LIMIT = 8 * NODE_LIMIT };
 
 /* Returns the work of moving walls in the last step, J. */
 static double find_wall_work(const System *system, const double *x, double h)
@@ -255,7 +257,7 @@ static double find_dissipation(const TimeIntegrator *it, double *k,
                                const double *x_n, const double *v_n, Real P)
 {
     System whole = *it->system;
-    static double dx[2 * MOST_NODES];
+    static double dx[2 * NODE_LIMIT];
     whole.k = k;
     Real sum = P + find_wall_work(&whole, it->x, it->h);
     for (int c = 0; c < 2 * whole.nodes; c++) {
@@ -285,12 +287,12 @@ TEST(the_ledger_adds_up)
                                         "drop",
                                         "squeeze",
                                         "dent"};
-    static double x[2 * MOST_NODES], v[2 * MOST_NODES], k[MOST_SPRINGS];
+    static double x[2 * NODE_LIMIT], v[2 * NODE_LIMIT], k[SPRING_LIMIT];
     for (int i = 0; i < 8; i++) {
         Simulation *scene = simulate("%s --tolerance 1e-8", lines[i]);
         double sum[SIMULATION_MAX_RUNS] = {0}, most = 0;
-        CHECK(scene->system.nodes <= MOST_NODES &&
-              scene->system.springs <= MOST_SPRINGS);
+        CHECK(scene->system.nodes <= NODE_LIMIT &&
+              scene->system.springs <= SPRING_LIMIT);
         for (int n = 0; n < 110; n++)
             for (int r = 0; r < scene->runs; r++) {
                 TimeIntegrator *it = &scene->run[r];
@@ -300,7 +302,7 @@ TEST(the_ledger_adds_up)
                 memcpy(v, it->v, it->x_length * sizeof *v);
                 memcpy(k, it->system->k,
                        (size_t)it->system->springs * sizeof *k);
-                CHECK_OK(time_integrator_step(it));
+                CHECK_OK(time_integrator_make_step(it));
                 Energies end = simulation_get_energies(scene, r);
                 double stored = ENERGY(&end, elastic) + ENERGY(&end, contact);
                 CHECK_NEAR(stored, exact_potential(it->system, it->x),
@@ -343,11 +345,11 @@ TEST(damping_books_the_energy_that_it_takes)
  * did not break share a node with a broken one of larger load. */
 TEST(breaking_books_its_energy)
 {
-    static double k[MOST_SPRINGS], load[MOST_SPRINGS], most[MOST_NODES];
+    static double k[SPRING_LIMIT], load[SPRING_LIMIT], most[NODE_LIMIT];
     Simulation *scene = simulate("tear");
     System *system = &scene->system;
     int broken = 0;
-    CHECK(system->nodes <= MOST_NODES && system->springs <= MOST_SPRINGS);
+    CHECK(system->nodes <= NODE_LIMIT && system->springs <= SPRING_LIMIT);
     for (int n = 0; n < 120; n++) {
         double lost = get_run_energy(scene, 0, "fracture");
         const double *x = scene->run[0].x;
@@ -422,7 +424,7 @@ TEST(a_moving_wall_never_gives_back_what_is_dissipated)
             CHECK(start - held >= before - 1e-12);
             before = start - held;
             most = fmax(most, run.external_work);
-            CHECK_OK(time_integrator_step(&run));
+            CHECK_OK(time_integrator_make_step(&run));
         }
         CHECK(before > 1e-3 && most > 0.1);
     }

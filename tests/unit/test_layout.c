@@ -17,13 +17,13 @@ enum {
     RESIDUAL_CARD,
     ENERGY_CARD,
     ASSEMBLY_CARD,
-    SHOWN_CARDS = 5
+    SHOWN_CARD_COUNT = 5
 }; /* indices of the cards that are shown */
 
 static Simulation simulation;
 static FrameContent content;
 
-static void fill_content(void)
+static void fill_frame_content(void)
 {
     frame_create(&simulation, &content);
     frame_compute_values(&content);
@@ -75,7 +75,7 @@ static void check_chips(const Layout *l, int wished)
         if (i > 0 && i < l->chip_count - 1 && l->chip[i - 1].width <= 0)
             CHECK(l->chip[i].width <= 0); /* no chip after a left-out chip */
     }
-    CHECK(out == l->chips_left_out);
+    CHECK(out == l->omitted_chips);
     CHECK(check_boxes(l->chip, l->chip_count, l->chip_row) ==
           l->chip_count - out);
 }
@@ -83,7 +83,7 @@ static void check_chips(const Layout *l, int wished)
 /* Zones tile the window without overlap, and contain their parts. */
 TEST(zones_tile_every_size)
 {
-    fill_content();
+    fill_frame_content();
     for (int s = 0; s < WINDOW_SIZE_COUNT; s++)
         for (content.panes = 1; content.panes <= LAYOUT_MAX_PANES;
              content.panes++) {
@@ -101,7 +101,7 @@ TEST(zones_tile_every_size)
                 CHECK(check_boxes(l.pane, l.pane_count, l.stage) ==
                       l.pane_count);
             CHECK(check_boxes(l.card, l.card_count, l.column) ==
-                  (l.card_count ? SHOWN_CARDS : 0));
+                  (l.card_count ? SHOWN_CARD_COUNT : 0));
             CHECK(check_boxes(l.setting, l.setting_count, l.settings_row) ==
                   l.setting_count);
             check_chips(&l, content.chips.count);
@@ -120,7 +120,7 @@ static bool click_hits_zone(const Layout *layout, double x, double y,
  * beside them. */
 TEST(a_click_hits_the_part_that_is_drawn_there)
 {
-    fill_content();
+    fill_frame_content();
     content.panes = 5;
     content.cards.closed_cards |= 1 << LISTING_CARD;
     Layout l = layout_create(&content, 1280, 800);
@@ -181,7 +181,7 @@ TEST(zoom_keeps_the_point_under_the_mouse)
 
 /* ---- texts -------------------------------------------------------------- */
 
-static Text *text;
+static Font *text;
 static Canvas canvas;
 static const TextStyle style = {FACE_REGULAR, 20, 0xff000000, false, 0};
 
@@ -189,13 +189,13 @@ static int create_texts(void **unused)
 {
     (void)unused;
     simulation_from_line("square", NULL, NULL, &simulation);
-    return text_create(&text) || canvas_create(300, 120, &canvas);
+    return font_create(&text) || canvas_create(300, 120, &canvas);
 }
 
 static int free_texts(void **unused)
 {
     (void)unused;
-    text_free(text);
+    font_free(text);
     canvas_free(&canvas);
     simulation_free(&simulation);
     return 0;
@@ -226,11 +226,11 @@ TEST(markup_has_its_widths)
 
 /* Appends measures of a formula's picture to a line: ink in red, green and
  * blue, centre of the ink (pixels), and extent of the formula. */
-static void append_formula_measures(const TextStyle *like, const char *markup,
-                                    char *line)
+static void append_formula_metrics(const TextStyle *like, const char *markup,
+                                   char *line)
 {
     double ink[3] = {0}, at[2] = {0};
-    Text *boxes = (Text *)line; /* dummy: boxes instead of a font */
+    Font *boxes = (Font *)line; /* dummy: boxes instead of a font */
     TextExtent extent = text_measure(boxes, like, markup);
     canvas_clear(&canvas, 0xffffffff);
     CHECK(text_draw(boxes, &canvas, like, 9, 40, ALIGN_LEFT, markup) ==
@@ -264,8 +264,8 @@ TEST(formulas_are_drawn_as_before)
         const char *bar = strrchr(was[i], '|');
         const char *markup = bar ? bar + 2 : was[i];
         is[0] = '\0';
-        append_formula_measures(&style, markup, is);
-        append_formula_measures(&small, markup, is);
+        append_formula_metrics(&style, markup, is);
+        append_formula_metrics(&small, markup, is);
         append(is, sizeof is, "%s", markup);
         if (getenv("PICTURES"))
             fprintf(file, "%s\n", is);
@@ -302,10 +302,10 @@ TEST(without_a_font_nothing_fails)
 {
     const char *was = getenv("ELASTO_FONT");
     char *kept = was ? strdup(was) : NULL;
-    Text *none = (Text *)1;
+    Font *none = (Font *)1;
     canvas_clear(&canvas, 0xffffffff);
     setenv("ELASTO_FONT", "", 1);
-    CHECK_OK(text_create(&none));
+    CHECK_OK(font_create(&none));
     CHECK(none == NULL);
     CHECK(text_draw(none, &canvas, &style, 0, 0, ALIGN_LEFT, "abc") == 36);
     for (int i = 0; i < canvas.width * canvas.height; i++)

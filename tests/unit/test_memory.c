@@ -23,7 +23,7 @@ static bool allocation_fails(void)
            (keeps_failing ? number >= first_failure : number == first_failure);
 }
 
-static void *count_block(void *block)
+static void *track_block(void *block)
 {
     block_count += block != NULL;
     return block;
@@ -31,18 +31,18 @@ static void *count_block(void *block)
 
 void *__wrap_malloc(size_t size)
 {
-    return allocation_fails() ? NULL : count_block(__real_malloc(size));
+    return allocation_fails() ? NULL : track_block(__real_malloc(size));
 }
 
 void *__wrap_calloc(size_t count, size_t size)
 {
-    return allocation_fails() ? NULL : count_block(__real_calloc(count, size));
+    return allocation_fails() ? NULL : track_block(__real_calloc(count, size));
 }
 
 void *__wrap_aligned_alloc(size_t page, size_t size)
 {
     return allocation_fails() ? NULL
-                              : count_block(__real_aligned_alloc(page, size));
+                              : track_block(__real_aligned_alloc(page, size));
 }
 
 void *__wrap_realloc(void *old, size_t size)

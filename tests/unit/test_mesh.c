@@ -95,7 +95,7 @@ TEST(cells_triangles_and_outline_are_those_of_the_springs)
     CHECK(mesh.outline_edge_count == 32 && twice == BODIES * 2 * 2.5 * 1.5);
     twice = 0;
     for (int c = 0; c < mesh.cells; c++) /* patches of at most 2 x 2 cells */
-        if (square_mesh_get_patch(&mesh, c, 2, node)) {
+        if (square_mesh_get_cell_patch(&mesh, c, 2, node)) {
             const double *low = x + 2 * node[0], *up = x + 2 * node[2];
             twice += 2 * (up[0] - low[0]) * (up[1] - low[1]);
             seen++;
@@ -113,8 +113,8 @@ static double count_factor_entries(int segments)
     int n = system->nodes, blocks = n;
     memset(meets, 0, sizeof meets);
     for (int s = 0; s < system->springs; s++) {
-        int i = system->elimination_order[system->e[2 * s]];
-        int j = system->elimination_order[system->e[2 * s + 1]];
+        int i = system->elimination_index[system->e[2 * s]];
+        int j = system->elimination_index[system->e[2 * s + 1]];
         meets[i][j] = meets[j][i] = true;
     }
     for (int k = 0; k < n; k++)

@@ -43,9 +43,9 @@ static void randomise_square(Random *random, bool pins)
     double cell = 1.0 / body->segments;
     if (pins) {
         for (int i = 0; i < side; i++)
-            body->pinned[i * side + side - 1] = 1;
+            body->is_pinned[i * side + side - 1] = 1;
         for (int i = 0; i <= body->nodes / 20; i++)
-            body->pinned[random_below(random, body->nodes)] = 1;
+            body->is_pinned[random_below(random, body->nodes)] = 1;
     }
     for (int i = 0; i < size; i++) {
         if (i % 2 == 0)
@@ -83,7 +83,7 @@ typedef struct EnergyHistory {
     int bound_end_count;       /* steps ended by a bound of the next residual */
 } EnergyHistory;
 
-static bool check_update(void *user, const NewtonRecord *record)
+static bool check_E_decrease(void *user, const NewtonRecord *record)
 {
     static const double zero[MAX_UNKNOWNS];
     EnergyHistory *E = user;
@@ -96,11 +96,12 @@ static bool check_update(void *user, const NewtonRecord *record)
                2e-14L * E->start_energy);
     E->last_energy = now;
     if (record->status == STATUS_OK) {
-        const double *judged = newton->passes_test ? newton->u_trial : at->u;
-        CHECK(test_large_square(&newton->iterate.E, judged, newton->settings.h,
-                                newton->tolerance) == TEST_PASSED);
+        const double *judged =
+            newton->meets_tolerance ? newton->u_trial : at->u;
+        CHECK(test_cg_residual(&newton->iterate.E, judged, newton->settings.h,
+                               newton->tolerance) == TEST_PASSED);
         E->tested_residual_count++;
-        E->bound_end_count += !newton->passes_test;
+        E->bound_end_count += !newton->meets_tolerance;
     }
     return true;
 }
@@ -132,7 +133,7 @@ TEST(steps_fall_and_pass_the_test_of_algorithm_3)
             pull_middle_node(rows[i].hand_stiffness);
         if (i == 14) /* a short step ends by a bound of the next residual */
             square->run[0].h = newton->settings.h = 1e-4;
-        newton->settings.observer = check_update;
+        newton->settings.observer = check_E_decrease;
         newton->settings.user_data = &history;
         for (int step = 0; step < (i == 0 ? 12 : 4); step++) {
             make_steps(square, 1);
@@ -212,7 +213,7 @@ TEST(bits_depend_on_the_step_alone)
 TEST(steps_take_no_more_work_than_counted)
 {
     static const struct {
-        int segments, max_smooth_cycles, max_rough_cycles;
+        int segments, max_regular_cycles, max_random_cycles;
     } rows[] = {{16, 25, 45}, {32, 30, 85}, {64, 32, 119}, {128, 36, 217}};
     for (int i = 0; i < 8; i++) {
         Random random = {7};
@@ -222,8 +223,8 @@ TEST(steps_take_no_more_work_than_counted)
             randomise_square(&random, true);
         make_steps(square, 5);
         CHECK_AT_MOST(newton->counters.v_cycles,
-                      rough ? rows[i / 2].max_rough_cycles
-                            : rows[i / 2].max_smooth_cycles);
+                      rough ? rows[i / 2].max_random_cycles
+                            : rows[i / 2].max_regular_cycles);
         CHECK(rough || newton->counters.updates == newton->counters.v_cycles);
         CHECK(rough || newton->counters.tile_sweeps == 0);
     }

@@ -10,7 +10,7 @@
 #include "solve/newton_parts.h"
 
 /* Squares have up to 4 segments, most have 3 */
-enum { MAX_UNKNOWNS = 2 * 25, USUAL_UNKNOWNS = 2 * 16 };
+enum { MAX_UNKNOWNS = 2 * 25, UNKNOWNS_3_SEGMENTS = 2 * 16 };
 
 /* The last record of a minimisation, and the iterate from which its p starts */
 typedef struct LastRecord {
@@ -63,7 +63,7 @@ TEST(residuals_are_what_they_are_called)
             seen[multigrid][last.record.residual_kind]++;
             if (last.record.residual_kind == RESIDUAL_EXACT)
                 CHECK_NEAR(residual, exact, 1e-9 * exact + 1e-10);
-            else if (multigrid && newton->passes_test)
+            else if (multigrid && newton->meets_tolerance)
                 CHECK_NEAR(residual, exact, tolerance - residual);
             else if (multigrid) /* ended by a bound of the next residual */
                 CHECK_AT_MOST(exact_residual(&E, newton->iterate.u, NULL,
@@ -79,11 +79,11 @@ TEST(residuals_are_what_they_are_called)
 
 /* ---- two nodes ----------------------------------------------------------- */
 
-/* Two nodes joined by a spring of 1 m, which create_spring_pair replaces */
+/* Two nodes joined by a spring of 1 m, which create_node_pair replaces */
 static System pair;
 static Newton newton;
 
-static void create_spring_pair(double m0, double m1, double k)
+static void create_node_pair(double m0, double m1, double k)
 {
     newton_free(&newton);
     system_free(&pair);
@@ -124,7 +124,7 @@ TEST(a_maximum_is_counted_without_projection)
                 {3.9, 3.9, true}, {4.1, 4.1, false}, {2.1, 1e6, false}};
     const double x[4] = {0};
     for (int i = 0; i < 6; i++) {
-        create_spring_pair(rows[i].m0, rows[i].m1, 1);
+        create_node_pair(rows[i].m0, rows[i].m1, 1);
         create_newton_for_pair(1, 1e-3, PROJECTION_NONE);
         CHECK_OK(minimise_pair(x, 1));
         CHECK(newton.counters.indefinite_convergences == rows[i].is_indefinite);
@@ -149,8 +149,8 @@ TEST(nearly_singular_steps_end_or_say_why_not)
     for (int i = 0; i < 3; i++) {
         Real g[4], H[16];
         const Iterate *at = &newton.iterate;
-        create_spring_pair(1, 1, rows[i].k);
-        pair.pinned[0] = 1;
+        create_node_pair(1, 1, rows[i].k);
+        pair.is_pinned[0] = 1;
         create_newton_for_pair(1, 1e-6, rows[i].projection);
         newton.u_tilde[3] = rows[i].sideways_pull;
         CHECK_STATUS(minimise_pair(x, 1), rows[i].end_status);
@@ -171,7 +171,7 @@ TEST(nearly_singular_steps_end_or_say_why_not)
 
 /* ---- squares of next to no mass --------------------------------------- */
 
-static bool store_shift(void *user, const NewtonRecord *record)
+static bool store_max_shift(void *user, const NewtonRecord *record)
 {
     double *largest = user;
     *largest = fmax(*largest, record->shift);
@@ -184,18 +184,18 @@ static bool store_shift(void *user, const NewtonRecord *record)
 TEST(tiny_masses_keep_their_velocity)
 {
     double shift = 0;
-    Simulation *simulation =
-        simulate_observed(store_shift, &shift, "--segments 3 --stiffness 1e30");
+    Simulation *simulation = simulate_observed(store_max_shift, &shift,
+                                               "--segments 3 --stiffness 1e30");
     TimeIntegrator *run = &simulation->run[0];
     double start = system_potential(&simulation->system, run->x);
-    for (int i = 0; i < USUAL_UNKNOWNS; i++)
+    for (int i = 0; i < UNKNOWNS_3_SEGMENTS; i++)
         run->v[i] = i % 2 ? 2 : 1;
     make_steps(simulation, 1);
     CHECK(shift > 0);
     CHECK_AT_MOST(shift, 1e-10 * 16e-6 * 1e30);
     double mean[2] = {0, 0};
-    for (int i = 0; i < USUAL_UNKNOWNS; i++)
-        mean[i % 2] += run->v[i] / (USUAL_UNKNOWNS / 2);
+    for (int i = 0; i < UNKNOWNS_3_SEGMENTS; i++)
+        mean[i % 2] += run->v[i] / (UNKNOWNS_3_SEGMENTS / 2);
     CHECK_NEAR(mean[0], 1, 1e-12); /* rounding of 16 terms of up to 100 m/s */
     CHECK_NEAR(mean[1], 2, 1e-12);
     CHECK_AT_MOST(system_potential(&simulation->system, run->x), 1e-6 * start);
@@ -237,22 +237,22 @@ static bool check_energy_falls(void *unused, char *line)
 
 TEST(energy_never_rises_without_masses)
 {
-    stress_visit_rows("massless", check_energy_falls, NULL);
+    stress_read_rows("massless", check_energy_falls, NULL);
 }
 
 /* ---- backtracking ------------------------------------------------------ */
 
 /* A made-up E along p: alphas up to max_alpha do not raise it */
-typedef struct FakeLine {
-    double max_alpha, low_value, high_value;
+typedef struct FakeEnergy {
+    double max_alpha, change_below, change_above;
     int call_count;
-} FakeLine;
+} FakeEnergy;
 
-static double fake_line_difference(const void *function, double alpha)
+static double fake_energy_difference(const void *function, double alpha)
 {
-    FakeLine *line = *(FakeLine *const *)function;
+    FakeEnergy *line = *(FakeEnergy *const *)function;
     line->call_count++;
-    return alpha <= line->max_alpha ? line->low_value : line->high_value;
+    return alpha <= line->max_alpha ? line->change_below : line->change_above;
 }
 
 /* Backtracking takes the first of alpha, alpha/2, alpha/4, ... that does not
@@ -261,7 +261,7 @@ TEST(backtracking_takes_the_first_that_is_not_higher)
 {
     static const struct {
         double start_alpha;
-        FakeLine line;
+        FakeEnergy energy;
         double alpha;
         int trials;
     } rows[] = {
@@ -270,10 +270,10 @@ TEST(backtracking_takes_the_first_that_is_not_higher)
         {0.3, {0.1, -1, 1, 0}, 0.075, 3}, {1, {0x1p-64, -1, 1, 0}, 0x1p-64, 65},
         {1, {0x1p-65, -1, 1, 0}, 0, 65},  {1, {0, -1, NAN, 0}, 0, 65}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        FakeLine line = rows[i].line, *pointer = &line;
+        FakeEnergy line = rows[i].energy, *pointer = &line;
         double alpha = rows[i].start_alpha;
         int trials;
-        CHECK_STATUS(line_search_backtrack(fake_line_difference, &pointer,
+        CHECK_STATUS(line_search_backtrack(fake_energy_difference, &pointer,
                                            &alpha, &trials),
                      rows[i].alpha > 0 ? STATUS_OK : STATUS_LINE_SEARCH_LIMIT);
         CHECK(alpha == rows[i].alpha);

@@ -66,20 +66,20 @@ TEST(numbers_have_ranges)
 }
 
 /* Returns true if a part of a row is about an option, not the message. */
-static bool part_is_about_option(const char *part)
+static bool field_names_option(const char *part)
 {
     return strchr("=+-", part[0]) && part[1] == ' ';
 }
 
 /* Checks a part of a row of lines.txt: an option's value ("= NAME NUMBER..."),
  * an option on or off ("+ NAME", "- NAME"), or words of the message. */
-static bool row_part_holds(const char *part, const Options *options,
-                           const char *message)
+static bool field_matches(const char *part, const Options *options,
+                          const char *message)
 {
     char name[32];
     int used;
     double wanted;
-    if (!part_is_about_option(part))
+    if (!field_names_option(part))
         return strstr(message, part) != NULL;
     CHECK(sscanf(part + 2, "%31s%n", name, &used) == 1);
     const OptionRow *row = option_find(name);
@@ -103,8 +103,8 @@ TEST(command_lines_are_accepted_or_explained)
     while (fgets(row, sizeof row, file)) {
         char *rest = row;
         row[strcspn(row, "\n")] = '\0';
-        const char *line = take_next_part(&rest);
-        bool taken = !rest || part_is_about_option(rest);
+        const char *line = take_row_field(&rest);
+        bool taken = !rest || field_names_option(rest);
         if (line[0] == '#')
             continue;
         Options options = {.panes = 1};
@@ -113,8 +113,8 @@ TEST(command_lines_are_accepted_or_explained)
             status = parse_line(line, pane, &options, message);
         bool good = status == (taken ? STATUS_OK : STATUS_INVALID_INPUT) &&
                     !strchr(message, '\n');
-        for (const char *part; (part = take_next_part(&rest));)
-            good = good && row_part_holds(part, &options, message);
+        for (const char *part; (part = take_row_field(&rest));)
+            good = good && field_matches(part, &options, message);
         if (!good)
             fail_msg("%s: '%s'", line, message);
         count++;

@@ -30,7 +30,7 @@ TEST(the_fastest_motion_limits_h)
 {
     FrameContent content;
     frame_create(open_page("explicit", ""), &content);
-    double limit = frame_find_number(&content, "h limit");
+    double limit = frame_find_value(&content, "h limit");
     for (int i = 0; i < 2; i++) {
         char line[80];
         double mode[2 * SIMULATION_MAX_MODE_NODES];
@@ -38,7 +38,7 @@ TEST(the_fastest_motion_limits_h)
                  limit * (i ? 1.02 : 0.98));
         Simulation *simulation = open_page("explicit", line);
         TimeIntegrator *run = &simulation->run[0];
-        simulation_find_fastest_mode(simulation, run->x, mode);
+        simulation_find_max_omega(simulation, run->x, mode);
         for (size_t k = 0; k < run->x_length; k++)
             run->v[k] += 1e-6 * mode[k];
         double start = simulation_get_energies(simulation, 0).total;
@@ -48,7 +48,7 @@ TEST(the_fastest_motion_limits_h)
         CHECK((now < 1e3 * start) == (i == 0));
     }
     frame_create(open_page("explicit", "--stretch 1.2"), &content);
-    CHECK_NEAR(frame_find_number(&content, "h limit"), limit, 1e-12);
+    CHECK_NEAR(frame_find_value(&content, "h limit"), limit, 1e-12);
 }
 
 /* Page dial: E is convex everywhere with h = 0.067 s, not with 0.0675 s. */
@@ -139,7 +139,7 @@ TEST(the_crack_begins_at_the_slit)
     CHECK(count > 10);
 }
 
-static const Race *run_race(const char *options)
+static const MethodRace *run_race(const char *options)
 {
     Simulation *simulation = open_page("order", options);
     while (!simulation->is_over)
@@ -153,7 +153,7 @@ TEST(the_race_measures_errors)
 {
     static const double factor[RACE_METHODS] = {2, 4, 2, 4};
     enum { VERLET_RUN = 1 }; /* index of Verlet's run with h = 8 ms */
-    const Race *race = run_race("");
+    const MethodRace *race = run_race("");
     for (int i = 0; i < RACE_METHODS; i++) {
         const RaceResult *point =
             &race->result[(RACE_STEP_SIZES - 1) * RACE_METHODS + i];
@@ -208,9 +208,9 @@ TEST(questions_have_answers)
         FrameContent content;
         frame_create(open_page(page->name, ""), &content);
         if (page_wants_number(page) &&
-            !isfinite(frame_find_number(&content, page->answer)))
-            fail_msg("page %s: no number %s", page->name, page->answer);
-        CHECK(page->question || (!page->answer && !page->covered_cards));
+            !isfinite(frame_find_value(&content, page->answer_name)))
+            fail_msg("page %s: no number %s", page->name, page->answer_name);
+        CHECK(page->question || (!page->answer_name && !page->covered_cards));
     }
 }
 
@@ -225,18 +225,18 @@ static struct {
         overlaps;
     int outside_point_count, word_count;
     char cut_text[80]; /* the last text that leaves its box */
-    Box column, word_box[MAX_WORDS];
+    Box column_box, word_box[MAX_WORDS];
     char drawn_texts[1 << 15];
 } seen;
 
-const Glyph *__real_font_get_glyph(Text *text, Face face, int size,
+const Glyph *__real_font_get_glyph(Font *text, Face face, int size,
                                    uint32_t letter);
-int __real_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
+int __real_text_draw(Font *text, Canvas *canvas, const TextStyle *style,
                      double x, double y, Align align, const char *markup);
 void __real_plot_curve(const Plot *plot, int count, const double *x,
                        const double *y, double width, Colour colour);
 
-const Glyph *__wrap_font_get_glyph(Text *text, Face face, int size,
+const Glyph *__wrap_font_get_glyph(Font *text, Face face, int size,
                                    uint32_t letter)
 {
     if (letter != ' ' && size < seen.min_letter_size)
@@ -247,7 +247,7 @@ const Glyph *__wrap_font_get_glyph(Text *text, Face face, int size,
     return __real_font_get_glyph(text, face, size, letter);
 }
 
-int __wrap_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
+int __wrap_text_draw(Font *text, Canvas *canvas, const TextStyle *style,
                      double x, double y, Align align, const char *markup)
 {
     const Box *place = &canvas->clip;
@@ -266,7 +266,7 @@ int __wrap_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
     char *end;
     strtod(markup, &end);
     /* Overlaps count for numbers, and for words in the column of cards. */
-    bool counts = !*end || box_contains(seen.column, left + 1, y);
+    bool counts = !*end || box_contains(seen.column_box, left + 1, y);
     for (int i = 0; i < seen.word_count && counts; i++)
         seen.overlaps += word.x < seen.word_box[i].x + seen.word_box[i].width &&
                          seen.word_box[i].x < word.x + word.width &&
@@ -297,7 +297,7 @@ static const char *find_missing_line(const FrameContent *content,
                                      const char *text)
 {
     static TextLine line;
-    line = text_begin(&active_pane(content)->values, text);
+    line = lines_begin(&active_pane(content)->values, text);
     while (text_next_line(&line))
         if (!strstr(seen.drawn_texts, line.text))
             return line.text;
@@ -322,7 +322,7 @@ static void inspect_frame(const FrameContent *content, Paper *paper)
 {
     memset(&seen, 0, sizeof seen);
     seen.min_letter_size = seen.min_code_letter_size = INT_MAX;
-    seen.column =
+    seen.column_box =
         layout_create(content, paper->canvas.width, paper->canvas.height)
             .column;
     frame_draw(paper, content);

@@ -15,7 +15,7 @@ static uint64_t hash_past(void)
 {
     uint64_t hash = STATE_HASH_SEED;
     for (int p = 0; p < past_count_panes(&past); p++)
-        hash = hash_with_ledger(&past.pane[p].simulation, hash);
+        hash = hash_simulation(&past.pane[p].simulation, hash);
     return hash;
 }
 
@@ -105,7 +105,7 @@ TEST(states_come_back)
         CHECK((past.branch[0].stride >= STEPS / 8) == thinned);
         simulation_from_line(lines[i % COMMAND_LINE_COUNT], NULL, NULL, &plain);
         for (int step = 0; step <= STEPS; step++) {
-            CHECK(hash_with_ledger(&plain, STATE_HASH_SEED) == hash[step]);
+            CHECK(hash_simulation(&plain, STATE_HASH_SEED) == hash[step]);
             simulation_step(&plain);
         }
         simulation_free(&plain);
@@ -171,16 +171,16 @@ TEST(an_edit_ends_what_was_undone)
     begin_past("square --segments 3");
     CHECK_OK(past_edit(&past, &grab, 0, false, 7));
     CHECK_OK(past_edit(&past, &add, ALL_PANES, false, 0));
-    past_undo(&past, -1);
+    past_undo_or_redo(&past, -1);
     CHECK_OK(past_edit(&past, &grab, 0, false, 7));
-    CHECK(!past_undo(&past, 1));
+    CHECK(!past_undo_or_redo(&past, 1));
     past_free(&past);
 }
 
 TEST(commands_are_written_as_they_are_read)
 {
     char message[256], line[160], again[160];
-    for (int kind = COMMAND_QUIT; kind < COMMAND_KINDS; kind++) {
+    for (int kind = COMMAND_QUIT; kind < COMMAND_KIND_COUNT; kind++) {
         Command command = {(CommandKind)kind, 7, 0.1, -3, "word",
                            kind % 2 == 0},
                 read;
@@ -251,7 +251,7 @@ static void drag_randomly(Random *random, int step)
  * the work of the hand, up to rounding (P: potential, v_n: old velocities).
  * Returns false above 1e20 J, which undamped methods may reach, and after an
  * explicit step that overflowed and changed nothing. */
-static bool make_step_after_jerk(bool descends)
+static bool make_step_after_drag(bool descends)
 {
     const Simulation *simulation = &past.pane[0].simulation;
     const TimeIntegrator *run = &simulation->run[0];
@@ -301,7 +301,7 @@ TEST(random_drags_end)
         int runaways = 0;
         for (int step = 0; step < steps; step++) {
             drag_randomly(&random, step);
-            if (make_step_after_jerk(euler))
+            if (make_step_after_drag(euler))
                 continue;
             past_free(&past);
             begin_past(line);

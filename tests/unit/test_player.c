@@ -75,7 +75,7 @@ static void begin_window(const char *line)
     fake_time = 100;
 }
 
-static void pass_time(int ticks)
+static void make_frames(int ticks)
 {
     while (ticks-- > 0) {
         fake_time += 1 / 240.0;
@@ -89,8 +89,8 @@ TEST(steps_are_due_at_the_speed_that_was_asked_for)
     for (int speed = -5; speed <= 3; speed++) {
         begin_window("square --segments 1 --stretch 1 --velocity 3,4");
         while (player.play.log_speed != speed)
-            CHECK_OK(
-                obey_line(player.play.log_speed < speed ? "faster" : "slower"));
+            CHECK_OK(obey_command(player.play.log_speed < speed ? "faster"
+                                                                : "slower"));
         CHECK_OK(player_make_frame(&player)); /* frame of the start */
         const double every = ldexp(1, speed < 0 ? -speed : 0) / 60;
         CHECK_NEAR(player_find_wait_time(&player), fmin(1e3 * every, 200), 1);
@@ -98,7 +98,7 @@ TEST(steps_are_due_at_the_speed_that_was_asked_for)
         fake_time += 9 * every;
         CHECK(player_find_wait_time(&player) == 0);
         fake_time -= 9 * every;
-        pass_time(3 * 240);
+        make_frames(3 * 240);
         CHECK_NEAR(player.past.shown_step - before, 180 * ldexp(1, speed),
                    fmax(1, ldexp(1, speed)));
         fake_time = -1;
@@ -111,12 +111,12 @@ TEST(the_overview_is_alive)
 {
     const FrameContent *content = &player.screen.frame.content;
     begin_window("square");
-    CHECK_OK(obey_line("sheet"));
-    pass_time(4 * 8);
-    for (int frames = 1; frames < 20; frames++, pass_time(4))
+    CHECK_OK(obey_command("sheet"));
+    make_frames(4 * 8);
+    for (int frames = 1; frames < 20; frames++, make_frames(4))
         for (int i = 0; i < content->sheet.cells; i++) {
             const Simulation *cell = content->sheet.cell[i].simulation;
-            const bool moves = cell->scene->parts & HAS_TIME;
+            const bool moves = cell->scene->traits & HAS_TIME;
             if (i > 0) /* cell 0 shows pages, whose runs may end */
                 assert_int_equal(cell->steps, moves ? frames + 2 : 0);
         }
@@ -138,7 +138,7 @@ TEST(curves_span_what_is_known)
 {
     begin_player("square --segments 1 --stretch 1 --gravity 9.81");
     for (int newest = 1; newest <= 2100; newest++) {
-        CHECK_OK(obey_line("step"));
+        CHECK_OK(obey_command("step"));
         if (newest % 300)
             continue;
         const History *history = get_history();
@@ -150,11 +150,11 @@ TEST(curves_span_what_is_known)
             CHECK_NEAR(history->time[i], 0.004 * pace * i, 1e-9);
     }
     double before = get_history()->value[1][400];
-    CHECK_OK(obey_line("goto 30"));
-    CHECK_OK(obey_line("set stiffness 2e5"));
+    CHECK_OK(obey_command("goto 30"));
+    CHECK_OK(obey_command("set stiffness 2e5"));
     CHECK(get_history()->point_count == 31);
-    CHECK_OK(obey_line("step"));
-    CHECK_OK(obey_line("undo"));
+    CHECK_OK(obey_command("step"));
+    CHECK_OK(obey_command("undo"));
     CHECK(get_history()->point_count == 2100 / 4 + 1);
     CHECK(get_history()->value[1][400] == before);
     end_player();

@@ -19,24 +19,24 @@ static void make_saved_step(Simulation *simulation, void *bytes)
 static void make_changed_step(const Options *options, Simulation *old)
 {
     int last = old->system.nodes - 1;
-    bool pinned = old->system.pinned[last];
+    bool pinned = old->system.is_pinned[last];
     bool damps =
         old->run[0].method->supports_all_terms && old->system.springs > 0;
     change_option(old, OPTION_SLOT(timestep), 2 * options->timestep);
-    CHECK_OK(simulation_pin(old, last, !pinned));
-    CHECK_OK(simulation_hold(old, 0, 0.1, 0.2));
+    CHECK_OK(pin_node(old, last, !pinned));
+    CHECK_OK(hold_node(old, 0, 0.1, 0.2));
     if (damps)
         CHECK_OK(change_option(old, OPTION_SLOT(damping), 1e8));
     simulation_step(old);
     if (damps) {
         const Newton *newton = old->run[0].newton;
-        CHECK(newton->rounding.max_curvature ==
-              system_curvature_estimate(newton->system));
+        CHECK(newton->rounding.max_stiffness ==
+              system_max_stiffness(newton->system));
     }
     if (damps)
         CHECK_OK(change_option(old, OPTION_SLOT(damping), options->damping));
-    CHECK_OK(simulation_hold(old, -1, 0, 0));
-    CHECK_OK(simulation_pin(old, last, pinned));
+    CHECK_OK(hold_node(old, -1, 0, 0));
+    CHECK_OK(pin_node(old, last, pinned));
     change_option(old, OPTION_SLOT(timestep), options->timestep);
 }
 
@@ -95,8 +95,8 @@ TEST(steps_are_pure)
     for (const Scene *scene = scenes; scene->name; scene++) {
         char line[80];
         snprintf(line, sizeof line, "%s%s", scene->name,
-                 scene->parts & HAS_MESH ? " --segments 4" : "");
-        if (!(scene->parts & HAS_TIME) || scene->step)
+                 scene->traits & HAS_MESH ? " --segments 4" : "");
+        if (!(scene->traits & HAS_TIME) || scene->step)
             continue;
         Options options = options_from_line(line);
         runs += check_steps_are_pure(&options);
@@ -151,7 +151,7 @@ TEST(changed_h_forgets_earlier_steps)
         state_save(old, bytes);
         state_restore(bytes, fresh);
         free(bytes);
-        fresh->run[0].memory_h = 0;
+        fresh->run[0].history_h = 0;
         change_option(old, OPTION_SLOT(timestep), 2e-3);
         for (int i = 0; i < 3; i++)
             CHECK(state_hash(make_steps(old, 1), 1) ==

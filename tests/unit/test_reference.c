@@ -23,7 +23,7 @@ enum { MAX_UPDATE_ROWS = 1024 };
 typedef struct NewtonUpdates {
     int row_count;
     struct {
-        long step;
+        long step_index;
         int update_index;
         double residual, alpha;
     } row[MAX_UPDATE_ROWS];
@@ -44,7 +44,7 @@ static void read_updates(FILE *file, NewtonUpdates *updates)
 {
     int i = 0;
     while (i < MAX_UPDATE_ROWS &&
-           fscanf(file, "%ld,%d,%lf,%lf", &updates->row[i].step,
+           fscanf(file, "%ld,%d,%lf,%lf", &updates->row[i].step_index,
                   &updates->row[i].update_index, &updates->row[i].residual,
                   &updates->row[i].alpha) == 4)
         i++;
@@ -58,7 +58,7 @@ static bool store_update(void *user, const NewtonRecord *record)
     NewtonUpdates *kept = user;
     CHECK(kept->row_count < MAX_UPDATE_ROWS);
     int i = kept->row_count++;
-    kept->row[i].step = record->step_number;
+    kept->row[i].step_index = record->step_number;
     kept->row[i].update_index = record->iteration;
     kept->row[i].residual = record->residual;
     kept->row[i].alpha = record->alpha;
@@ -75,7 +75,7 @@ static void check_updates(const NewtonUpdates *got,
     for (int i = 0; i < got->row_count; i++) {
         double alpha = expected->row[i].alpha;
         double residual = expected->row[i].residual;
-        CHECK(got->row[i].step == expected->row[i].step);
+        CHECK(got->row[i].step_index == expected->row[i].step_index);
         CHECK(got->row[i].update_index == expected->row[i].update_index);
         CHECK_NEAR(got->row[i].alpha, alpha,
                    log2(alpha) == rint(log2(alpha)) ? 0 : 1e-11);
@@ -106,7 +106,7 @@ static void check_state(FILE *file, long step, int nodes, const double *x,
 /* A row of the table in tests/data/reference/README.md */
 typedef struct ReferenceCase {
     char name[32], tested_program[8], line[320];
-    int state_interval, steps;
+    int steps_per_state, steps;
 } ReferenceCase;
 
 static ReferenceCase cases[32];
@@ -121,14 +121,14 @@ static int read_cases(void **unused)
     while (fgets(row, sizeof row, file)) {
         ReferenceCase *it = &cases[case_count];
         case_count += sscanf(row, "| %31s | %7s | %d | %d | %*f | `%319[^`]",
-                             it->name, it->tested_program, &it->state_interval,
+                             it->name, it->tested_program, &it->steps_per_state,
                              &it->steps, it->line) == 5;
     }
     fclose(file);
     return case_count == 19 ? 0 : -1;
 }
 
-static bool case_is_for(const ReferenceCase *one, const char *who)
+static bool case_covers(const ReferenceCase *one, const char *who)
 {
     return strcmp(one->tested_program, who) == 0;
 }
@@ -154,8 +154,8 @@ TEST(the_program_follows_the_slides)
 {
     for (int i = 0; i < case_count; i++) {
         const ReferenceCase *it = &cases[i];
-        bool solid = case_is_for(it, "solid");
-        if (case_is_for(it, "lecture"))
+        bool solid = case_covers(it, "solid");
+        if (case_covers(it, "lecture"))
             continue;
         FILE *file = open_reference(it->name, "states");
         Simulation *scene = simulate("%s --tolerance 1e-9", it->line);
@@ -163,9 +163,9 @@ TEST(the_program_follows_the_slides)
         if (solid)
             read_start_state(file, run,
                              strstr(it->line, "--body") ? 1e-15 : INFINITY);
-        for (int step = solid ? it->state_interval : 0; step <= it->steps;
-             step += it->state_interval) {
-            make_steps(scene, step > 0 ? it->state_interval : 0);
+        for (int step = solid ? it->steps_per_state : 0; step <= it->steps;
+             step += it->steps_per_state) {
+            make_steps(scene, step > 0 ? it->steps_per_state : 0);
             check_state(file, step, run->system->nodes, run->x, run->v,
                         solid ? 1e-8 : 1e-6, (solid ? 1e-8 : 1e-6) / run->h);
         }
@@ -214,7 +214,7 @@ static void free_solid(Solid *solid)
 TEST(lecture_follows_the_slides)
 {
     static NewtonUpdates got, expected;
-    for (int i = 0; i < case_count && case_is_for(&cases[i], "lecture"); i++) {
+    for (int i = 0; i < case_count && case_covers(&cases[i], "lecture"); i++) {
         const Options options = simulate("%s", cases[i].line)->options;
         Solid solid = square(1, options.segments, 1000, options.stiffness);
         FILE *file = open_reference(cases[i].name, "states");
@@ -315,7 +315,7 @@ static void make_step_tested_last(Solid *solid, double h, double tol, int step,
             for (int i = 0; i < n; i++)
                 x_new[i] = add(x[i], p[i]);
         CHECK(updates->row_count < MAX_UPDATE_ROWS);
-        updates->row[updates->row_count].step = step;
+        updates->row[updates->row_count].step_index = step;
         updates->row[updates->row_count].update_index = update;
         updates->row[updates->row_count].residual = residual(solid, p, h);
         updates->row[updates->row_count++].alpha = alpha;
@@ -340,7 +340,7 @@ static void check_same_updates(const NewtonUpdates *got,
     for (int k = 0; k < expected->row_count; k++) {
         double residual = expected->row[k].residual;
         bool there = i < got->row_count &&
-                     got->row[i].step == expected->row[k].step &&
+                     got->row[i].step_index == expected->row[k].step_index &&
                      got->row[i].update_index == expected->row[k].update_index;
         if (!there) {
             CHECK_AT_MOST(residual, negligible);
@@ -360,7 +360,7 @@ static void check_same_updates(const NewtonUpdates *got,
 TEST(the_program_makes_the_updates_of_lecture)
 {
     static NewtonUpdates got, expected;
-    for (int i = 0; i < case_count && case_is_for(&cases[i], "lecture"); i++)
+    for (int i = 0; i < case_count && case_covers(&cases[i], "lecture"); i++)
         for (int tight = 0; tight < 2; tight++) {
             got.row_count = expected.row_count = 0;
             Simulation *scene =

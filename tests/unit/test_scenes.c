@@ -36,15 +36,14 @@ TEST(scenes_are_complete)
         for (char *word = strtok_r(words, " ", &rest); word;
              word = strtok_r(NULL, " ", &rest))
             if (strncmp(word, "--", 2) == 0)
-                CHECK(option_find(word + 2)->needs_any_scene_part &
-                      scene->parts);
+                CHECK(option_find(word + 2)->needs_any_trait & scene->traits);
         Simulation *simulation = simulate("%s", scene->name);
         CHECK(simulation->scene == scene && simulation->runs >= 1);
         CHECK(!simulation->is_over && simulation->steps == 0);
         simulation_step(simulation);
         CHECK(simulation->steps == 1);
         double time = simulation_get_time(simulation);
-        CHECK((time > 0) == ((scene->parts & HAS_TIME) != 0));
+        CHECK((time > 0) == ((scene->traits & HAS_TIME) != 0));
     }
     CHECK(!scene_find("") && !scene_find("squar") && !scene_find("0"));
     CHECK(scene_find("1") == scenes && scene_find("2") == scenes + 1);
@@ -104,8 +103,8 @@ TEST(landscape_is_downhill_from_everywhere)
 
 /* ---- the envelope ------------------------------------------------------- */
 
-static const EnvelopeCell *run_envelope_cell(Simulation *map, int column,
-                                             int row)
+static const ConvergenceCell *run_envelope_cell(Simulation *map, int column,
+                                                int row)
 {
     CHECK_OK(envelope_run_cell(map, column, row));
     return &map->exhibit.envelope.cell[row][column];
@@ -119,19 +118,19 @@ TEST(envelope_cells_are_runs)
     int refused = 0;
     for (int i = 0; i < 6; i++) {
         int column = cells[i][0], row = cells[i][1];
-        const EnvelopeCell *cell = run_envelope_cell(map, column, row);
+        const ConvergenceCell *cell = run_envelope_cell(map, column, row);
         Status worst = STATUS_OK;
-        Simulation *run =
-            simulate("square --segments %d --stretch %.17g --timestep %.17g "
-                     "--stiffness %.17g --tolerance 1e-10",
-                     (int)map->options.segments, map->options.stretch,
-                     envelope_timestep(column), envelope_stiffness(row));
+        Simulation *run = simulate(
+            "square --segments %d --stretch %.17g --timestep %.17g "
+            "--stiffness %.17g --tolerance 1e-10",
+            (int)map->options.segments, map->options.stretch,
+            envelope_get_timestep(column), envelope_get_stiffness(row));
         for (int step = 0; step < ENVELOPE_STEPS; step++) {
             Status status = simulation_step(run);
             worst = status ? status : worst;
         }
         CHECK(cell->is_known);
-        CHECK_STATUS(cell->bad_status, worst);
+        CHECK_STATUS(cell->run_status, worst);
         refused += worst != STATUS_OK;
         CHECK(cell->updates == simulation_sum_newton_counters(run).updates);
         CHECK_SAME_BITS(map->run[0].x, run->run[0].x, 2 * run->system.nodes);
@@ -210,20 +209,20 @@ TEST(a_body_that_is_pushed_stops_at_another)
 
 /* ---- the ledger while hands are on ------------------------------------- */
 
-static Status change_by_hand(Simulation *scene, int deed)
+static Status make_user_change(Simulation *scene, int deed)
 {
     const double *x = scene->run[0].x + 2 * 7;
     const Options *now = &scene->options;
     switch (deed % 8) {
     case 0:
-        return simulation_hold(scene, 7, x[0], x[1]);
+        return hold_node(scene, 7, x[0], x[1]);
     case 1:
-        return simulation_hold(scene, 7, x[0] + 0.1, x[1] - 0.07);
+        return hold_node(scene, 7, x[0] + 0.1, x[1] - 0.07);
     case 2:
-        return simulation_hold(scene, -1, 0, 0);
+        return hold_node(scene, -1, 0, 0);
     case 3:
     case 5:
-        return simulation_pin(scene, 9, deed % 8 == 3);
+        return pin_node(scene, 9, deed % 8 == 3);
     case 4:
         return change_option(scene, OPTION_SLOT(timestep), 0.4 * now->timestep);
     default:
@@ -256,7 +255,7 @@ TEST(changes_by_hand_are_booked_as_work)
             Energies before = simulation_get_energies(scene, 0);
             int broken = count_broken_springs(scene);
             Status status =
-                n % 5 ? simulation_step(scene) : change_by_hand(scene, n / 5);
+                n % 5 ? simulation_step(scene) : make_user_change(scene, n / 5);
             Energies after = simulation_get_energies(scene, 0);
             double size = fabs(before.total) + fabs(after.total) +
                           fabs(after.work) + fabs(before.dissipated) + 1;

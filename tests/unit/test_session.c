@@ -12,10 +12,10 @@
 #include <limits.h>
 #include <math.h>
 
-enum { WINDOW_SIDE = 900, MAX_MARKS = 16, MAX_CHANGES = 80, MAX_STEPS = 80 };
+enum { WINDOW_SIDE = 900, MAX_HASHES = 16, MAX_EDITS = 80, MAX_STEPS = 80 };
 
-static uint64_t marked_hashes[MAX_MARKS]; /* hash at each mark, a to p */
-static double mouse[2];                   /* position, pixels */
+static uint64_t marked_hashes[MAX_HASHES]; /* hash at each mark, a to p */
+static double mouse[2];                    /* position, pixels */
 static bool player_is_open;
 static double heap_at_start;        /* bytes, at the start of the session */
 static double heap_before_player;   /* bytes, before the session's player */
@@ -58,7 +58,7 @@ static uint64_t hash_positions(void)
 
 /* Returns a hash of the "state", the "shape" (positions), the "cards", or else
  * of all pixels without the message. Pixels are redrawn only after a change. */
-static uint64_t hash_aspect(const char *aspect)
+static uint64_t hash_by_name(const char *aspect)
 {
     char note[sizeof player.note];
     if (strcmp(aspect, "state") == 0)
@@ -87,10 +87,10 @@ static struct {
 } texts[1024];
 static int text_count;
 
-int __real_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
+int __real_text_draw(Font *text, Canvas *canvas, const TextStyle *style,
                      double x, double y, Align align, const char *markup);
 
-int __wrap_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
+int __wrap_text_draw(Font *text, Canvas *canvas, const TextStyle *style,
                      double x, double y, Align align, const char *markup)
 {
     size_t used = strlen(window_text), more = strlen(column_text);
@@ -160,7 +160,7 @@ static double find_pane_scale(void)
     return make_pane_camera(content, &layout, 0).scale[0];
 }
 
-static void finish_session(void)
+static void close_player(void)
 {
     static double lost; /* bytes left by all sessions; caches may keep 1e6 */
     if (player_is_open) {
@@ -173,7 +173,7 @@ static void finish_session(void)
 
 static void begin_session(const char *line)
 {
-    finish_session();
+    close_player();
     heap_before_player = count_heap_bytes();
     begin_scripted_player("0 pause\n", line);
     player_is_open = true;
@@ -272,7 +272,7 @@ static int find_chip(const char *key)
     return i;
 }
 
-static int find_cell(const char *scene)
+static int find_sheet_cell(const char *scene)
 {
     int i = content->sheet.cells - 1;
     while (i >= 0 && strcmp(content->sheet.cell[i].name, scene) != 0)
@@ -293,7 +293,7 @@ static void move_mouse(const char *place)
         long step = atol(place + 5);
         mouse[0] = layout.step_bars.x;
         mouse[1] = layout.time_line.y + layout.time_line.height / 2;
-        while (frame_find_bar_step(content, &layout, mouse[0]) < step &&
+        while (frame_pick_step(content, &layout, mouse[0]) < step &&
                mouse[0] < layout.width)
             mouse[0]++;
     } else if (strncmp(place, "text ", 5) == 0) {
@@ -310,7 +310,7 @@ static void move_mouse(const char *place)
         assert_true((i = find_chip(place + 5)) >= 0);
         move_mouse_into(layout.chip[i], false);
     } else if (strncmp(place, "cell ", 5) == 0) {
-        assert_true((i = find_cell(place + 5)) >= 0);
+        assert_true((i = find_sheet_cell(place + 5)) >= 0);
         move_mouse_into(layout.cell[i], false);
     } else if (!move_mouse_in_pane(place, &layout)) {
         find_setting(place, &i);
@@ -350,14 +350,14 @@ static void resize_window(const char *size)
     int *now = player.screen.paper_size;
     CHECK(sscanf(size, "%d %d", &now[0], &now[1]) == 2);
     send_input((Input){.kind = INPUT_REDRAW});
-    hash_aspect("");
+    hash_by_name("");
 }
 
 static void run_until_step(long step)
 {
     Command pause = {.kind = COMMAND_PAUSE};
     if (player_is_stopped(&player))
-        show_refusal(obey_line("play"));
+        show_refusal(obey_command("play"));
     player.setup.script.lines =
         player.setup.script.next_line; /* drops later lines */
     CHECK_STATUS(script_add(&player.setup.script, step, &pause, 0), STATUS_OK);
@@ -369,7 +369,7 @@ static void stop_within_step(void)
 {
     Past *past = &player.past;
     show_refusal(player_seek(&player, past->shown_step + 1, AFTER_NOTHING));
-    while (!past->pane[0].is_iterating)
+    while (!past->pane[0].is_in_substep)
         CHECK_STATUS(past_do_work(past), STATUS_RUNNING);
 }
 
@@ -390,7 +390,7 @@ static void check_replay(const char *line)
     char script[65536] = "", paused[160];
     glob_t found;
     /* Not the command's key Y, which a selected number would take as text. */
-    show_refusal(obey_line("hash"));
+    show_refusal(obey_command("hash"));
     assert_int_equal(glob("elasto_*.script", 0, NULL, &found), 0);
     FILE *file = fopen(found.gl_pathv[0], "r");
     assert_true(file && fread(script, 1, sizeof script - 1, file) > 0);
@@ -398,7 +398,7 @@ static void check_replay(const char *line)
     remove(found.gl_pathv[0]); /* the next call finds only its own script */
     globfree(&found);
     uint64_t hash = player_compute_hash(&player);
-    finish_session();
+    close_player();
     snprintf(paused, sizeof paused, "%s --paused", line);
     begin_scripted_player(script, paused);
     player_is_open = true;
@@ -408,10 +408,10 @@ static void check_replay(const char *line)
 }
 
 /* Checks the rows of the last step in the file `states` against a new run. */
-static void check_state_tables(const char *line)
+static void check_states_file(const char *line)
 {
     char whole[160];
-    finish_session();
+    close_player();
     snprintf(whole, sizeof whole, "%s --states states2", line);
     begin_scripted_player("0 play\n", whole);
     player_run(&player);
@@ -423,8 +423,8 @@ static void check_state_tables(const char *line)
 
 static void check_hash_mark(const char *verb, const char *rest)
 {
-    uint64_t now = hash_aspect(rest[1] ? rest + 2 : ""),
-             *mark = &marked_hashes[(rest[0] - 'a') % MAX_MARKS];
+    uint64_t now = hash_by_name(rest[1] ? rest + 2 : ""),
+             *mark = &marked_hashes[(rest[0] - 'a') % MAX_HASHES];
     if (strcmp(verb, "mark") == 0)
         *mark = now;
     else if ((now == *mark) != (strcmp(verb, "same") == 0))
@@ -481,7 +481,7 @@ static bool pane_shows_all_nodes(const Layout *layout, int p)
     return far > 0.05 * box->width;
 }
 
-static void add_facts_of_parts(void)
+static void add_widget_facts(void)
 {
     Layout layout = find_layout();
     char order[512] = "";
@@ -549,7 +549,7 @@ static void collect_window_facts(void)
     add_fact("time\t%s", text_or_nothing(content->time_line.label));
     add_fact("sentence\t%s", text_or_nothing(content->title_bar.sentence));
     add_fact("method\t%s", text_or_nothing(content->title_bar.method));
-    add_facts_of_parts();
+    add_widget_facts();
 }
 
 /* ---- counters of Newton's method ------------------------------------- */
@@ -565,7 +565,7 @@ static const struct {
                 {"handed over", offsetof(NewtonCounters, newton_takeovers)}};
 enum { COUNTER_COUNT = sizeof counters / sizeof *counters };
 
-static long get_counter(const Simulation *simulation, size_t i)
+static long get_work_counter(const Simulation *simulation, size_t i)
 {
     const NewtonCounters sum = simulation_sum_newton_counters(simulation);
     return *(const long *)((const char *)&sum + counters[i].counter_offset);
@@ -581,7 +581,7 @@ static void clear_record(void)
     record[0] = facts[0] = recorded_texts[0] = '\0';
 }
 
-static void add_new_lines(const char *before, const char *now)
+static void add_changed_lines(const char *before, const char *now)
 {
     for (size_t length; *now; now += length + (now[length] == '\n')) {
         char line[1024];
@@ -611,7 +611,7 @@ static void add_changed_facts_to_record(const char *line)
         for (char *at = facts; (at = strchr(at, '\t'));)
             memset(at, '.', strcspn(at, "\n"));
     for (size_t i = 0; i < COUNTER_COUNT; i++)
-        add_fact("%s %ld", counters[i].name, get_counter(simulation, i));
+        add_fact("%s %ld", counters[i].name, get_work_counter(simulation, i));
     for (int i = 0; i < STATUS_COUNT; i++)
         if (simulation->status_counts[i] > 0)
             add_fact("steps with status %d: %d", i,
@@ -630,8 +630,8 @@ static void add_changed_facts_to_record(const char *line)
                      entry->value[0], entry->value[1]);
     }
     snprintf(head, sizeof head, "> %s\n", line);
-    add_new_lines("", head);
-    add_new_lines(before, facts);
+    add_changed_lines("", head);
+    add_changed_lines(before, facts);
 }
 
 /* Returns the name of the card in which a text stands, or "". */
@@ -645,7 +645,7 @@ static const char *find_card_name(const Layout *layout, double x, double y)
 
 /* Writes the ink of a box: the sums over its pixels of 1 - red, 1 - green and
  * 1 - blue (0: white), and the ink's centre, pixels from the box's corner. */
-static int write_ink_amount(const Canvas *canvas, Box box, const char *name,
+static int write_ink_in_box(const Canvas *canvas, Box box, const char *name,
                             char *out)
 {
     double ink[3] = {0}, at[2] = {0}, all = 0;
@@ -666,16 +666,16 @@ static int write_ink_amount(const Canvas *canvas, Box box, const char *name,
 
 /* Writes how much is drawn besides words: in each of 25 parts of the picture,
  * and in each card. */
-static int write_shape_ink(const Layout *layout, char *out)
+static int write_ink_table(const Layout *layout, char *out)
 {
     enum { PARTS_PER_SIDE = 5 };
     Paper *paper = &player.screen.paper;
-    Text *text = paper->text;
+    Font *text = paper->font;
     const Box stage = layout->stage;
     char name[32], *at = out;
-    paper->text = NULL;
+    paper->font = NULL;
     player_paint_frame(&player, paper);
-    paper->text = text;
+    paper->font = text;
     for (int i = 0; !layout->cell_count && i < PARTS_PER_SIDE * PARTS_PER_SIDE;
          i++) {
         const int column = i % PARTS_PER_SIDE, row = i / PARTS_PER_SIDE;
@@ -685,24 +685,24 @@ static int write_shape_ink(const Layout *layout, char *out)
                           stage.width * (column + 1) / PARTS_PER_SIDE - left,
                           stage.height * (row + 1) / PARTS_PER_SIDE - top};
         snprintf(name, sizeof name, "picture %d %d", column, row);
-        at += write_ink_amount(&paper->canvas, part, name, at);
+        at += write_ink_in_box(&paper->canvas, part, name, at);
     }
     for (int c = 0; c < layout->card_count; c++)
-        at += write_ink_amount(&paper->canvas, layout->card[c],
+        at += write_ink_in_box(&paper->canvas, layout->card[c],
                                active_picture(content)->cards[c]->name, at);
     if (layout->has_list)
-        at += write_ink_amount(&paper->canvas, layout->column, "list", at);
+        at += write_ink_in_box(&paper->canvas, layout->column, "list", at);
     for (int i = 0; i < layout->cell_count;
          i++) /* run times of the race vary */
         if (strcmp(content->sheet.cell[i].name, "race") != 0)
-            at += write_ink_amount(&paper->canvas, layout->cell[i], "cell", at);
+            at += write_ink_in_box(&paper->canvas, layout->cell[i], "cell", at);
     player.screen.must_redraw = true;
     return (int)(at - out);
 }
 
 /* Writes what the mouse hits in each of 144 parts of the window: zone and
  * index, then kind and index of the scene's object or the list's row. */
-static void write_hits(const Layout *layout, char *out)
+static void write_mouse_hits(const Layout *layout, char *out)
 {
     enum { COLUMNS = 16, ROWS = 9 };
     const Canvas *canvas = &player.screen.paper.canvas;
@@ -751,16 +751,16 @@ static void add_window_to_record(const char *unused)
         count++;
     }
     now += sprintf(now, "%d | texts\n", count);
-    now += write_shape_ink(&layout, now);
-    write_hits(&layout, now);
-    add_new_lines(before, recorded_texts);
+    now += write_ink_table(&layout, now);
+    write_mouse_hits(&layout, now);
+    add_changed_lines(before, recorded_texts);
 }
 
 /* Adds a file to the record; the log, named "l", without its run times. */
 static void add_file_to_record(const char *name)
 {
     char line[1024];
-    finish_session();
+    close_player();
     FILE *file = fopen(name, "r");
     assert_non_null(file);
     while (fgets(line, sizeof line, file)) {
@@ -769,14 +769,14 @@ static void add_file_to_record(const char *name)
             seconds++;
         if (strcmp(name, "l") == 0 && (next = strchr(seconds + 1, ',')))
             memmove(seconds, next, strlen(next) + 1);
-        add_new_lines("", line);
+        add_changed_lines("", line);
     }
     fclose(file);
 }
 
 /* Returns true if a line equals that of a record. Numbers at its start may
  * differ a little, as the mathematics of compilers and processors do. */
-static bool lines_agree(const char *was, const char *is)
+static bool lines_nearly_same(const char *was, const char *is)
 {
     double a, b;
     int from[2] = {0};
@@ -802,7 +802,7 @@ static void check_record(const char *name)
         if (!fgets(was, sizeof was, file))
             was[0] = '\0';
         was[strcspn(was, "\n")] = '\0';
-        if (!lines_agree(was, is))
+        if (!lines_nearly_same(was, is))
             fail_msg("%s: '%s' is now '%s'; if it should: "
                      "PICTURES=1 build/release/tests/unit/test_session '%s'",
                      path, was, is, "record*");
@@ -954,7 +954,7 @@ static double count_steps_with_energy_gain(const Simulation *simulation)
     return (double)simulation->ledger[0].gain_steps;
 }
 
-static double find_energy_without_work(const Simulation *simulation)
+static double find_energy_minus_work(const Simulation *simulation)
 {
     Energies ledger = simulation_get_energies(simulation, 0);
     return ledger.total - ledger.work;
@@ -982,7 +982,7 @@ static double find_held_node_motion(const Simulation *simulation)
 /* Positions [2n], m, at which run_until_rest stopped */
 static double stopped_x[2 * 128];
 
-static double find_distance_from_stop(const Simulation *simulation)
+static double find_drift_since_stop(const Simulation *simulation)
 {
     const System *system = &simulation->system;
     double far = 0, l2 = INFINITY;
@@ -998,7 +998,7 @@ static double find_distance_from_stop(const Simulation *simulation)
 static void run_until_rest(void)
 {
     if (player_is_stopped(&player))
-        CHECK_OK(obey_line("play"));
+        CHECK_OK(obey_command("play"));
     for (int i = 0; i < 3000 && !player_is_stopped(&player); i++)
         show_refusal(player_make_step(&player));
     CHECK(player_is_stopped(&player));
@@ -1022,7 +1022,7 @@ static double count_unconverged_steps(const Simulation *simulation)
 /* Numbers by their names in sessions, and the functions that find them */
 static const struct {
     const char *name;
-    double (*find)(const Simulation *simulation);
+    double (*find_value)(const Simulation *simulation);
 } numbers[] = {{"records", count_newton_records},
                {"rises", count_energy_rises},
                {"highest rise", find_highest_energy_rise},
@@ -1038,11 +1038,11 @@ static const struct {
                {"grown", find_heap_growth},
                {"gained", find_gained_energy},
                {"gains", count_steps_with_energy_gain},
-               {"own energy", find_energy_without_work},
+               {"own energy", find_energy_minus_work},
                {"wall", find_wall_height},
                {"hand distance", find_hand_distance},
                {"hand step", find_held_node_motion},
-               {"way from stop", find_distance_from_stop},
+               {"way from stop", find_drift_since_stop},
                {"unconverged", count_unconverged_steps}};
 
 /* Returns the number with a name: in `numbers` or `counters`, of a node, a run,
@@ -1058,10 +1058,10 @@ static double find_value_by_name(const char *name)
     int i = 0, k = 0;
     for (size_t n = 0; n < sizeof numbers / sizeof *numbers; n++)
         if (strcmp(numbers[n].name, name) == 0)
-            return numbers[n].find(simulation);
+            return numbers[n].find_value(simulation);
     for (size_t n = 0; n < COUNTER_COUNT; n++)
         if (strcmp(counters[n].name, name) == 0)
-            return (double)get_counter(simulation, n);
+            return (double)get_work_counter(simulation, n);
     if (strncmp(name, "gap", 3) == 0) {
         const TimeIntegrator *run = &simulation->run[atoi(name + 3)];
         return find_smallest_gap(run->system, run->x);
@@ -1091,7 +1091,7 @@ static double find_value_by_name(const char *name)
 }
 
 /* Returns true if a number has these digits ("6.0e-5") or this bound ("<8"). */
-static bool has_digits(double number, const char *digits)
+static bool number_matches(double number, const char *digits)
 {
     double wanted = strtod(digits + strspn(digits, "<>"), NULL);
     const char *point = strchr(digits, '.'), *e = strchr(digits, 'e');
@@ -1110,7 +1110,7 @@ static void check_named_value(const char *line)
     snprintf(name, sizeof name, "%.*s", (int)(digits - line) - 1, line);
     player_build_frame(&player);
     double number = find_value_by_name(name);
-    if (!has_digits(number, digits))
+    if (!number_matches(number, digits))
         fail_msg("%s is %.12g at step %ld, not %s", name, number,
                  player.past.shown_step, digits);
 }
@@ -1128,10 +1128,10 @@ static void run_session_line(const char *line)
 {
     static const struct {
         const char *verb;
-        void (*act)(const char *rest);
+        void (*handler)(const char *rest);
     } acts[] = {{"begin", begin_session},       {"size", resize_window},
                 {"value", check_named_value},   {"keeps", check_value_in_steps},
-                {"replays", check_replay},      {"tables", check_state_tables},
+                {"replays", check_replay},      {"tables", check_states_file},
                 {"file", add_file_to_record},   {"picture", check_picture},
                 {"words", add_window_to_record}};
     char verb[16] = "", rest[192] = "";
@@ -1140,7 +1140,7 @@ static void run_session_line(const char *line)
         fprintf(stderr, "%s\n", line);
     for (size_t i = 0; i < sizeof acts / sizeof *acts; i++)
         if (strcmp(acts[i].verb, verb) == 0) {
-            acts[i].act(rest);
+            acts[i].handler(rest);
             return;
         }
     if (strcmp(verb, "key") == 0)
@@ -1150,7 +1150,7 @@ static void run_session_line(const char *line)
         for (const char *letter = rest; *letter; letter++)
             press_letter(*letter);
     else if (strcmp(verb, "do") == 0)
-        show_refusal(obey_line(rest));
+        show_refusal(obey_command(rest));
     else if (strcmp(verb, "run") == 0)
         run_until_step(atol(rest));
     else if (strcmp(verb, "rest") == 0)
@@ -1206,7 +1206,7 @@ static void read_sessions(const char *name)
             sessions[session_count++] =
                 (Session){row + 2, lines + ++line_count};
         } else if (row[0] != '#') {
-            while ((lines[line_count] = take_next_part(&row)))
+            while ((lines[line_count] = take_row_field(&row)))
                 assert_true(++line_count + 2 < MAX_LINES);
         }
     line_count++;
@@ -1244,7 +1244,7 @@ static int end_session(void **unused)
     (void)unused;
     if (current_line)
         print_error("    at: %s\n", current_line);
-    finish_session();
+    close_player();
     count_files(true);
     current_line = NULL;
     letters_are_boxes = false;
@@ -1327,7 +1327,7 @@ static void grips_go_where_they_are_dragged(void **unused)
              i++, grips++) {
             char line[80];
             double at[SCENE_MAX_HANDLES][2];
-            bool flat = scene->parts & HAS_ONE_COORDINATE; /* y is ignored */
+            bool flat = scene->traits & HAS_ONE_COORDINATE; /* y is ignored */
             snprintf(line, sizeof line, "begin %s --paused", scene->name);
             run_session_line(line);
             snprintf(line, sizeof line, "press grip %d", i);
@@ -1347,7 +1347,7 @@ static void grips_go_where_they_are_dragged(void **unused)
 
 static uint64_t hash_all_but_setting(int place)
 {
-    uint64_t hash = hash_aspect("state") + (uint64_t)player.past.shown_step;
+    uint64_t hash = hash_by_name("state") + (uint64_t)player.past.shown_step;
     player_build_frame(&player);
     for (int i = 0; i < content->settings.count; i++)
         if (i != place)
@@ -1374,7 +1374,7 @@ static void random_keys_stay_in_their_field(void **unused)
             run_session_line("begin square --segments 2 --paused");
             run_session_line("key N N");
         }
-        uint64_t before = hash_aspect("");
+        uint64_t before = hash_by_name("");
         int place = random_below(&random, player.screen.frame.option_count);
         for (int i = 0; i <= place; i++)
             press_key("Tab");
@@ -1391,17 +1391,17 @@ static void random_keys_stay_in_their_field(void **unused)
         bool enter = !mesh && random_below(&random, 2) == 0;
         if (enter)
             press_key("Return");
-        set = enter && !player.hands.selected_option;
+        set = enter && !player.input.selected_option;
         refused += enter && !set;
         press_key("Escape");
-        CHECK(!player.hands.selected_option &&
+        CHECK(!player.input.selected_option &&
               past_count_panes(&player.past) == 1 &&
               player_is_stopped(&player));
         if (set &&
             player.past.shown_step == 2) /* a mesh size begins a new run */
             CHECK(hash_all_but_setting(place) == rest);
         if (!set)
-            CHECK(hash_aspect("") == before);
+            CHECK(hash_by_name("") == before);
         assert_string_equal(player_get_simulation(&player)->scene->name,
                             "square");
         assert_int_equal(count_files(false), 0);
@@ -1413,7 +1413,7 @@ static uint64_t hash_panes(void)
 {
     uint64_t hash = STATE_HASH_SEED;
     for (int p = 0; p < past_count_panes(&player.past); p++)
-        hash = hash_with_ledger(&get_past_pane(p)->simulation, hash);
+        hash = hash_simulation(&get_past_pane(p)->simulation, hash);
     return hash;
 }
 
@@ -1427,7 +1427,7 @@ static void hash_each_step(uint64_t *hash, bool again)
         char line[32];
         long step = again ? i : newest - i;
         snprintf(line, sizeof line, "goto %ld", step);
-        show_refusal(obey_line(line));
+        show_refusal(obey_command(line));
         const uint64_t now = hash_panes();
         CHECK(!again || hash[step] == now);
         hash[step] = now;
@@ -1436,26 +1436,26 @@ static void hash_each_step(uint64_t *hash, bool again)
 
 static void undo_and_redo_all(uint64_t started)
 {
-    static uint64_t hash[MAX_CHANGES][MAX_STEPS];
+    static uint64_t hash[MAX_EDITS][MAX_STEPS];
     int back = 0;
     run_session_line("release 350 300");
     const uint64_t end = player_compute_hash(&player);
     const long step = player.past.shown_step;
     for (; player.past.branch_index > 0; back++) {
-        CHECK(back + 1 < MAX_CHANGES);
+        CHECK(back + 1 < MAX_EDITS);
         hash_each_step(hash[back], false);
-        show_refusal(obey_line("undo"));
+        show_refusal(obey_command("undo"));
     }
     hash_each_step(hash[back], false);
     CHECK(player_compute_hash(&player) == started);
     for (; back >= 0; back--) {
         hash_each_step(hash[back], true);
         if (back > 0)
-            show_refusal(obey_line("redo"));
+            show_refusal(obey_command("redo"));
     }
     char line[32];
     snprintf(line, sizeof line, "goto %ld", step);
-    show_refusal(obey_line(line));
+    show_refusal(obey_command(line));
     CHECK(player_compute_hash(&player) == end);
 }
 
@@ -1509,8 +1509,8 @@ static void pages_are_the_same_when_they_are_entered_again(void **unused)
         run_session_line(current_line = line);
         run_session_line("mark a");
         run_session_line("key N N");
-        show_refusal(obey_line("page-back"));
-        show_refusal(obey_line("page-on"));
+        show_refusal(obey_command("page-back"));
+        show_refusal(obey_command("page-on"));
         run_session_line(line);
         run_session_line("same a");
         current_line = NULL;

@@ -71,8 +71,8 @@ static void draw_picture(void)
 /* Draws the frame without words, whose letters would be counted as colours. */
 static void draw_without_words(void)
 {
-    text_free(paper.text);
-    paper.text = NULL;
+    font_free(paper.font);
+    paper.font = NULL;
     draw_picture();
 }
 
@@ -262,10 +262,10 @@ static char texts[500][160];
 static double text_left[500];
 static int text_count;
 
-int __real_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
+int __real_text_draw(Font *text, Canvas *canvas, const TextStyle *style,
                      double x, double y, Align align, const char *markup);
 
-int __wrap_text_draw(Text *text, Canvas *canvas, const TextStyle *style,
+int __wrap_text_draw(Font *text, Canvas *canvas, const TextStyle *style,
                      double x, double y, Align align, const char *markup)
 {
     text_left[text_count % 500] = x;
@@ -311,7 +311,7 @@ TEST(texts_contain_known_values)
     values_add(&values, "f", 2);
     values.next_run = 0;
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        TextLine line = text_first_line(&values, rows[i].text);
+        TextLine line = text_find_known_line(&values, rows[i].text);
         assert_string_equal(line.text, rows[i].line);
         CHECK((line.colour == COLOUR_WARNING) == (i == 1));
         CHECK(!text_next_line(&line) && line.text[0] == 0);

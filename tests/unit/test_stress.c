@@ -35,34 +35,34 @@ TEST(random_scenes_keep_the_promise)
         CHECK(tally.steps_by_verdict[VERDICT_CONVERGED] >
               2 * tally.steps_by_verdict[VERDICT_REPORTED]);
         CHECK(i > 0 || (tally.judged_residuals > count &&
-                        tally.undecided * 10 < tally.judged_residuals));
+                        tally.undecided_tests * 10 < tally.judged_residuals));
     }
 }
 
 /* Steps of an integrator that break one promise each */
 static void shorten_motion(TimeIntegrator *run)
 {
-    integrator_methods[0].set_state(run);
+    integrator_methods[0].set_x_v(run);
     for (size_t i = 0; i < run->x_length; i++)
         run->newton->iterate.u[i] *= 0.9;
 }
 
 static void put_node_below_ground(TimeIntegrator *run)
 {
-    integrator_methods[0].set_state(run);
+    integrator_methods[0].set_x_v(run);
     run->new_x[1] = -0.7;
 }
 
 static void add_momentum(TimeIntegrator *run)
 {
-    integrator_methods[0].set_state(run);
+    integrator_methods[0].set_x_v(run);
     for (size_t i = 0; i < run->x_length; i++)
         run->new_v[i] += 1e-5;
 }
 
 static void add_angular_momentum(TimeIntegrator *run)
 {
-    integrator_methods[0].set_state(run);
+    integrator_methods[0].set_x_v(run);
     for (size_t i = 0; i < run->x_length; i++)
         run->new_v[i] += (i % 2 ? 1e-3 : -1e-3) * run->new_x[i ^ 1];
 }
@@ -80,14 +80,14 @@ static void loosen_tolerance(TimeIntegrator *run)
 static void restore_tolerance(TimeIntegrator *run)
 {
     run->newton->settings.tolerance = tolerance;
-    integrator_methods[0].set_state(run);
+    integrator_methods[0].set_x_v(run);
 }
 
 TEST(broken_promises_are_noticed)
 {
     static const struct {
         const char *line;
-        void (*set_target)(TimeIntegrator *), (*set_state)(TimeIntegrator *);
+        void (*set_target)(TimeIntegrator *), (*set_x_v)(TimeIntegrator *);
         const char *reason;
     } rows[] = {
         {"--segments 2", NULL, shorten_motion, "E rises"},
@@ -112,7 +112,7 @@ TEST(broken_promises_are_noticed)
         CHECK(make_judged_step(&watch) == VERDICT_CONVERGED);
         method.set_target =
             rows[i].set_target ? rows[i].set_target : method.set_target;
-        method.set_state = rows[i].set_state;
+        method.set_x_v = rows[i].set_x_v;
         run->method = &method;
         CHECK(make_judged_step(&watch) == VERDICT_WRONG);
         CHECK(strstr(watch.reason, rows[i].reason) != NULL);
@@ -121,7 +121,7 @@ TEST(broken_promises_are_noticed)
 }
 
 /* Stops Newton's method at the record that counts *user down to 0; 0: never. */
-static bool stop_at_record(void *user, const NewtonRecord *record)
+static bool stop_at_iteration(void *user, const NewtonRecord *record)
 {
     (void)record;
     return --*(int *)user != 0;
@@ -135,10 +135,10 @@ TEST(interruptions_leave_no_trace)
              integrator_methods[i].stages > 0 && stops; record++) {
             int left = 0, never = 0;
             const char *line = "--integrator %s --tolerance 1e-8";
-            Simulation *one = simulate_observed(stop_at_record, &left, line,
+            Simulation *one = simulate_observed(stop_at_iteration, &left, line,
                                                 integrator_methods[i].name);
-            Simulation *other = simulate_observed(stop_at_record, &never, line,
-                                                  integrator_methods[i].name);
+            Simulation *other = simulate_observed(
+                stop_at_iteration, &never, line, integrator_methods[i].name);
             make_steps(one, 2);
             make_steps(other, 2);
             left = record;
@@ -157,19 +157,19 @@ TEST(interruptions_leave_no_trace)
         }
 }
 
-/* test_large_square rejects the first iterate and accepts the last one. */
+/* test_cg_residual rejects the first iterate and accepts the last one. */
 TEST(an_unfinished_search_is_noticed)
 {
     Simulation *simulation = simulate("--segments 12 --solver multigrid");
     Newton *newton = simulation->run[0].newton;
     newton_start(newton, simulation->run[0].x, NULL, 1.6e-5, 0.01);
-    CHECK(test_large_square(&newton->iterate.E, newton->iterate.u,
-                            newton->settings.h,
-                            newton->tolerance) == TEST_FAILED);
+    CHECK(test_cg_residual(&newton->iterate.E, newton->iterate.u,
+                           newton->settings.h,
+                           newton->tolerance) == TEST_FAILED);
     CHECK_OK(newton_minimise(newton));
-    CHECK(test_large_square(&newton->iterate.E, newton->iterate.u,
-                            newton->settings.h,
-                            newton->tolerance) == TEST_PASSED);
+    CHECK(test_cg_residual(&newton->iterate.E, newton->iterate.u,
+                           newton->settings.h,
+                           newton->tolerance) == TEST_PASSED);
 }
 
 TESTS(NULL, NULL)

@@ -29,14 +29,14 @@ typedef struct TermRow {
         FREE_BALL,
         ONE_TRIANGLE,
         CELL_GRID,
-        CELL_PAIR
+        TWO_BODIES
     } shape;
     double yield, hardening; /* read as one array by plastic_energy.configure */
     double damping, pull_stiffness; /* 0: none; pull in J/m^2 */
-    bool rubs, is_collapsed; /* flat: springs have (nearly) no length at x */
-    bool is_solid;           /* triangles instead of springs */
-    double max_alpha;        /* largest alpha, if no term limits it */
-    const OptionRow *option; /* option whose term is tested; NULL: none */
+    bool has_mu, is_collapsed; /* flat: springs have (nearly) no length at x */
+    bool is_solid;             /* triangles instead of springs */
+    double max_alpha;          /* largest alpha, if no term limits it */
+    const OptionRow *option;   /* option whose term is tested; NULL: none */
 } TermRow;
 
 static const TermRow rows[] = {
@@ -53,16 +53,16 @@ static const TermRow rows[] = {
      .damping = 0.3, .max_alpha = 1e3},
     {"perfectly plastic spring", SPRING, .yield = 0.1, .max_alpha = 1e6},
     {"wall", WALL, .max_alpha = 1e3},
-    {"wall that rubs", WALL, .rubs = true, .max_alpha = 1e3},
+    {"wall that rubs", WALL, .has_mu = true, .max_alpha = 1e3},
     {"ball", BALL, .max_alpha = 1e3},
-    {"ball that rubs", BALL, .rubs = true, .max_alpha = 1e3},
+    {"ball that rubs", BALL, .has_mu = true, .max_alpha = 1e3},
     {"free ball", FREE_BALL, .max_alpha = 1e3},
-    {"free ball that rubs", FREE_BALL, .rubs = true, .max_alpha = 1e3},
+    {"free ball that rubs", FREE_BALL, .has_mu = true, .max_alpha = 1e3},
     {"corner", ONE_TRIANGLE, .max_alpha = 1e3},
     {"cells with springs", CELL_GRID, .max_alpha = 1e3},
     {"triangles", CELL_GRID, .is_solid = true, .max_alpha = 1e3},
-    {"two bodies", CELL_PAIR, .max_alpha = 1e3},
-    {"two bodies that rub", CELL_PAIR, .rubs = true, .max_alpha = 1e3},
+    {"two bodies", TWO_BODIES, .max_alpha = 1e3},
+    {"two bodies that rub", TWO_BODIES, .has_mu = true, .max_alpha = 1e3},
 };
 enum { TERM_ROW_COUNT = sizeof rows / sizeof *rows };
 
@@ -82,18 +82,18 @@ static void make_node_contact(const TermRow *row, Random *random, TermCase *c)
                    .n = {cos(angle), sin(angle)},
                    .radius = 0.3,
                    .v = {random_uniform(random, -9, 9), 4},
-                   .friction = row->rubs ? 0.7 : 0,
-                   .node = row->shape == FREE_BALL ? 1 : -1};
+                   .mu = row->has_mu ? 0.7 : 0,
+                   .ball_node = row->shape == FREE_BALL ? 1 : -1};
     const Barrier barrier = {.d_hat = 0.1, .c = 3};
-    double d = 0.1 * random_logarithmic(random, 1e-3, row->rubs ? 0.9 : 1.3) +
+    double d = 0.1 * random_logarithmic(random, 1e-3, row->has_mu ? 0.9 : 1.3) +
                (row->shape == WALL ? 0 : it.radius);
     for (int axis = 0; axis < 2; axis++) {
         it.o[axis] = random_uniform(random, -1, 1);
         c->x_n[axis] = it.o[axis] + d * it.n[axis];
-        c->x_n[2 + axis] = it.o[axis] + (it.node < 0 ? 9 * it.n[axis] : 0);
+        c->x_n[2 + axis] = it.o[axis] + (it.ball_node < 0 ? 9 * it.n[axis] : 0);
     }
     CHECK_OK(contact_configure(&c->system, &barrier, 1, &it));
-    if (row->rubs)
+    if (row->has_mu)
         CHECK_OK(friction_configure(&c->system, &friction_energy, true,
                                     random_logarithmic(random, 0.02, 50)));
 }
@@ -142,7 +142,7 @@ static void make_cell_grid(const TermRow *row, Random *random, TermCase *c)
 
 /* Makes two cells whose springs have no energy: a corner of the second, turned
  * cell is near the right edge of the first, or beyond an end of this edge. */
-static void make_cell_pair(const TermRow *row, Random *random, TermCase *c)
+static void make_two_bodies(const TermRow *row, Random *random, TermCase *c)
 {
     const Barrier barrier = {.d_hat = 0.2, .c = 24};
     const SquareMesh mesh = square_mesh_create(1, 1, 1, 2);
@@ -166,7 +166,7 @@ static void make_cell_pair(const TermRow *row, Random *random, TermCase *c)
         x[1] = up + sin(angle) * right + cos(angle) * high;
     }
     CHECK_OK(self_contact_configure(&c->system, &mesh, &barrier, 0.7));
-    if (row->rubs)
+    if (row->has_mu)
         CHECK_OK(friction_configure(&c->system, &self_friction_energy, true,
                                     random_logarithmic(random, 0.02, 50)));
 }
@@ -178,8 +178,8 @@ static void make_shape(const TermRow *row, Random *random, TermCase *c)
                       &c->system, c->x_n);
         return;
     }
-    if (row->shape == CELL_PAIR) {
-        make_cell_pair(row, random, c);
+    if (row->shape == TWO_BODIES) {
+        make_two_bodies(row, random, c);
         return;
     }
     if (row->shape == CELL_GRID || row->shape == ONE_TRIANGLE) {
@@ -199,7 +199,7 @@ static void make_shape(const TermRow *row, Random *random, TermCase *c)
 }
 
 /* Adds a central field and a hand, each of which pulls one node. */
-static void add_pulls(Random *random, double strength, System *system)
+static void add_pull_terms(Random *random, double strength, System *system)
 {
     const NodePull all = {.node = random_below(random, system->nodes),
                           .k = strength};
@@ -214,7 +214,7 @@ static void add_pulls(Random *random, double strength, System *system)
 static void add_terms(const TermRow *row, Random *random, System *system)
 {
     if (row->pull_stiffness > 0)
-        add_pulls(random, row->pull_stiffness, system);
+        add_pull_terms(random, row->pull_stiffness, system);
     if (row->yield > 0) {
         CHECK_OK(plastic_energy.configure(system, NULL, &row->yield));
         Plasticity *flow = system_term_data(system, &plastic_energy);
@@ -230,10 +230,10 @@ static void add_terms(const TermRow *row, Random *random, System *system)
 /* Draws random u that all terms allow, and random directions. */
 static void draw_positions(const TermRow *row, Random *random, TermCase *c)
 {
-    double shake = row->is_collapsed         ? 1e-8
-                   : row->shape == CELL_PAIR ? 0.05
-                   : row->shape >= CELL_GRID ? 0.3
-                                             : 0.2;
+    double shake = row->is_collapsed          ? 1e-8
+                   : row->shape == TWO_BODIES ? 0.05
+                   : row->shape >= CELL_GRID  ? 0.3
+                                              : 0.2;
     bool good = false;
     for (int k = 0; !good; k++, shake *= 0.7) {
         CHECK(k < 100);
@@ -358,7 +358,7 @@ static void check_derivatives(TermCase *c, const TermKind *kind)
     apply_hessian(c, kind, PROJECTION_NONE, c->q, Hq);
     apply_hessian(c, kind, PROJECTION_NONE, c->p, Hp);
     if (!(system_term_data(&c->system, &damping) && !kind->is_external))
-        compare("value", c->at.weight * kind->value(&c->at), formula.f,
+        compare("value", c->at.weight * kind->potential(&c->at), formula.f,
                 noise.f);
     compare("gradient", dot_product(c, g, c->p), formula.p, noise.p);
     compare("Hessian", dot_product(c, Hq, c->p), formula.pq, noise.pq);
@@ -373,8 +373,8 @@ static void check_derivatives(TermCase *c, const TermKind *kind)
     }
     for (int i = 0; kind->is_diagonal && i < c->unknowns; i++)
         compare("curvature", fabs(Hq[i]), 0,
-                c->at.weight * kind->curvature_estimate(&c->at) *
-                    fabs(c->q[i]) * (1 + 4 * DBL_EPSILON));
+                c->at.weight * kind->max_stiffness(&c->at) * fabs(c->q[i]) *
+                    (1 + 4 * DBL_EPSILON));
     if (kind->is_external)
         return;
     Real sum[3] = {0}, size = 0;
@@ -390,11 +390,11 @@ static void check_derivatives(TermCase *c, const TermKind *kind)
 }
 
 /* Checks the change of E along p without its linear part, also a tiny one. */
-static void check_line_change(TermCase *c, const TermKind *kind, Random *random)
+static void check_E_along_p(TermCase *c, const TermKind *kind, Random *random)
 {
     double q[3] = {0}, g[CASE_SIZE] = {0}, reach = INFINITY;
     if (kind->element)
-        reach = elements_max_step(&c->at, c->p);
+        reach = elements_max_alpha(&c->at, c->p);
     double most = fmin(reach, row->max_alpha);
     if (random_below(random, 2))
         most *= random_logarithmic(random, 1e-6, 1);
@@ -407,8 +407,8 @@ static void check_line_change(TermCase *c, const TermKind *kind, Random *random)
     if (kind->line_polynomial)
         kind->line_polynomial(&c->at, c->p, q);
     double got = alpha * (alpha * (q[0] + alpha * (q[1] + alpha * q[2])));
-    if (kind->line_remainder)
-        got += kind->line_remainder(&c->at, c->p, alpha);
+    if (kind->taylor_remainder)
+        got += kind->taylor_remainder(&c->at, c->p, alpha);
     Real expected = end.f - start.f - alpha * start.p;
     compare("change", got, expected,
             1e-13L * (fabsl(expected) + fabsl(end.f) + alpha * fabsl(start.p)) +
@@ -421,7 +421,7 @@ static void check_line_change(TermCase *c, const TermKind *kind, Random *random)
 }
 
 /* Returns the smallest share that is left of a gap or a triangle's area. */
-static double find_remaining_share(const TermCase *c, const double *x)
+static double find_gap_ratio(const TermCase *c, const double *x)
 {
     const Contact *contact = get_contact(&c->system);
     double least = INFINITY;
@@ -435,10 +435,10 @@ static double find_remaining_share(const TermCase *c, const double *x)
 }
 
 /* Checks that x is feasible up to the limit: 0.1 of a gap or area is left. */
-static void check_max_step(TermCase *c, const TermKind *kind)
+static void check_max_alpha(TermCase *c, const TermKind *kind)
 {
     double x[CASE_SIZE],
-        alpha = kind->element ? elements_max_step(&c->at, c->p) : INFINITY;
+        alpha = kind->element ? elements_max_alpha(&c->at, c->p) : INFINITY;
     TermCase other = *c;
     if (!isfinite(alpha))
         return;
@@ -456,11 +456,10 @@ static void check_max_step(TermCase *c, const TermKind *kind)
             other.x[i] = c->x[i] + behind * c->p[i];
         crossings += edge_crossings(&c->system, other.x);
     }
-    if (row->shape == CELL_PAIR)
+    if (row->shape == TWO_BODIES)
         CHECK(crossings > 0);
-    else if (row->shape !=
-             CELL_GRID) /* CELL_GRID: the smallest triangle may change */
-        compare("what the limit leaves", find_remaining_share(c, x), 0.1, 1e-8);
+    else if (row->shape != CELL_GRID) /* its smallest triangle may change */
+        compare("what the limit leaves", find_gap_ratio(c, x), 0.1, 1e-8);
 }
 
 /* Checks that the matrix agrees with products, and that projection cuts or
@@ -511,7 +510,7 @@ static void check_projection(TermCase *c, Random *random)
         }
         /* An ulp of x changes a gap of 2 mm by 1e-13 of the gap, and the second
          * derivative of its barrier energy by 3e-13 of this derivative. */
-        Real relative = 1e-14L * n + (row->shape == CELL_PAIR ? 4e-13L : 0);
+        Real relative = 1e-14L * n + (row->shape == TWO_BODIES ? 4e-13L : 0);
         compare("projection", more, expected, relative * scale);
     }
     sparse_free(&A);
@@ -537,7 +536,7 @@ static void check_whole_step(TermCase *c, Random *random)
     if (!system_term_data(&c->system, &damping))
         compare("E", incremental_potential_value(&E, c->u, c->x), part.f,
                 noise.f + 1e-13L * size.f);
-    const LineEnergy along = incremental_potential_prepare_line(&iterate);
+    const LineEnergy along = make_line_energy(&iterate);
     probe.alpha = 1e-3L;
     Real change = oracle_step_energy(&probe, u_tilde).f - part.f;
     compare("E along p", line_energy_difference(&along, 1e-3), change,
@@ -553,12 +552,12 @@ static void terms_match_the_oracle(void **state)
         static TermCase c;
         make_case(row, &random, &c);
         for (const TermKind *kind; (kind = eval_point_next_term(&c.at));) {
-            if (!kind->value)
+            if (!kind->potential)
                 continue;
-            CHECK(!(kind->value(&c.at) < 0)); /* term.h promises P >= 0 */
+            CHECK(!(kind->potential(&c.at) < 0)); /* term.h promises P >= 0 */
             check_derivatives(&c, kind);
-            check_max_step(&c, kind);
-            check_line_change(&c, kind, &random);
+            check_max_alpha(&c, kind);
+            check_E_along_p(&c, kind, &random);
         }
         check_projection(&c, &random);
         check_whole_step(&c, &random);

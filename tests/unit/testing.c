@@ -15,13 +15,13 @@ enum { MAX_SIMULATIONS = 1024 };
 
 static struct {
     Simulation *simulation[MAX_SIMULATIONS];
-    int count;
+    int simulations;
     char line[400]; /* command line of the newest simulation */
 } tested;
 
 static void fail_test(const char *file, int line)
 {
-    if (tested.count > 0)
+    if (tested.simulations > 0)
         print_error("in: %s\n", tested.line);
     _fail(file, line);
 }
@@ -94,7 +94,7 @@ int choose_case_count(int all, int some)
 /* Returns 64 random bits: SplitMix64 (Steele, Lea, Flood 2014). */
 static uint64_t random_bits(Random *random)
 {
-    uint64_t z = random->mix += 0x9e3779b97f4a7c15u;
+    uint64_t z = random->state += 0x9e3779b97f4a7c15u;
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
     z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
     return z ^ (z >> 31);
@@ -115,7 +115,7 @@ int random_below(Random *random, int limit)
     return (int)(random_bits(random) % (uint64_t)limit);
 }
 
-void random_system(Random *random, SpringMix state, System *system, double *x)
+void random_system(Random *random, SpringSize state, System *system, double *x)
 {
     int n = 3 + random_below(random, MAX_NODES - 2);
     int springs = n + random_below(random, MAX_SPRINGS - n + 1);
@@ -150,7 +150,7 @@ void fill_dense_matrix(const Sparse *A, double *dense)
         }
 }
 
-char *take_next_part(char **row)
+char *take_row_field(char **row)
 {
     char *part = *row, *bar = part ? strstr(part, " | ") : NULL;
     *row = bar ? bar + 3 : NULL;
@@ -196,16 +196,16 @@ Simulation *simulate_observed(NewtonObserver observer, void *user,
 {
     va_list words;
     Simulation *run = calloc(1, sizeof *run);
-    CHECK(run && tested.count < MAX_SIMULATIONS);
+    CHECK(run && tested.simulations < MAX_SIMULATIONS);
     va_start(words, line);
     vsnprintf(tested.line, sizeof tested.line, line, words);
     va_end(words);
     simulation_from_line(tested.line, observer, user, run);
-    return tested.simulation[tested.count++] = run;
+    return tested.simulation[tested.simulations++] = run;
 }
 
 /* Applies a control to a simulation, and gives up the reference to it. */
-static Status apply_control(Simulation *simulation, UserControl *control)
+static Status apply_user_control(Simulation *simulation, UserControl *control)
 {
     Status status = control_apply(simulation, control);
     control_release(control);
@@ -216,23 +216,23 @@ Status change_option(Simulation *simulation, int slot, double value)
 {
     UserControl *control = control_create(simulation);
     control->options.number[slot] = value;
-    return apply_control(simulation, control);
+    return apply_user_control(simulation, control);
 }
 
-Status simulation_pin(Simulation *simulation, int node, bool pinned)
+Status pin_node(Simulation *simulation, int node, bool pinned)
 {
     UserControl *control = control_create(simulation);
-    control->pinned[node] = pinned;
-    return apply_control(simulation, control);
+    control->is_pinned[node] = pinned;
+    return apply_user_control(simulation, control);
 }
 
-Status simulation_hold(Simulation *simulation, int node, double x, double y)
+Status hold_node(Simulation *simulation, int node, double x, double y)
 {
     UserControl *control = control_create(simulation);
     control->held_node = node;
     control->target[0] = x;
     control->target[1] = y;
-    return apply_control(simulation, control);
+    return apply_user_control(simulation, control);
 }
 
 Simulation *make_steps(Simulation *simulation, int count)
@@ -244,9 +244,9 @@ Simulation *make_steps(Simulation *simulation, int count)
 
 void free_simulations(void)
 {
-    while (tested.count > 0) {
-        simulation_free(tested.simulation[--tested.count]);
-        free(tested.simulation[tested.count]);
+    while (tested.simulations > 0) {
+        simulation_free(tested.simulation[--tested.simulations]);
+        free(tested.simulation[tested.simulations]);
     }
 }
 
@@ -271,7 +271,7 @@ static uint64_t hash_number(uint64_t hash, double number)
     return 31 * hash + bits;
 }
 
-uint64_t hash_with_ledger(const Simulation *simulation, uint64_t hash)
+uint64_t hash_simulation(const Simulation *simulation, uint64_t hash)
 {
     hash = hash_number(state_hash(simulation, hash),
                        simulation_get_time(simulation));

@@ -54,7 +54,7 @@ int choose_case_count(int all, int some);
 
 /* Random numbers by SplitMix64, equal on every machine */
 typedef struct Random {
-    uint64_t mix; /* starts as the seed */
+    uint64_t state; /* starts as the seed */
 } Random;
 
 double random_uniform(Random *random, double low, double high);
@@ -62,7 +62,7 @@ double random_logarithmic(Random *random, double low, double high);
 int random_below(Random *random, int limit);
 
 /* Lengths of random springs over rest lengths: 0.1 ... 2, or 1e-9 ... 1e-7 */
-typedef enum SpringMix { SPRINGS_MIXED, SPRINGS_SHORT } SpringMix;
+typedef enum SpringSize { SPRINGS_MIXED, SPRINGS_SHORT } SpringSize;
 
 enum { MAX_NODES = 12, MAX_COORDINATES = 2 * MAX_NODES, MAX_SPRINGS = 40 };
 
@@ -70,13 +70,13 @@ enum { MAX_NODES = 12, MAX_COORDINATES = 2 * MAX_NODES, MAX_SPRINGS = 40 };
  * stiffnesses cover four powers of ten.
  *   system  out; free it with system_free
  *   x       [MAX_COORDINATES] out */
-void random_system(Random *random, SpringMix state, System *system, double *x);
+void random_system(Random *random, SpringSize state, System *system, double *x);
 
 /* Writes a sparse matrix to a full one [size size]. */
 void fill_dense_matrix(const Sparse *A, double *dense);
 
 /* Splits the part before " | " off a row and returns it; NULL: none is left. */
-char *take_next_part(char **row);
+char *take_row_field(char **row);
 
 /* Parses the words of a command line; "''" is an empty word. message [512] */
 Status parse_line(const char *line, int pane, Options *options, char *message);
@@ -97,8 +97,8 @@ void free_simulations(void);
 
 /* Change an option (with this slot), a pin, or the held node (-1: none). */
 Status change_option(Simulation *simulation, int slot, double value);
-Status simulation_pin(Simulation *simulation, int node, bool pinned);
-Status simulation_hold(Simulation *simulation, int node, double x, double y);
+Status pin_node(Simulation *simulation, int node, bool pinned);
+Status hold_node(Simulation *simulation, int node, double x, double y);
 
 /* Makes `count` steps, all of which converge; returns the simulation. */
 Simulation *make_steps(Simulation *simulation, int count);
@@ -110,7 +110,7 @@ double get_run_energy(const Simulation *simulation, int run, const char *name);
 
 /* Returns a hash of the states of all runs, the time and the ledgers; `hash` is
  * STATE_HASH_SEED or the hash of the pane before. */
-uint64_t hash_with_ledger(const Simulation *simulation, uint64_t hash);
+uint64_t hash_simulation(const Simulation *simulation, uint64_t hash);
 
 double count_broken_springs(const Simulation *simulation);
 

@@ -334,7 +334,7 @@ const lacking = async (browser) => {
   verdict('a_tab_in_the_background_stops', stops ? [] : [`${frames}, ${after}, ${back} frames`]);
 
   // A paused run draws no frame and writes no text.
-  await tab.run(`wake(ask('web_obey_lines', null, 'pause'))`);
+  await tab.run(`wake(ask('web_obey_script', null, 'pause'))`);
   await tab.until(`field('step', 2) === '1' && !drawn`);
   await sleep(700);
   const still = await tab.run('stats.frames');
