@@ -266,8 +266,8 @@ typedef struct LectureContent {
                              NULL: this run asks none */
     const char *verdict;  /* verdict on the guess at this page, or NULL */
     int guesses, right_guesses;    /* numbers of guesses and of right guesses */
-    char heading[SENTENCE_SIZE];   /* heading of the answer for the page's own
-                                      options; "": the options are unchanged */
+    char heading[SENTENCE_SIZE];   /* note that the answer is about the page's
+                                      own options; "": they are unchanged */
     char answer_text[ANSWER_SIZE]; /* answer of the page, with live values */
 } LectureContent;
 

@@ -38,8 +38,9 @@ typedef struct Card {
     const char *words; /* text (live_values.h); unknown lines are left out */
     const struct ListingRow *listing; /* lines of an algorithm (cards.h) */
     const char *column_heads; /* text: heads of the columns, with | between */
-    /* Fills row 1, 2, ... below the heads; returns false after the last row,
-     * and for row 0 if the table is empty.  NULL: the card has no table. */
+    /* Fills a row; rows are numbered from 1 on, as the heads are row 0. Returns
+     * false after the last row.  A call for row 0 fills nothing, and returns
+     * false if the table is empty.  NULL: the card has no table. */
     bool (*make_row)(const FrameContent *content, int row, CardTableRow *cells);
     const char *legend; /* text: the legend of the graph, or NULL */
     /* Fills a row of a legend with values: a name and a value.  Returns false

@@ -18,7 +18,7 @@
  * flipped switch set a new state, which the branch stores.
  *
  * To show a step, each pane loads the nearest stored state up to that step, and
- * makes the steps from there once more (past_do_work).  A short step of
+ * makes the steps from there once more (past_continue_work).  A short step of
  * Newton's method is made once more although its state is stored, to show its
  * iterates.  The panes share their time and count of steps.  In a step the pane
  * with the longest time step makes one time step, the other panes as many as
@@ -151,7 +151,7 @@ void past_create(bool stores_states, bool panes_fail_alone, Past *past);
 void past_free(Past *past);
 
 /* Begins new runs side by side at step 0.  Returns as simulation_create; after
- * a failure past_do_work leads back to the step that was shown. */
+ * a failure past_continue_work leads back to the step that was shown. */
 Status past_begin_runs(Past *past, const Options *options, int panes,
                        int gesture, const Command *edit);
 
@@ -178,13 +178,14 @@ void past_set_goal(Past *past, long step, bool again);
 /* Does a part of the work: makes a Newton iteration, or begins a step.  Returns
  * RUNNING while work is left, OK or an unconverged status when goal_step is
  * shown, or the status of a failure: the last whole step is shown then. */
-Status past_do_work(Past *past);
+Status past_continue_work(Past *past);
 
-/* Repeats past_do_work while it returns RUNNING; returns its last status. */
+/* Repeats past_continue_work while it returns RUNNING; returns its last status.
+ */
 Status past_finish_work(Past *past);
 
-/* Undoes one gesture (-1) or redoes one (1); past_do_work then shows the step.
- * Returns the edit that was undone or redone, or NULL. */
+/* Undoes one gesture (-1) or redoes one (1); past_continue_work then shows the
+ * step. Returns the edit that was undone or redone, or NULL. */
 const Command *past_undo_or_redo(Past *past, int way);
 
 int past_count_panes(const Past *past);

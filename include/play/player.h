@@ -4,12 +4,13 @@
  *   keys, mouse, chips, scripts, pages -> Command    (input.c, command.h)
  *   player_obey: calls the command's function        (obey.c)
  *   that function: edits the past, or chooses the step to be shown
- *   do_work: past_do_work until that step is shown   (obey.c)
+ *   do_work: past_continue_work until that step is shown   (obey.c)
  *
- * From key to Newton: player_obey_input, player_obey, do_work, past_do_work,
- * pane_iterate, simulation_advance, time_integrator_continue, newton_minimise.
- * In a window do_work returns after SLICE; the next frames go on with the work
- * (player_make_frame, make_due_steps, player_make_step). */
+ * From key to Newton: player_obey_input, player_obey, do_work,
+ * past_continue_work, pane_iterate, simulation_advance,
+ * time_integrator_continue, newton_minimise. In a window do_work returns after
+ * SLICE; the next frames go on with the work (player_make_frame,
+ * make_due_steps, player_make_step). */
 #pragma once
 
 #include <signal.h>
@@ -65,8 +66,8 @@ typedef struct Playback {
     PlayMode mode;
     TimeUnit walk_unit; /* unit of "next" and "back" */
     ActionAfterWork after_work;
-    TracePosition wanted_position; /* shown after an edit; iterate < 0: none */
-    int log_speed;                 /* 2^log_speed steps a frame */
+    WalkPosition wanted_position; /* shown after an edit; iterate < 0: none */
+    int log_speed;                /* 2^log_speed steps a frame */
     double due_time;        /* time of the next step on the wall clock, s */
     double work_start_time; /* start of the work on the wall clock, s; 0: no
                                work */

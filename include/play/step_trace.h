@@ -38,11 +38,11 @@ typedef struct TraceIterate {
 /* Units in which a user goes through time. */
 typedef enum TimeUnit { UNIT_STEP, UNIT_UPDATE, UNIT_LINE, UNITS } TimeUnit;
 
-typedef struct TracePosition {
+typedef struct WalkPosition {
     int iterate;      /* index of the iterate in StepTrace */
     AlgoLine at_line; /* line of Algorithm 3 */
     int trials;       /* trials of the line search so far */
-} TracePosition;
+} WalkPosition;
 
 typedef struct StepTrace {
     NewtonTrace common_trace; /* values shared by all positions: h, tolerance */
@@ -55,8 +55,8 @@ typedef struct StepTrace {
     double *x_tilde;   /* [x_length] m, first x_tilde of the step; or NULL */
     double *end_x;     /* [x_length] m, x after the last iteration, or NULL */
     size_t used_bytes; /* memory of the iterates */
-    TracePosition *position; /* [position_count] in the order of the walk */
-    int position_count;      /* number of positions; 0 if memory is missing */
+    WalkPosition *position; /* [position_count] in the order of the walk */
+    int position_count;     /* number of positions; 0 if memory is missing */
 } StepTrace;
 
 /* Begins the trace of a step.  A last iteration with alpha 0 samples E along p.
@@ -98,5 +98,5 @@ int step_trace_find_peak(const StepTrace *trace);
 /* Fills what a picture shows at a position; position -1: after the step.
  * Pointers of `shown` lead into the trace.  Returns positions to draw,
  * [x_length] m; NULL: the positions after the step. */
-const double *step_trace_show_position(const StepTrace *trace, int position,
+const double *step_trace_read_position(const StepTrace *trace, int position,
                                        NewtonTrace *shown);

@@ -19,10 +19,8 @@ typedef enum PictureLayer {
     LAYER_NODE_NUMBERS = 1 << 0, /* number of each node */
     LAYER_FORCES = 1 << 1,       /* force on each node, as an arrow */
     LAYER_MODES = 1 << 2, /* node displacements; eigenvectors of a spring */
-    LAYER_SPRING_KINDS =
-        1 << 3, /* a colour and a switch for each kind of spring */
-    LAYER_FILLED_CELLS =
-        1 << 4,              /* filled cells; springs only with the answer */
+    LAYER_SPRING_KINDS = 1 << 3, /* a colour and switch per kind of spring */
+    LAYER_FILLED_CELLS = 1 << 4, /* cells; the page's answer adds the springs */
     LAYER_DOWNHILL = 1 << 5, /* -grad E and all directions in which E falls */
     LAYER_ZERO_CURVES = 1 << 6, /* curves on which a component of grad E is 0 */
     LAYER_FIRST_STEP = 1 << 7   /* draws only the first step, enlarged */
@@ -149,11 +147,11 @@ static inline int option_get_name_index(double value)
 }
 
 /* When a changed option takes effect. */
-typedef enum EffectStart {
+typedef enum EffectTime {
     EFFECT_NEW_RUN,      /* takes effect in a new run */
     EFFECT_NEXT_STEP,    /* takes effect in the next step */
     EFFECT_REPEATED_STEP /* the present step is repeated with the value */
-} EffectStart;
+} EffectTime;
 
 /* How the window shows an option and changes it by mouse, wheel and keys. */
 typedef struct OptionDisplay {
@@ -189,7 +187,7 @@ typedef struct OptionRow {
     /* Returns why the option has no effect with the present options, or NULL.
      * The pointer is NULL for options that always have an effect. */
     const char *(*get_idle_reason)(const Options *options);
-    EffectStart effect;
+    EffectTime effect;
     const TermKind *term; /* energy term that the option adds, or NULL */
     const char *label;    /* name in the window, in the markup of text.h; NULL:
                              the option can have no list of values */

@@ -122,8 +122,8 @@ NewtonCounters simulation_sum_newton_counters(const Simulation *simulation);
 /* Returns when a change of row's option takes effect, usually row->effect.  The
  * result is EFFECT_NEW_RUN for the method of several runs, and in scenes
  * without time; with HAS_START such a scene keeps EFFECT_REPEATED_STEP. */
-EffectStart simulation_find_option_effect(const Simulation *simulation,
-                                          const OptionRow *row);
+EffectTime simulation_find_option_effect(const Simulation *simulation,
+                                         const OptionRow *row);
 
 /* Checks that obstacles of changed options overlap no body at its present
  * place.  Returns OK, or INVALID_INPUT with a message. */

@@ -6,10 +6,11 @@
 #include "model/area.h"
 #include "model/barrier.h"
 
-/* Whether triangle t can have an energy: no spring of it is broken, and J may
- * fall below CELL_J_HAT.  The element has a = e1, b = e2 and s = J.
- *   way  largest change of e1 and of e2 (m).  J changes by at most
- *        q way (|e1| + |e2| + way), q = 1/(2 A0). */
+/* Whether triangle t can have an energy: no spring of it is broken, and its
+ * area ratio J may fall below CELL_J_HAT.  The element's vectors are the edges
+ * e1, e2 from the first node to the others; s = J = cross(e1, e2)/(2 A0).
+ *   way  m, largest change of an edge.  J then changes by at most
+ *        way (|e1| + |e2| + way)/(2 A0) */
 static bool cell_get_element(const EvalPoint *at, int t, double way,
                              Element *element)
 {

@@ -306,7 +306,8 @@ static double pair_taylor_remainder(const EvalPoint *at, const Element *element,
 
 /* Finds the first alpha > 0 at which the point p is on the edge: the quadratic
  * equation e x q = 0 holds, and the place r on the line is in [0, 1].  If p
- * slides along this line, only the other edge at the edge's end has a root. */
+ * moves along the line of the edge, e x q stays 0, and the neighbouring edge
+ * finds the collision with the edge's end. */
 static double pair_max_alpha(const EvalPoint *at, const Element *element,
                              const double P[4])
 {

@@ -395,8 +395,8 @@ static void place_overview(const FrameContent *content, Layout *layout)
 
 /* Places a card below the panes, at least `least` pixels high, but not higher
  * than CARD_BELOW of the stage. */
-static void place_below_panes(const FrameContent *content, Layout *layout,
-                              int card, double least)
+static void place_card_below_panes(const FrameContent *content, Layout *layout,
+                                   int card, double least)
 {
     const Box *stage = &layout->stage;
     double em = layout->em;
@@ -425,9 +425,9 @@ static void place_main_card(const FrameContent *content, Layout *layout)
     const Card *card = active_picture(content)->cards[main_card];
     Box *stage = &layout->pane[0], place = layout->card[main_card];
     if (card->main_place == BELOW_PICTURE) {
-        place_below_panes(content, layout, main_card,
-                          (MAIN_CARD_GROWTH * card->min_height + 2 * GAP) *
-                              layout->em);
+        place_card_below_panes(content, layout, main_card,
+                               (MAIN_CARD_GROWTH * card->min_height + 2 * GAP) *
+                                   layout->em);
         return;
     }
     bool beside = card->main_place == BESIDE_PICTURE;
@@ -464,8 +464,9 @@ static void place_overflow_card(const FrameContent *content, Layout *layout)
          (layout->pane_count != 1 || simulation->scene->switch_labels[1])))
         return;
     const Box stage = layout->stage, title = layout->card[folded];
-    place_below_panes(content, layout, folded,
-                      layout->has_list ? stage.height - 0.8 * stage.width : 0);
+    place_card_below_panes(content, layout, folded,
+                           layout->has_list ? stage.height - 0.8 * stage.width
+                                            : 0);
     Box *first = &layout->card[0]; /* card 0 may grow into the free place */
     if (!layout->has_list && title.y <= first->y + first->height + layout->em)
         first->height = title.y + title.height - first->y;

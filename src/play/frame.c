@@ -258,7 +258,7 @@ static void build_pane_content(const Player *player, int p, WindowFrame *frame)
         pane->label = frame->pane_label[p];
     if (shown->has_trace && simulation_has_newton_updates(simulation)) {
         pane->trace = &frame->trace[p];
-        pane->x = step_trace_show_position(&shown->trace, view->trace_index,
+        pane->x = step_trace_read_position(&shown->trace, view->trace_index,
                                            &frame->trace[p]);
     }
 }

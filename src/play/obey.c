@@ -194,7 +194,7 @@ static Status do_work(Player *player)
     while (past_is_working(past) && !player->is_quitting) {
         long before = past->shown_step;
         bool made = past_makes_step(past);
-        Status status = past_do_work(past);
+        Status status = past_continue_work(past);
         if (!past_is_working(past) || (status && status != STATUS_RUNNING)) {
             status = player_finish_work(player, status, before, made);
             if (status)

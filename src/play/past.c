@@ -653,7 +653,7 @@ static Status show_goal_step(Past *past)
     return status;
 }
 
-Status past_do_work(Past *past)
+Status past_continue_work(Past *past)
 {
     if (past->work_stage == WORK_DONE)
         return STATUS_OK;
@@ -679,7 +679,7 @@ Status past_finish_work(Past *past)
 {
     Status status = STATUS_RUNNING;
     while (status == STATUS_RUNNING)
-        status = past_do_work(past);
+        status = past_continue_work(past);
     return status;
 }
 

@@ -186,13 +186,13 @@ static void append_position(StepTrace *trace, int iterate, AlgoLine line,
                             int trials)
 {
     trace->position[trace->position_count++] =
-        (TracePosition){iterate, line, trials};
+        (WalkPosition){iterate, line, trials};
 }
 
 void step_trace_end(StepTrace *trace, const Options *options)
 {
     int count = trace->records.count;
-    TracePosition *grown =
+    WalkPosition *grown =
         realloc(trace->position,
                 ((size_t)count + 1) * (MAX_WALK_TRIALS + 8) * sizeof *grown);
     trace->position_count = 0;
@@ -262,7 +262,7 @@ int step_trace_find_peak(const StepTrace *trace)
 }
 
 /* Fills the values that Algorithm 3 has computed at x^i up to a position. */
-static void show_iterate_values(const StepTrace *trace, const TracePosition *at,
+static void show_iterate_values(const StepTrace *trace, const WalkPosition *at,
                                 NewtonTrace *shown)
 {
     const TraceIterate *iterate = &trace->iterate[at->iterate];
@@ -286,7 +286,7 @@ static void show_iterate_values(const StepTrace *trace, const TracePosition *at,
     shown->difference_data = iterate;
 }
 
-const double *step_trace_show_position(const StepTrace *trace, int position,
+const double *step_trace_read_position(const StepTrace *trace, int position,
                                        NewtonTrace *shown)
 {
     int count = trace->records.count;
@@ -295,12 +295,12 @@ const double *step_trace_show_position(const StepTrace *trace, int position,
     bool over = position < 0 || position >= trace->position_count;
     bool given_up = count > 0 && last->status != STATUS_OK &&
                     last->status != STATUS_RUNNING;
-    const TracePosition at = over ? (TracePosition){count, LINE_END_STEP, 0}
-                                  : trace->position[position];
+    const WalkPosition at = over ? (WalkPosition){count, LINE_END_STEP, 0}
+                                 : trace->position[position];
     bool end = at.at_line == LINE_END_STEP;
-    TracePosition source = at;
+    WalkPosition source = at;
     if (end && count > 0) /* the end shows the values of the last iterate */
-        source = (TracePosition){count - 1, LINE_END_STEP, last->trials};
+        source = (WalkPosition){count - 1, LINE_END_STEP, last->trials};
     *shown = trace->common_trace;
     shown->at_line = over ? LINE_NONE : at.at_line;
     shown->iteration = source.iterate;

@@ -283,7 +283,7 @@ static void begin_algorithm_walk(Player *player, ActionAfterWork after)
             continue;
         player->play.mode = MODE_PAUSE;
         player->view_of_pane[p].trace_index = place;
-        const double *x = step_trace_show_position(trace, place, &shown);
+        const double *x = step_trace_read_position(trace, place, &shown);
         if (after != AFTER_SHOW_STEP_END)
             continue;
         for (int i = 0; x && i < trace->x_length; i++)
@@ -342,7 +342,7 @@ static void compare_outcomes(Player *player)
 {
     const Past *past = &player->past;
     const StepTrace *trace = &player_get_active_pane(player)->trace;
-    const TracePosition *at = &player->play.wanted_position;
+    const WalkPosition *at = &player->play.wanted_position;
     char has[256];
     if (at->iterate >= 0 && trace->position_count > 2) {
         player->play.mode = MODE_PAUSE;
@@ -366,7 +366,7 @@ Status player_repeat_step(Player *player, const Command *change, int pane)
     size_t bytes = 2 * (size_t)simulation->system.nodes * sizeof(double);
     bool failed = active->has_failed;
     long step = past->shown_step + failed;
-    player->play.wanted_position = (TracePosition){.iterate = -1};
+    player->play.wanted_position = (WalkPosition){.iterate = -1};
     if (view->trace_index >= 0 && player->play.walk_unit != UNIT_STEP)
         player->play.wanted_position =
             active->trace.position[view->trace_index];

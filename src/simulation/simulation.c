@@ -165,8 +165,8 @@ bool simulation_is_draggable(const Simulation *simulation)
     return (scene->traits & HAS_TIME) && !scene->step && !scene->handle_kinds;
 }
 
-EffectStart simulation_find_option_effect(const Simulation *simulation,
-                                          const OptionRow *row)
+EffectTime simulation_find_option_effect(const Simulation *simulation,
+                                         const OptionRow *row)
 {
     unsigned needs = simulation->scene->traits;
     bool update = (needs & HAS_START) && row->effect == EFFECT_REPEATED_STEP;

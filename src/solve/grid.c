@@ -1,4 +1,4 @@
-/* grid.c - the square's numbers as planes, and copies to and from planes. */
+/* grid.c - the square's masses, springs and positions as arrays by rows. */
 #include "solve/grid.h"
 
 #include <math.h>
@@ -81,8 +81,8 @@ void grid_init(int segments, ArrayArena *memory, Grid *grid)
 
 /* Removes rows that equal the row before them.
  *   shift  [nodes_per_side] out, index shift from each row to its stored row */
-static void remove_equal_rows(const RowLayout *rows, double *const *array,
-                              int arrays, int *shift)
+static void remove_duplicate_rows(const RowLayout *rows, double *const *array,
+                                  int arrays, int *shift)
 {
     size_t bytes = (size_t)rows->pitch * sizeof **array;
     for (int i = 0, at = 0; i < rows->nodes_per_side; i++) {
@@ -123,7 +123,7 @@ void grid_copy_from_system(Grid *grid, const Iterate *at, const double *m)
             grid->inverse_m[q] = system->is_pinned[node] ? 0 : 1 / grid->m[q];
             grid->float_m[q] = system->is_pinned[node] ? 0 : (float)grid->m[q];
         }
-    remove_equal_rows(rows, masses, 2, grid->mass_shift);
+    remove_duplicate_rows(rows, masses, 2, grid->mass_shift);
     for (int kind = 0; kind < SPRING_KINDS; kind++) {
         springs[kind] = grid->c[kind];
         springs[SPRING_KINDS + kind] = grid->l2[kind];
@@ -146,7 +146,8 @@ void grid_copy_from_system(Grid *grid, const Iterate *at, const double *m)
         grid->c[kind][q] = grid->mass_scale / unit * c;
         grid->l2[kind][q] = unit * point.l2[s];
     }
-    remove_equal_rows(rows, springs, 2 * SPRING_KINDS, grid->spring_shift + 1);
+    remove_duplicate_rows(rows, springs, 2 * SPRING_KINDS,
+                          grid->spring_shift + 1);
     for (int kind = 0; kind < SPRING_KINDS; kind++)
         for (int q = 0; q < rows->plane_length; q++) {
             double c = grid->c[kind][q], l2 = grid->l2[kind][q];

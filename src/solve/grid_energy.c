@@ -3,7 +3,7 @@
 
 #include "solve/grid_spring.h"
 
-/* Begins a loop over bands, with a copy of the grid that stays in registers. */
+/* Begins a loop over bands.  A local copy of *grid can stay in registers. */
 #define BANDS                                                                  \
     const Grid local = *grid;                                                  \
     const ptrdiff_t plane = local.rows.plane_length;                           \

@@ -6,8 +6,8 @@
 
 #include "model/inertia_energy.h"
 
-static EvalPoint make_weighted_point(const IncrementalPotential *E,
-                                     const double *u, const double *x)
+static EvalPoint make_weighted_eval_point(const IncrementalPotential *E,
+                                          const double *u, const double *x)
 {
     EvalPoint at = make_eval_point(E->system, E->x_n, u, x);
     at.weight = E->weight;
@@ -17,7 +17,7 @@ static EvalPoint make_weighted_point(const IncrementalPotential *E,
 double incremental_potential_value(const IncrementalPotential *E,
                                    const double *u, const double *x)
 {
-    EvalPoint at = make_weighted_point(E, u, x);
+    EvalPoint at = make_weighted_eval_point(E, u, x);
     double P = 0;
     for (const TermKind *kind; (kind = eval_point_next_term(&at));)
         if (kind->potential)
@@ -30,7 +30,7 @@ void incremental_potential_gradient(const IncrementalPotential *E,
                                     const double *u, const double *x, double *g)
 {
     const System *system = E->system;
-    EvalPoint at = make_weighted_point(E, u, x);
+    EvalPoint at = make_weighted_eval_point(E, u, x);
     for (int i = 0; i < 2 * system->nodes; i++)
         g[i] = 0;
     inertia_energy_gradient(system->nodes, u, E->u_tilde, system->m, g);
@@ -80,7 +80,8 @@ Status incremental_potential_create_hessian(const System *system, Sparse *A)
 static int add_term_hessians(const Iterate *iterate, Projection projection,
                              const int *slot, const double *q, double *out)
 {
-    EvalPoint at = make_weighted_point(&iterate->E, iterate->u, iterate->x);
+    EvalPoint at =
+        make_weighted_eval_point(&iterate->E, iterate->u, iterate->x);
     int projected = 0;
     for (const TermKind *kind; (kind = eval_point_next_term(&at));)
         if (kind->hessian)
@@ -90,7 +91,8 @@ static int add_term_hessians(const Iterate *iterate, Projection projection,
 
 Status incremental_potential_extend_pattern(const Iterate *iterate, bool *grown)
 {
-    EvalPoint at = make_weighted_point(&iterate->E, iterate->u, iterate->x);
+    EvalPoint at =
+        make_weighted_eval_point(&iterate->E, iterate->u, iterate->x);
     Status status = STATUS_OK;
     *grown = false;
     for (const TermKind *kind; !status && (kind = eval_point_next_term(&at));)
@@ -127,7 +129,8 @@ LineEnergy make_line_energy(const Iterate *iterate)
 {
     const System *system = iterate->E.system;
     const double *g = iterate->g, *p = iterate->p;
-    EvalPoint at = make_weighted_point(&iterate->E, iterate->u, iterate->x);
+    EvalPoint at =
+        make_weighted_eval_point(&iterate->E, iterate->u, iterate->x);
     LineEnergy along = {.iterate = iterate};
     double *q = along.polynomial.q;
     for (int i = 0; i < 2 * system->nodes; i++) {
@@ -149,7 +152,8 @@ double line_energy_difference(const void *function, double alpha)
     if (!along->has_remainder)
         return sum;
     const Iterate *iterate = along->iterate;
-    EvalPoint at = make_weighted_point(&iterate->E, iterate->u, iterate->x);
+    EvalPoint at =
+        make_weighted_eval_point(&iterate->E, iterate->u, iterate->x);
     for (const TermKind *kind; (kind = eval_point_next_term(&at));)
         if (kind->taylor_remainder)
             sum += kind->taylor_remainder(&at, iterate->p, alpha);
@@ -158,21 +162,22 @@ double line_energy_difference(const void *function, double alpha)
 
 double incremental_potential_max_alpha(const Iterate *at)
 {
-    EvalPoint point = make_weighted_point(&at->E, at->u, at->x);
+    EvalPoint point = make_weighted_eval_point(&at->E, at->u, at->x);
     return fmin(1, system_max_alpha(point, at->p, false));
 }
 
 bool incremental_potential_is_feasible(const IncrementalPotential *E,
                                        const double *u, const double *x)
 {
-    return system_is_feasible(make_weighted_point(E, u, x));
+    return system_is_feasible(make_weighted_eval_point(E, u, x));
 }
 
 void incremental_potential_absorb_pulls(const Iterate *iterate, double *m,
                                         double *u_tilde)
 {
     const System *system = iterate->E.system;
-    EvalPoint at = make_weighted_point(&iterate->E, iterate->u, iterate->x);
+    EvalPoint at =
+        make_weighted_eval_point(&iterate->E, iterate->u, iterate->x);
     bool pulls = false;
     for (int t = 0; t < system->term_count; t++)
         pulls = pulls || system->term[t].kind->is_diagonal;

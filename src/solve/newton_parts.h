@@ -9,9 +9,9 @@
 typedef struct NewtonPhases {
     /* Computes g and p at x, and the residual of p.  Sets
      * newton->meets_tolerance if the residual plus a bound of its error is at
-     * most the tolerance, and, in Newton's phase, if next_direction_may_turn is
-     * false or turn_free_body makes the turn.  Returns OK, or why there is no
-     * p. */
+     * most the tolerance.  Newton's phase also requires that the next direction
+     * turns no body (next_direction_may_turn), unless turn_free_body does this.
+     * Returns OK, or why there is no p. */
     Status (*find_direction)(Newton *newton);
     /* Computes alpha, trials, slope, energy_change.  For Newton's method also
      * stores the end of the step in u_trial and x_trial.  Returns OK, or why no

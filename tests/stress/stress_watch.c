@@ -32,8 +32,8 @@ enum { MAX_DENSE_UNKNOWNS = 400 };
  * and forces have very different sizes */
 enum { SHAKEN_NOISE_FACTOR = 4 };
 
-/* Relative error of a direction from a factor that rounding.c accepts */
-#define DIGITS_OF_DIRECTION 1e-5
+/* Largest relative error of a direction that rounding.c accepts */
+#define DIRECTION_TOLERANCE 1e-5
 
 /* Marks the step as wrong; the first reason is kept. */
 static void mark_wrong(RunWatch *watch, const char *format, ...)
@@ -133,7 +133,7 @@ static void judge_residual(RunWatch *watch, const double *u, double limit)
 {
     double noise, residual;
     watch->tally->judged_residuals++;
-    limit *= 1 + DIGITS_OF_DIRECTION;
+    limit *= 1 + DIRECTION_TOLERANCE;
     if (residual_is_low(watch, u, limit, exact_residual, NULL, &residual) ||
         residual_is_low(watch, u, limit, wide_exact_residual, NULL, &residual))
         return;

@@ -224,7 +224,7 @@ typedef struct Outline {
     int edge_count, point_count, *point_node,
         (*edge_nodes)[2];               /* counts; nodes of points, edges */
     unsigned char (*is_intact)[4];      /* [n] 1: the spring is unbroken */
-    unsigned char (*triangle_count)[4]; /* [n] triangles at a spring */
+    unsigned char (*triangle_count)[4]; /* [n] number at each spring */
     unsigned char *role; /* [n] flags NODE_IN_TRIANGLE, NODE_ON_EDGE */
     double *x;           /* [2n] m, positions rounded to doubles */
 } Outline;

@@ -268,7 +268,7 @@ static double find_ulp_error(double got, long double exact)
 }
 
 /* Checks the error bound of mathematics.h, 1.5 units in the last place. */
-static void check_math_errors(double x, double z)
+static void check_math_accuracy(double x, double z)
 {
     CHECK_AT_MOST(find_ulp_error(math_log(x), logl(x)), 1.5);
     CHECK_AT_MOST(find_ulp_error(math_log1p(z), log1pl(z)), 1.5);
@@ -284,16 +284,16 @@ TEST(functions_are_right_to_the_last_place)
     const int count = sizeof edges / sizeof *edges;
     Random random = {81};
     for (int i = 0; i < count * count; i++)
-        check_math_errors(edges[i / count], edges[i % count]);
+        check_math_accuracy(edges[i / count], edges[i % count]);
     for (int i = 0; i < 300000; i++) {
         double x = i % 3 == 0   ? random_logarithmic(&random, 1e-300, 1e300)
                    : i % 3 == 1 ? random_uniform(&random, 0.5, 2)
                                 : 1 + random_uniform(&random, -1e-6, 1e-6);
         double z = i % 2 ? random_uniform(&random, -0.999, 3)
                          : random_logarithmic(&random, 1e-20, 1e20);
-        check_math_errors(x, i % 4 == 2 && z < 0.5 ? -z : z);
+        check_math_accuracy(x, i % 4 == 2 && z < 0.5 ? -z : z);
         if (i % 5 == 0)
-            check_math_errors(x, x * random_uniform(&random, -2, 2));
+            check_math_accuracy(x, x * random_uniform(&random, -2, 2));
     }
 }
 

@@ -23,7 +23,7 @@ static int count_lines(const char *word)
     return count;
 }
 
-/* Checks that each line has the fields of its word, and that braces match. */
+/* Checks each line's number of fields by its first word, and the braces. */
 static void check_document_lines(void)
 {
     static const struct {

@@ -202,7 +202,7 @@ static int free_texts(void **unused)
 }
 
 /* Exponents and indices are small, accents have no width, {unknown} stays. */
-TEST(markup_has_its_widths)
+TEST(markup_has_expected_widths)
 {
     static const struct {
         const char *markup;

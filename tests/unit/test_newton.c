@@ -65,7 +65,7 @@ TEST(residuals_are_what_they_are_called)
                 CHECK_NEAR(residual, exact, 1e-9 * exact + 1e-10);
             else if (multigrid && newton->meets_tolerance)
                 CHECK_NEAR(residual, exact, tolerance - residual);
-            else if (multigrid) /* ended by a bound of the next residual */
+            else if (multigrid) /* the bound ends the step */
                 CHECK_AT_MOST(exact_residual(&E, newton->iterate.u, NULL,
                                              run->h, 0, 1, NULL),
                               tolerance);

@@ -66,7 +66,7 @@ TEST(numbers_have_ranges)
 }
 
 /* Returns true if a part of a row is about an option, not the message. */
-static bool field_names_option(const char *part)
+static bool field_is_option(const char *part)
 {
     return strchr("=+-", part[0]) && part[1] == ' ';
 }
@@ -79,7 +79,7 @@ static bool field_matches(const char *part, const Options *options,
     char name[32];
     int used;
     double wanted;
-    if (!field_names_option(part))
+    if (!field_is_option(part))
         return strstr(message, part) != NULL;
     CHECK(sscanf(part + 2, "%31s%n", name, &used) == 1);
     const OptionRow *row = option_find(name);
@@ -104,7 +104,7 @@ TEST(command_lines_are_accepted_or_explained)
         char *rest = row;
         row[strcspn(row, "\n")] = '\0';
         const char *line = take_row_field(&rest);
-        bool taken = !rest || field_names_option(rest);
+        bool taken = !rest || field_is_option(rest);
         if (line[0] == '#')
             continue;
         Options options = {.panes = 1};

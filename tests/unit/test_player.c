@@ -23,7 +23,7 @@ TEST(the_curve_goes_through_the_step)
             const StepTrace *kept = &get_past_pane(0)->trace;
             for (int place = 0; place < kept->position_count; place++) {
                 NewtonTrace trace;
-                step_trace_show_position(kept, place, &trace);
+                step_trace_read_position(kept, place, &trace);
                 int iterate = kept->position[place].iterate;
                 if (trace.at_line != LINE_UPDATE)
                     continue;
@@ -46,7 +46,7 @@ TEST(the_curve_goes_through_the_step)
         CHECK(seen > 60 && (i == 3 || (rough > 0) == (i > 0)));
         NewtonTrace whole;
         const StepTrace *kept = &get_past_pane(0)->trace;
-        step_trace_show_position(kept, -1, &whole);
+        step_trace_read_position(kept, -1, &whole);
         CHECK(whole.residual > 0);
         end_player();
     }

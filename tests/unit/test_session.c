@@ -370,7 +370,7 @@ static void stop_within_step(void)
     Past *past = &player.past;
     show_refusal(player_seek(&player, past->shown_step + 1, AFTER_NOTHING));
     while (!past->pane[0].is_in_substep)
-        CHECK_STATUS(past_do_work(past), STATUS_RUNNING);
+        CHECK_STATUS(past_continue_work(past), STATUS_RUNNING);
 }
 
 /* Counts the files of the session's folder, and removes them if asked to. */
@@ -692,8 +692,7 @@ static int write_ink_table(const Layout *layout, char *out)
                                active_picture(content)->cards[c]->name, at);
     if (layout->has_list)
         at += write_ink_in_box(&paper->canvas, layout->column, "list", at);
-    for (int i = 0; i < layout->cell_count;
-         i++) /* run times of the race vary */
+    for (int i = 0; i < layout->cell_count; i++) /* race shows run times */
         if (strcmp(content->sheet.cell[i].name, "race") != 0)
             at += write_ink_in_box(&paper->canvas, layout->cell[i], "cell", at);
     player.screen.must_redraw = true;
@@ -965,7 +964,7 @@ static double find_wall_height(const Simulation *simulation)
     return get_contact(&simulation->system)->obstacle[0].o[1];
 }
 
-static double find_hand_distance(const Simulation *simulation)
+static double find_hand_node_distance(const Simulation *simulation)
 {
     const UserControl *control = past_get_control(&player.past, 0);
     const double *x = simulation->run[0].x + 2 * control->held_node;
@@ -1040,7 +1039,7 @@ static const struct {
                {"gains", count_steps_with_energy_gain},
                {"own energy", find_energy_minus_work},
                {"wall", find_wall_height},
-               {"hand distance", find_hand_distance},
+               {"hand distance", find_hand_node_distance},
                {"hand step", find_held_node_motion},
                {"way from stop", find_drift_since_stop},
                {"unconverged", count_unconverged_steps}};
@@ -1397,8 +1396,7 @@ static void random_keys_stay_in_their_field(void **unused)
         CHECK(!player.input.selected_option &&
               past_count_panes(&player.past) == 1 &&
               player_is_stopped(&player));
-        if (set &&
-            player.past.shown_step == 2) /* a mesh size begins a new run */
+        if (set && player.past.shown_step == 2) /* not begun anew */
             CHECK(hash_all_but_setting(place) == rest);
         if (!set)
             CHECK(hash_by_name("") == before);

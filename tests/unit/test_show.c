@@ -113,7 +113,7 @@ static bool pick_is(Pick pick, PickKind kind, int index)
 /* ---- all of a frame ------------------------------------------------------ */
 
 /* Each scene is drawn in any size, and with positions that are not finite. */
-TEST(every_size_is_drawn)
+TEST(every_window_size_is_drawn)
 {
     const int sizes[][2] = {{1, 1},     {1, 900},    {2000, 3}, {199, 201},
                             {400, 300}, {1500, 999}, {900, 900}};

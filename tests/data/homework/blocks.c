@@ -1,5 +1,6 @@
 /* Correct homework in another style than lecture.c: the 4x4 block is written
- * out, the loop is endless with a break, and each update has a new x. */
+ * out, the loop is endless with a break, and each update fills another array.
+ */
 static void spring_hess(const Solid *solid, const Vec2 *x, double scale,
                         cholmod_triplet *H)
 {
