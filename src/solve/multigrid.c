@@ -348,7 +348,7 @@ static Status multigrid_test_convergence(Newton *newton, Status status)
         fabs(record->energy_change) <= SMALL_CHANGE * -mg->lowest_change;
     bool last = record->iteration + 1 >= newton_iteration_limit(newton);
     bool stuck = status != STATUS_OK || record->iteration >= MAX_MG_ITERATIONS;
-    mg->next_p_is_last =
+    mg->next_p_is_last |=
         fmax(record->residual, 2 * mg->p_bound / newton->settings.h) <=
         newton->tolerance;
     bool is_tiny = mg->p_bound <= negligible_direction_size(newton);
@@ -366,7 +366,7 @@ static Status multigrid_test_convergence(Newton *newton, Status status)
     record->energy_change += turned;
     /* p_bound was computed before the body was turned, and is not valid if the
      * turn may move a node by more than half of tolerance times h. */
-    bool overturns = !newton->meets_tolerance &&
+    bool overturns = (mg->next_p_is_last || !newton->meets_tolerance) &&
                      2 * bound_largest_movement(newton, sqrt(-2 * turned)) >
                          newton->tolerance * newton->settings.h;
     if (ends && !overturns && status != STATUS_NOT_FINITE)
