@@ -180,8 +180,7 @@ void past_set_goal(Past *past, long step, bool again);
  * shown, or the status of a failure: the last whole step is shown then. */
 Status past_continue_work(Past *past);
 
-/* Repeats past_continue_work while it returns RUNNING; returns its last status.
- */
+/* Repeats past_continue_work until it returns another status than RUNNING. */
 Status past_finish_work(Past *past);
 
 /* Undoes one gesture (-1) or redoes one (1); past_continue_work then shows the

@@ -164,7 +164,8 @@ typedef struct InputState {
     Mouse mouse;         /* mouse and its drag */
     bool is_holding;     /* a node or an obstacle is held */
     long last_pull_step; /* step at which the hand last moved what it holds */
-    const OptionRow *selected_option; /* selected number, or NULL */
+    const OptionRow
+        *selected_option; /* option whose number is selected, or NULL */
     uint64_t
         added_option_rows; /* bit r: the row of numbers also has option r */
     bool is_typing;        /* a field is open: keys go into `typed` */
@@ -261,7 +262,7 @@ enum ExitCode {
 /* Returns the index, from i on, of the next word of the command line that
  * decides what is simulated, not how long or with which files; 0: no such word.
  * The first call has i = 1, each further call the last index + 1. */
-int player_find_scene_argument(const Player *player, int i);
+int player_find_first_scene_word(const Player *player, int i);
 
 /* Reads the command line; prints --help, --version or a list, or creates the
  * player.  Prints a failure as one line on standard error.

@@ -17,7 +17,8 @@ typedef enum PictureKind {
     PICTURE_CURVE,     /* f(x), its quadratic model, the iterates */
     PICTURE_LANDSCAPE, /* contours of E, the Newton path */
     PICTURE_MASS,      /* a mass and the arrows of a step */
-    PICTURE_TANGENT,   /* g = E' with tangents, E with parabolas below it */
+    PICTURE_TANGENT,   /* upper plot: g = E' and tangents; lower plot: E and
+                          parabolas */
     PICTURE_DIAL,      /* minimiser of E for every time step h */
     PICTURE_SPRING,    /* a spring, its energies and eigenvalues */
     PICTURE_RACE,      /* error of methods over computing time */

@@ -27,7 +27,8 @@ typedef struct ArgLine {
     Message message;  /* out, the first mistake */
     int words;        /* number of words */
     ArgWord word[MAX_WORDS];
-    char text_copy[512]; /* copy of a line in one text, cut into words */
+    char
+        text_copy[512]; /* a command line that was one string, cut into words */
 } ArgLine;
 
 /* Returns the last word that sets an option; NULL: no word sets it. */

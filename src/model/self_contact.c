@@ -226,10 +226,11 @@ static void pair_gradient(const EvalPoint *at, const Element *element,
         g[i] = F * element->n[i % 2] * (i < 2 ? -1 : element->r);
 }
 
-/* The second derivative of W(d) along a change (dq, de) is W'' w_n^2 >= 0 plus
+/* The second derivative of W(d), with F = -W', is W'' w_n^2 >= 0 plus
  *     F (2 w_t e_n/|e| + d e_n^2/|e|^2)   if p is beside the edge,
- *     -F/d w_t^2                          if p is beyond an end,
- * with F = -W', w = dq - r de, w_n = n.w, w_t = t.w, t across n, e_n = n.de.
+ *     -F/d w_t^2                          if p is beyond an end.
+ * The vectors q, e of the element change by dq, de; w = dq - r de; w_n = n.w,
+ * e_n = n.de with the gap's direction n; w_t = t.w with t across n.
  * Only the added part, a 2x2 matrix in (w_t, e_n), is projected. */
 static bool pair_hessian(const EvalPoint *at, const Element *element,
                          Projection projection, double H[4][4])

@@ -21,7 +21,8 @@ typedef struct LawPoint {
     FlowLaw flow_law; /* law of the spring */
     double axis_unit; /* factor of axis_low and axis_high, such as d_hat */
     double x;         /* value on the axis; NaN: there is no element */
-    double load;      /* measure of load; the largest is drawn */
+    double load; /* how far the element is strained; the card shows the most
+                    strained one */
 } LawPoint;
 
 typedef struct DrawnLaw {

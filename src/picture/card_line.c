@@ -112,7 +112,7 @@ void draw_line_search_card(const Plot *card)
         card_write_hint(card, text_undrawn);
         return;
     }
-    bool both = text_has_known_line(&pane->values, "{directions}");
+    bool both = text_has_line_to_show(&pane->values, "{directions}");
     if (both)
         descent_find_p(card->simulation, PROJECTION_CLAMP, other.start,
                        other.p);

@@ -15,7 +15,7 @@ ShownRow listing_make_row(const Pane *pane, const ListingRow *row)
     const NewtonTrace *trace = pane->shown_trace;
     bool reached = trace && (trace->at_line == LINE_NONE ||
                              trace->at_line >= row->at_line);
-    bool struck = text_has_known_line(values, row->crossed_out_if);
+    bool struck = text_has_line_to_show(values, row->crossed_out_if);
     return (ShownRow){.is_highlighted = trace && trace->at_line == row->at_line,
                       .is_crossed_out = struck,
                       .text = text_find_known_line(values, row->text),
@@ -68,7 +68,8 @@ static int typeset_listing(const FrameContent *content, const ListingRow *row,
 {
     int count = 0;
     for (; row->shown_if; row++)
-        if (text_has_known_line(&active_pane(content)->values, row->shown_if)) {
+        if (text_has_line_to_show(&active_pane(content)->values,
+                                  row->shown_if)) {
             if (draw)
                 draw_listing_row(draw, line, row, count + 1);
             line.y += line.height;

@@ -12,8 +12,8 @@ enum {
 
 static const double REACH = 1.87; /* m, half the width of the surface */
 static const double HEIGHT = 1.5; /* m, height at which the rim is drawn */
-/* The surface ends at a contour, the rim, where E is the inertia RIM_INERTIA
- * metres from x_tilde + RIM_PASS times the elasticity at the saddle (0, 0). */
+/* The surface ends at a contour, the rim.  E there is a sum: the inertia at
+ * RIM_INERTIA metres from x_tilde, and RIM_PASS times h^2 P at (0, 0). */
 static const double RIM_INERTIA = 1.5, RIM_PASS = 1.7;
 /* Cosine and sine of the view's angles: TURN around the E axis, RISE above the
  * xy plane.  The x axis points to the near right, y to the far right. */

@@ -47,7 +47,8 @@ typedef int StageGetEnergies(const Simulation *simulation, Energy *row);
 typedef void CardDraw(const Plot *card);
 typedef bool CardMakeRow(const FrameContent *content, int row,
                          CardTableRow *cells);
-typedef double FindHeight(const FrameContent *content, double wide, double em);
+typedef double CardFindHeight(const FrameContent *content, double wide,
+                              double em);
 extern StageFindBounds find_square_bounds, find_circle_bounds, find_mass_bounds,
     find_tangent_bounds, find_spring_bounds, find_race_bounds;
 extern StageDraw draw_square_picture, draw_circle_picture, draw_scalar_picture,
@@ -68,11 +69,11 @@ extern CardDraw draw_page_card, draw_residual_table_card, draw_line_search_card,
     draw_race_table_card;
 extern CardMakeRow residuals_make_row, updates_make_row, iterates_make_row,
     race_make_row, energies_make_legend_row;
-extern FindHeight page_find_height, listing_find_height, energies_find_height,
-    updates_find_height;
+extern CardFindHeight page_find_height, listing_find_height,
+    energies_find_height, updates_find_height;
 
 /* Returns the height of the page's card in the smallest letters, ems. */
-FindHeight page_find_least_height;
+CardFindHeight page_find_least_height;
 
 /* Writes the page's claim, which a test checks, at the bottom of the box.
  * Returns the box above the claim. */

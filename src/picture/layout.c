@@ -515,7 +515,8 @@ Layout layout_create(const FrameContent *content, int width, int height)
         }
         if (!page || content->column == COLUMN_CODE)
             layout.card_count = picture->card_count;
-    } else if (!bare && page) { /* code or a list covers the stage */
+    } else if (!bare &&
+               page) { /* the code or the list takes the place of the stage */
         layout.column = layout.stage;
     }
     layout.has_list = page && layout.column.width > 0;

@@ -385,7 +385,7 @@ TextLine text_find_known_line(const LiveValues *values, const char *text)
     return line;
 }
 
-bool text_has_known_line(const LiveValues *values, const char *text)
+bool text_has_line_to_show(const LiveValues *values, const char *text)
 {
     TextLine line = lines_begin(values, text);
     return text_next_line(&line);

@@ -52,4 +52,4 @@ bool text_next_line(TextLine *line);
 /* Returns the first line that has known values; empty if there is none. */
 TextLine text_find_known_line(const LiveValues *values, const char *text);
 /* Whether a text has a line with known values. */
-bool text_has_known_line(const LiveValues *values, const char *text);
+bool text_has_line_to_show(const LiveValues *values, const char *text);

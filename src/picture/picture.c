@@ -13,7 +13,8 @@ static const double SWITCH_WIDTH = 13;   /* ems */
 static const double SWITCH_HEIGHT = 1.8; /* ems */
 
 /* Returns the box of a pane without its rows of words above and below the
- * picture.  On a page a pane has these rows if it is low or one of several. */
+ * picture.  On a page a pane has the rows if its height is small, or if there
+ * are several panes. */
 static Box find_picture_room(const FrameContent *content, const Layout *layout,
                              int pane)
 {

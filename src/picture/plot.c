@@ -15,11 +15,12 @@ enum {
 
 static const double TURN = 6.283185307179586; /* 2 pi */
 
-static const double TICK_SIZE = 0.82;      /* ems, size of the axes' letters */
-static const double X_NUMBER_WIDTH = 5;    /* ems, width of a number of x */
-static const double Y_NUMBER_HEIGHT = 1.6; /* ems, height of a number of y */
-static const double Y_NUMBER_WIDTH = 3.1;  /* ems, width of the numbers of y */
-static const double X_NUMBER_GAP = 0.25;   /* ems, gap above the numbers of x */
+static const double TICK_SIZE = 0.82; /* ems, size of the axes' letters */
+static const double X_NUMBER_WIDTH =
+    5; /* ems, width of a number at the x axis */
+static const double Y_NUMBER_HEIGHT = 1.6; /* ems, height at the y axis */
+static const double Y_NUMBER_WIDTH = 3.1;  /* ems, width at the y axis */
+static const double X_NUMBER_GAP = 0.25;   /* ems, gap above at the x axis */
 static const double ARROW_HEAD = 0.62;     /* ems, length of arrow heads */
 
 double plot_nice_number(double value)

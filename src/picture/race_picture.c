@@ -17,8 +17,8 @@ void find_race_bounds(const Plot *stage, double bounds[4])
     bool over_h = stage->simulation->exhibit.switches;
     bounds[0] = over_h ? -1.8 : -3.4;
     bounds[1] = -7.4;
-    bounds[2] = over_h ? 1.1 : 2.1; /* names */
-    bounds[3] = 1.2;                /* room for the scene's switch */
+    bounds[2] = over_h ? 1.1 : 2.1; /* leaves room for the methods' names */
+    bounds[3] = 1.2; /* leaves room for the button "h instead of time" */
     for (int i = 0; i < race->run_count; i++) {
         const RaceResult *point = &race->result[i];
         double x = log10(1e3 * (over_h ? point->h : point->processor_time));

@@ -47,8 +47,7 @@ int square_fill_cells(const SquarePen *pen, bool all);
 void square_draw_outline(const SquarePen *pen, const double *x, bool dashed,
                          Colour colour);
 
-/* Draws a ghost: a dashed outline; if the mesh is coarse, also faint springs.
- */
+/* Draws a ghost: a dashed outline, and faint springs if the mesh is coarse. */
 void square_draw_ghost(const SquarePen *pen, const double *x, Colour colour);
 
 /* Draws the walls and balls of a run.  If there are several runs, walls are

@@ -479,8 +479,9 @@ static Status end_press(Player *player)
             player_enqueue(player, &next);
         return player_show_refusal(player, player_obey_queue(player, false));
     }
-    if (drag == COMMAND_SET && mouse->has_moved)
-        player_deselect(player); /* after a click the selection stays */
+    if (drag == COMMAND_SET &&
+        mouse->has_moved) /* a click keeps the selection */
+        player_deselect(player);
     if (drag == COMMAND_SET && !mouse->has_moved && mouse->dragged_index >= 0 &&
         player->input.selected_option &&
         player->input.selected_option->kind == OPTION_NAME)

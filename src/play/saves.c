@@ -65,7 +65,7 @@ Status obey_toggle_film(Player *player, const Command *command)
     return STATUS_OK;
 }
 
-int player_find_scene_argument(const Player *player, int i)
+int player_find_first_scene_word(const Player *player, int i)
 {
     char *const *words = player->setup.arguments;
     const OptionRow *first = option_find("steps");
@@ -111,7 +111,7 @@ static char *write_command_line(const Player *player, const char *script)
     if (!file)
         return NULL;
     fputs("elasto", file);
-    for (int i = 0; (i = player_find_scene_argument(player, i + 1));)
+    for (int i = 0; (i = player_find_first_scene_word(player, i + 1));)
         write_shell_word(file, player->setup.arguments[i]);
     if (script)
         fprintf(file, " --script %s", script);

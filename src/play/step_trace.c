@@ -182,8 +182,8 @@ void step_trace_add_iterate(StepTrace *trace, const Newton *newton,
         trace->x_tilde[i] += newton->iterate.E.x_n[i];
 }
 
-static void append_position(StepTrace *trace, int iterate, AlgoLine line,
-                            int trials)
+static void append_walk_position(StepTrace *trace, int iterate, AlgoLine line,
+                                 int trials)
 {
     trace->position[trace->position_count++] =
         (WalkPosition){iterate, line, trials};
@@ -199,26 +199,26 @@ void step_trace_end(StepTrace *trace, const Options *options)
     if (!grown)
         return;
     trace->position = grown;
-    append_position(trace, 0, LINE_START, 0);
+    append_walk_position(trace, 0, LINE_START, 0);
     for (int i = 0; i < count; i++) {
         const NewtonRecord *record = &trace->records.record[i];
         bool searches = options->line_search != LINE_SEARCH_NONE;
         bool fails = record->alpha == 0, passes = record->status == STATUS_OK;
         int trials = record->trials;
-        append_position(trace, i, LINE_DO, 0);
+        append_walk_position(trace, i, LINE_DO, 0);
         if (options->projection != PROJECTION_NONE)
-            append_position(trace, i, LINE_PROJECT, 0);
-        append_position(trace, i, LINE_SOLVE, 0);
+            append_walk_position(trace, i, LINE_PROJECT, 0);
+        append_walk_position(trace, i, LINE_SOLVE, 0);
         for (int t = 1; searches && t < trials && trials < MAX_WALK_TRIALS; t++)
-            append_position(trace, i, LINE_SEARCH, t);
+            append_walk_position(trace, i, LINE_SEARCH, t);
         if (searches || fails)
-            append_position(trace, i, LINE_SEARCH, trials);
+            append_walk_position(trace, i, LINE_SEARCH, trials);
         if (!fails)
-            append_position(trace, i, LINE_UPDATE, trials);
+            append_walk_position(trace, i, LINE_UPDATE, trials);
         if (!fails || passes)
-            append_position(trace, i, LINE_TEST, trials);
+            append_walk_position(trace, i, LINE_TEST, trials);
     }
-    append_position(trace, count, LINE_END_STEP, 0);
+    append_walk_position(trace, count, LINE_END_STEP, 0);
 }
 
 int step_trace_walk(const StepTrace *trace, TimeUnit unit, int position,

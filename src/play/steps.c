@@ -105,7 +105,7 @@ void player_reset_view(Player *player)
     }
 }
 
-static void forget_hold_and_queue(Player *player)
+static void drop_held_node_and_queue(Player *player)
 {
     player->input.is_holding = false;
     player->commands.queue.count = 0;
@@ -160,7 +160,7 @@ Status player_begin_runs(Player *player, const Options *options, int count,
     player->screen.drawn_step = -1;
     player->play.has_stopped_unconverged = player->play.has_reported_gain =
         false;
-    forget_hold_and_queue(player);
+    drop_held_node_and_queue(player);
     update_player_after_edit(player);
     return record_step(player);
 }
@@ -443,7 +443,7 @@ Status player_seek(Player *player, long step, ActionAfterWork after)
     bool known = step <= past_find_newest(past);
     Status status = known ? STATUS_OK : record_step(player);
     if (known)
-        forget_hold_and_queue(player);
+        drop_held_node_and_queue(player);
     if (!status && !known)
         status = release_unused_hand(player);
     if (status)
@@ -580,7 +580,7 @@ Status obey_undo(Player *player, const Command *command)
                                              : "nothing was undone");
     const Command edit = *made;
     player->play.mode = MODE_PAUSE;
-    forget_hold_and_queue(player);
+    drop_held_node_and_queue(player);
     player->input.mouse.input_gesture_id = ++player->commands.gesture_count;
     update_player_after_edit(player);
     player_reset_view(player);

@@ -59,7 +59,7 @@ typedef struct Grid {
     /* Equal rows of masses or springs are stored once.  Node q of row i has the
      * mass m[q + mass_shift[i]], and the springs that start at node q have the
      * index q + spring_shift[i + 1]; spring_shift[0] is for row -1 (ghosts). */
-    int *mass_shift, *spring_shift; /* [nodes_per_side + 1] shift of each row */
+    int *mass_shift, *spring_shift; /* [nodes_per_side + 1], by row */
     double *c[SPRING_KINDS];  /* [plane] Hessian factor 2 w k/l2; 0: none */
     double *l2[SPRING_KINDS]; /* [plane] squared rest length */
     double *m, *inverse_m; /* [plane] mass and 1/mass; inverse_m is 0 at pins */

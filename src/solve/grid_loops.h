@@ -157,7 +157,7 @@ INLINE NodeRange grid_get_node_range(const Grid *grid, int i, int odd)
 }
 
 /* EACH_RUN_OF loops over the nodes of a band, LANES of a row at a time, from
- * at.first on; EACH_NODE_OF also loops over their Doubles, with counter `e`. */
+ * at.first on; EACH_NODE_OF goes through these by vectors of Doubles. */
 #define EACH_RUN_OF(grid, band)                                                \
     for (int i = (band)*BAND_ROWS;                                             \
          i < (band)*BAND_ROWS + BAND_ROWS && i < (grid).rows.nodes_per_side;   \

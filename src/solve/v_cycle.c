@@ -110,7 +110,7 @@ INLINE void split_even_odd(const RowLayout *rows, int I, int first,
 {
     float *even = to + node_index(rows, I, first),
           *odd = even + rows->odd_offset;
-    EACH_OF (AT_MOST(LANES / 2, (rows->nodes - first + 1) / 2)) {
+    EACH_OF (AT_MOST(LANES / 2, (rows->nodes_per_side - first + 1) / 2)) {
         even[e] = line[2 * e];
         odd[e] = line[2 * e + 1];
     }
@@ -436,11 +436,12 @@ bool p_meets_tolerance(const Grid *grid, double largest, double square,
 /* Limit of the V-cycles for one direction. */
 enum { MAX_V_CYCLES = 60 };
 
-/* Conjugate gradients end when p passes the test with MARGIN times the bound of
- * its error, or when the linear residual, relative to the gradient in the norm
- * of M^-1, is at most LOOSE or LEAST.  LOOSE is for a p that is not small
- * (SMALL_P): a further iteration of Newton costs no more than an exact p, and
- * leaves a smaller error.  LEAST is near the limit of single precision. */
+/* Conjugate gradients end when p passes the stopping test even if the bound of
+ * its error is multiplied by MARGIN, or when the linear residual, relative to
+ * the gradient in the norm of M^-1, is at most LOOSE or LEAST.  LOOSE is for a
+ * p that is not small (SMALL_P): a further iteration of Newton costs no more
+ * than an exact p, and leaves a smaller error.  LEAST is near the limit of
+ * single precision. */
 static const double MARGIN = 1.3, LOOSE = 0.5, LEAST = 1e-4;
 
 /* If p is small, but its bound from g (multigrid.h) is more than FAR times the

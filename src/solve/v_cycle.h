@@ -56,19 +56,20 @@ void v_cycle_copy_system(VCycle *cycle);
 /* Computes p = -H^-1 g up to a linear residual.
  *   g         [2 planes] grad E; anything at pins
  *   square    |g|_(M^-1)^2
- *   longest   largest |p_x| + |p_y| of a node with which p passes the test
+ *   longest   m, limit of |p_x| + |p_y| in the stopping test, h times the
+ *             tolerance
  *   largest   out, max over nodes of |p_x| + |p_y|
- * Returns whether p passes the test, as far as single precision tells; false if
- * the Hessian is not clamped. */
+ * Returns whether p passes the stopping test, as far as single precision tells;
+ * false if the Hessian is not clamped. */
 bool v_cycle_solve(VCycle *cycle, const double *g, double square,
                    double longest, double *p, double *largest);
 
-/* Whether the exact direction passes the test.  H - M is positive
+/* Whether the exact direction passes the stopping test.  H - M is positive
  * semi-definite, so the error of p is at most |r|_(M^-1) in the norm of M,
  * where r = -g - H p is the linear residual, and at most sqrt(2/m) |r|_(M^-1)
  * at a node.
  *   largest  max over nodes of |p_x| + |p_y|
  *   square   |r|_(M^-1)^2
- *   longest  largest |p_x| + |p_y| of a node with which p passes the test */
+ *   longest  limit of |p_x| + |p_y| in the test */
 bool p_meets_tolerance(const Grid *grid, double largest, double square,
                        double longest);

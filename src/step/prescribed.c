@@ -38,7 +38,7 @@ static bool obstacle_moves(const Contact *contact, int k)
     return !stopped && (v[0] != 0 || v[1] != 0);
 }
 
-bool prescribed_begin_step(TimeIntegrator *run)
+bool prescribed_begin_motion(TimeIntegrator *run)
 {
     Contact *contact = get_contact(run->system);
     bool any = run->system->pin_v != NULL;

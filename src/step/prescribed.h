@@ -9,7 +9,7 @@
 
 /* Gives each obstacle the mean velocity that its motion has in this step.
  * Returns whether anything moves. */
-bool prescribed_begin_step(TimeIntegrator *run);
+bool prescribed_begin_motion(TimeIntegrator *run);
 
 /* Moves walls and pins as far as there is room, and starts to minimise E from
  * there.  Where another part of the way follows, the minimiser is only a guess,

@@ -165,7 +165,7 @@ Status time_integrator_begin_step(TimeIntegrator *run)
     run->stage = 0;
     if (run->newton)
         run->newton->total_energy_change = 0;
-    run->is_driven = prescribed_begin_step(run);
+    run->is_driven = prescribed_begin_motion(run);
     Status status = begin_term_steps(run);
     if (status)
         return end_step(run, status);

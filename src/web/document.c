@@ -126,7 +126,7 @@ static void write_algorithm_lines(Writer *to, const FrameContent *content,
 {
     const Pane *pane = active_pane(content);
     for (; row->shown_if; row++) {
-        if (!text_has_known_line(&pane->values, row->shown_if))
+        if (!text_has_line_to_show(&pane->values, row->shown_if))
             continue;
         const ShownRow now = listing_make_row(pane, row);
         print(to, "row\t%d\t%d\t%d\t%d\t%s\t%s\n", card, now.is_highlighted,
@@ -217,7 +217,7 @@ static void write_document_card(Writer *to, const FrameContent *content,
                   document_darken(line.colour), line.text);
     }
     if (graph && !card->make_row &&
-        !text_has_known_line(&pane->values, card->words))
+        !text_has_line_to_show(&pane->values, card->words))
         return;
     print(to, "card\t%d\t%s%s\t%s\t%d\t%s\t\n", index, card->name,
           graph ? "-text" : "", covered ? "covered" : "text", closed,

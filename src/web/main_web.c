@@ -79,7 +79,7 @@ EMSCRIPTEN_KEEPALIVE const char *web_get_command_line(void)
         (!same &&
          player_find_defaults(player, now->scene->name, now->page, base)))
         return words;
-    for (int i = 0; same && (i = player_find_scene_argument(player, i + 1));)
+    for (int i = 0; same && (i = player_find_first_scene_word(player, i + 1));)
         append(words, sizeof words, "%s\n", player->setup.arguments[i]);
     if (!same)
         append(words, sizeof words, "%s%s", now->page ? "--lecture\n" : "",

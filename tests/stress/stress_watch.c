@@ -30,7 +30,7 @@ enum { MAX_DENSE_UNKNOWNS = 400 };
 
 /* Factor of the noise of exact_residual for shaken squares, whose coordinates
  * and forces have very different sizes */
-enum { SHAKEN_NOISE_FACTOR = 4 };
+enum { PERTURBED_NOISE_FACTOR = 4 };
 
 /* Largest relative error of a direction that rounding.c accepts */
 #define DIRECTION_TOLERANCE 1e-5
@@ -119,7 +119,7 @@ static bool residual_is_low(const RunWatch *watch, const double *u,
                                 lifts[settings->projection] - k, noise);
         *least = fmin(*least, residual);
         if (noise && watch->only_springs)
-            *noise *= SHAKEN_NOISE_FACTOR;
+            *noise *= PERTURBED_NOISE_FACTOR;
         if (residual <= limit + (noise ? *noise : 0))
             return true;
     }

@@ -78,7 +78,7 @@ Real exact_strain(const System *system, const double *x, int s)
 
 /* Returns the random or chosen error of a flow limit. A spring that has flowed
  * begins the next step at its limit, and rounding decides whether it flows. */
-static Real find_yield_error(Probe *probe, Real E)
+static Real choose_yield_error(Probe *probe, Real E)
 {
     Real side = probe->jitter ? random_uniform(probe->jitter, -1, 1)
                               : probe->yield_side;
@@ -109,7 +109,7 @@ static void add_spring_energy(Probe *probe, Jet *sum, const void *data, int s)
         Real yield = flow->initial_yield_strain + flow->hardening * (Real)kappa;
         held = fminl(held, yield);
         over = fabsl(e) - held;
-        flows = fabsl(e) - yield > find_yield_error(probe, E.f);
+        flows = fabsl(e) - yield > choose_yield_error(probe, E.f);
     }
     V = jet_apply(E, held * (held / 2 + over) + hard * over * over / 2,
                   copysignl(held + hard * over, e), flows ? hard : 1);

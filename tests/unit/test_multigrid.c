@@ -131,7 +131,7 @@ TEST(steps_fall_and_pass_the_test_of_algorithm_3)
             randomise_square(&random, rows[i].has_pins);
         if (rows[i].hand_stiffness > 0)
             pull_middle_node(rows[i].hand_stiffness);
-        if (i == 14) /* a short step ends by a bound of the next residual */
+        if (i == 14) /* short steps end by the bound of the next p */
             square->run[0].h = newton->settings.h = 1e-4;
         newton->settings.observer = check_E_decrease;
         newton->settings.user_data = &history;

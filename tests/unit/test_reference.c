@@ -329,9 +329,10 @@ static void make_step_tested_last(Solid *solid, double h, double tol, int step,
 }
 
 /* Checks that updates agree. The program may omit updates whose residual is at
- * most `negligible`, m/s (p: a millionth of a spring). Residuals agree to 2 %
- * plus 1e-3 of the tolerance: p by an older factor is wrong by 1e-4 of its
- * length, which is 2 % of a next p that is 200 times shorter. */
+ * most `negligible`, m/s, where p is a millionth of a spring's length.
+ * Residuals agree to 2 % plus 1e-3 of the tolerance: a factor of an earlier
+ * iterate gives a p with a relative error of 1e-4, 2 % of a next p that is 200
+ * times shorter. */
 static void check_same_updates(const NewtonUpdates *got,
                                const NewtonUpdates *expected, double tolerance,
                                double negligible)

@@ -788,7 +788,7 @@ static bool lines_nearly_same(const char *was, const char *is)
 }
 
 /* Compares the record with data/records/NAME.txt; PICTURES=1 writes it. */
-static void check_record(const char *name)
+static void compare_with_record(const char *name)
 {
     char path[PATH_MAX + 64], was[1024];
     snprintf(path, sizeof path, "%s/tests/data/records/%s.txt", start_folder,
@@ -1233,7 +1233,7 @@ static void run_session(void **state)
             add_changed_facts_to_record(current_line);
     }
     if (records)
-        check_record(session->name + 7);
+        compare_with_record(session->name + 7);
     current_line = NULL;
 }
 
@@ -1396,7 +1396,7 @@ static void random_keys_stay_in_their_field(void **unused)
         CHECK(!player.input.selected_option &&
               past_count_panes(&player.past) == 1 &&
               player_is_stopped(&player));
-        if (set && player.past.shown_step == 2) /* not begun anew */
+        if (set && player.past.shown_step == 2) /* no new run has begun */
             CHECK(hash_all_but_setting(place) == rest);
         if (!set)
             CHECK(hash_by_name("") == before);
@@ -1489,7 +1489,7 @@ static void record_of_random_hands(void **unused)
         check_replay(scene[round % 4]);
         count_files(true);
     }
-    check_record("hands");
+    compare_with_record("hands");
     current_line = NULL;
 }
 

@@ -16,7 +16,7 @@
 #include "model/mass_spring_energy.h"
 #include "model/self_contact.h"
 
-enum { CASE_SIZE = 2 * 40 }; /* largest number of coordinates */
+enum { MAX_2N = 2 * 40 }; /* largest number of coordinates */
 
 /* A system of a few nodes with one kind of energy, or two */
 typedef struct TermRow {
@@ -34,7 +34,7 @@ typedef struct TermRow {
     double yield, hardening; /* read as one array by plastic_energy.configure */
     double damping, pull_stiffness; /* 0: none; pull in J/m^2 */
     bool has_mu, is_collapsed; /* flat: springs have (nearly) no length at x */
-    bool is_solid;             /* triangles instead of springs */
+    bool has_triangles;        /* triangles instead of springs */
     double max_alpha;          /* largest alpha, if no term limits it */
     const OptionRow *option;   /* option whose term is tested; NULL: none */
 } TermRow;
@@ -60,7 +60,7 @@ static const TermRow rows[] = {
     {"free ball that rubs", FREE_BALL, .has_mu = true, .max_alpha = 1e3},
     {"corner", ONE_TRIANGLE, .max_alpha = 1e3},
     {"cells with springs", CELL_GRID, .max_alpha = 1e3},
-    {"triangles", CELL_GRID, .is_solid = true, .max_alpha = 1e3},
+    {"triangles", CELL_GRID, .has_triangles = true, .max_alpha = 1e3},
     {"two bodies", TWO_BODIES, .max_alpha = 1e3},
     {"two bodies that rub", TWO_BODIES, .has_mu = true, .max_alpha = 1e3},
 };
@@ -70,8 +70,7 @@ enum { TERM_ROW_COUNT = sizeof rows / sizeof *rows };
 typedef struct TermCase {
     System system;
     EvalPoint at;
-    double x_n[CASE_SIZE], u[CASE_SIZE], x[CASE_SIZE], p[CASE_SIZE],
-        q[CASE_SIZE], h;
+    double x_n[MAX_2N], u[MAX_2N], x[MAX_2N], p[MAX_2N], q[MAX_2N], h;
     int unknowns;
 } TermCase;
 
@@ -122,12 +121,13 @@ static void make_cell_grid(const TermRow *row, Random *random, TermCase *c)
     }
     const double material[3] = {1, random_logarithmic(random, 0.1, 10),
                                 random_uniform(random, 0, 0.49)};
-    CHECK_OK(row->is_solid
+    CHECK_OK(row->has_triangles
                  ? neo_hookean_energy.configure(&c->system, &mesh, material)
                  : cells_configure(&c->system, &mesh, 5));
     if (row->option)
         configure_option(row->option, random, &mesh, &c->system);
-    if (row->shape == CELL_GRID && !row->is_solid && random_below(random, 2))
+    if (row->shape == CELL_GRID && !row->has_triangles &&
+        random_below(random, 2))
         c->system.k[random_below(random, c->system.springs)] = 0;
     if (row->shape ==
         ONE_TRIANGLE) { /* one triangle remains, without springs */
@@ -339,7 +339,7 @@ static Real find_hessian_noise(TermCase *c, const TermKind *kind)
 {
     Real sum = 0;
     for (int i = 0; i < c->unknowns; i++) {
-        double unit[CASE_SIZE] = {0}, column[CASE_SIZE] = {0};
+        double unit[MAX_2N] = {0}, column[MAX_2N] = {0};
         unit[i] = c->q[i];
         apply_hessian(c, kind, PROJECTION_NONE, unit, column);
         sum += find_dot_noise(c, c->p, column);
@@ -350,7 +350,7 @@ static Real find_hessian_noise(TermCase *c, const TermKind *kind)
 static void check_derivatives(TermCase *c, const TermKind *kind)
 {
     Jet noise;
-    double g[CASE_SIZE] = {0}, Hq[CASE_SIZE] = {0}, Hp[CASE_SIZE] = {0};
+    double g[MAX_2N] = {0}, Hq[MAX_2N] = {0}, Hp[MAX_2N] = {0};
     Jet formula = evaluate_oracle(c, kind, 0, &noise);
     kind->gradient(&c->at, g);
     noise.p += find_dot_noise(c, g, c->p);
@@ -364,7 +364,7 @@ static void check_derivatives(TermCase *c, const TermKind *kind)
     compare("Hessian", dot_product(c, Hq, c->p), formula.pq, noise.pq);
     compare("symmetry", dot_product(c, Hp, c->q), formula.pq, noise.pq);
     for (int f = 0; f < PROJECTION_COUNT; f++) { /* each projection */
-        double projected[CASE_SIZE] = {0};
+        double projected[MAX_2N] = {0};
         bool differs = false;
         int changed = apply_hessian(c, kind, (Projection)f, c->q, projected);
         for (int i = 0; i < c->unknowns; i++)
@@ -392,7 +392,7 @@ static void check_derivatives(TermCase *c, const TermKind *kind)
 /* Checks the change of E along p without its linear part, also a tiny one. */
 static void check_E_along_p(TermCase *c, const TermKind *kind, Random *random)
 {
-    double q[3] = {0}, g[CASE_SIZE] = {0}, reach = INFINITY;
+    double q[3] = {0}, g[MAX_2N] = {0}, reach = INFINITY;
     if (kind->element)
         reach = elements_max_alpha(&c->at, c->p);
     double most = fmin(reach, row->max_alpha);
@@ -437,7 +437,7 @@ static double find_gap_ratio(const TermCase *c, const double *x)
 /* Checks that x is feasible up to the limit: 0.1 of a gap or area is left. */
 static void check_max_alpha(TermCase *c, const TermKind *kind)
 {
-    double x[CASE_SIZE],
+    double x[MAX_2N],
         alpha = kind->element ? elements_max_alpha(&c->at, c->p) : INFINITY;
     TermCase other = *c;
     if (!isfinite(alpha))
@@ -450,7 +450,7 @@ static void check_max_alpha(TermCase *c, const TermKind *kind)
               edge_crossings(&c->system, x) == 0);
     }
     long crossings = 0;
-    for (int k = 2; k < 8; k++) { /* points just behind the closed gap */
+    for (int k = 2; k < 8; k++) { /* nodes go a little too far */
         double behind = (1 + pow(10, -k)) * alpha / 0.9;
         for (int i = 0; i < c->unknowns; i++)
             other.x[i] = c->x[i] + behind * c->p[i];
@@ -468,9 +468,9 @@ static void check_projection(TermCase *c, Random *random)
 {
     IncrementalPotential E = {&c->system, c->at.weight, c->x_n, c->u};
     Iterate iterate = {.E = E, .u = c->u, .x = c->x};
-    static double plain[CASE_SIZE * CASE_SIZE], H[CASE_SIZE * CASE_SIZE];
-    static Real g[CASE_SIZE], exact_plain[CASE_SIZE * CASE_SIZE],
-        exact_H[CASE_SIZE * CASE_SIZE];
+    static double plain[MAX_2N * MAX_2N], H[MAX_2N * MAX_2N];
+    static Real g[MAX_2N], exact_plain[MAX_2N * MAX_2N],
+        exact_H[MAX_2N * MAX_2N];
     int n = c->unknowns;
     Sparse A;
     bool grown;
@@ -478,7 +478,7 @@ static void check_projection(TermCase *c, Random *random)
     CHECK_OK(incremental_potential_create_hessian(&c->system, &A));
     CHECK(incremental_potential_hessian(&iterate, PROJECTION_NONE, &A) == 0);
     fill_dense_matrix(&A, plain);
-    double Hq[CASE_SIZE], scale = 0;
+    double Hq[MAX_2N], scale = 0;
     incremental_potential_apply_hessian(&iterate, PROJECTION_NONE, c->q, Hq);
     for (int i = 0; i < n * n; i++)
         scale = fmax(scale, fabs(plain[i]));
@@ -494,7 +494,7 @@ static void check_projection(TermCase *c, Random *random)
         incremental_potential_hessian(&iterate, projections[f], &A);
         fill_dense_matrix(&A, H);
         for (int trial = 0; trial < 20; trial++) {
-            double y[CASE_SIZE], value = 0;
+            double y[MAX_2N], value = 0;
             for (int i = 0; i < n; i++)
                 y[i] = random_uniform(random, -1, 1);
             for (int i = 0; i < n * n; i++)
@@ -519,7 +519,7 @@ static void check_projection(TermCase *c, Random *random)
 /* Checks E of a step, with inertia and all terms, and its derivatives. */
 static void check_whole_step(TermCase *c, Random *random)
 {
-    double u_tilde[CASE_SIZE], g[CASE_SIZE], Hq[CASE_SIZE];
+    double u_tilde[MAX_2N], g[MAX_2N], Hq[MAX_2N];
     for (int i = 0; i < c->unknowns; i++)
         u_tilde[i] = random_uniform(random, -1, 1);
     IncrementalPotential E = {&c->system, c->at.weight, c->x_n, u_tilde};
@@ -572,12 +572,12 @@ static void accelerations_are_forces_over_masses(void **unused)
     (void)unused;
     Random random = {77};
     System system;
-    double x[MAX_COORDINATES], a[MAX_COORDINATES];
+    double x[MAX_2N], a[MAX_2N];
     random_system(&random, SPRINGS_MIXED, &system, x);
     EvalPoint at = make_eval_point(&system, x, NULL, x);
     system_acceleration(&system, x, a);
     for (int i = 0; i < 2 * system.nodes; i++) {
-        double one[MAX_COORDINATES] = {0};
+        double one[MAX_2N] = {0};
         one[i] = 1;
         Probe probe = {.at = &at, .p = one};
         Real force = -oracle_energy(&probe, NULL).p;
