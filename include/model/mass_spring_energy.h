@@ -7,8 +7,8 @@
 /* The sum of spring_energy over all springs; the term has no data. */
 extern const TermKind mass_spring_energy;
 
-/* TermKind's functions for a term with one block for each spring.  The bound of
- * the curvature is the largest k. */
+/* TermKind's functions for a term with one block for each spring.  The
+ * estimate max_stiffness is the largest k. */
 void mass_spring_add_triplets(const EvalPoint *at, Triplets *triplets);
 double mass_spring_max_stiffness(const EvalPoint *at);
 

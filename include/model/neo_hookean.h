@@ -28,8 +28,8 @@ typedef struct NeoHookean {
     double mu, lambda;   /* J/m^2: Lame's parameters times a thickness of 1 m */
 } NeoHookean;
 
-/* The sum of W over the triangles; data: NeoHookean.  The option's numbers are
- * 1 for triangles, Young's modulus E in Pa, and Poisson's ratio nu.
+/* The sum of W over the triangles; data: NeoHookean.  configure reads three
+ * options: 1 for triangles, Young's modulus E in Pa, and Poisson's ratio nu.
  * The term replaces mass_spring_energy; the sides of the triangles stay in the
  * system as springs, which are drawn. */
 extern const TermKind neo_hookean_energy;

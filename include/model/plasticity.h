@@ -44,10 +44,10 @@ typedef struct Plasticity {
     double *kappa;               /* [springs] accumulated |change of ep| */
 } Plasticity;
 
-/* The sum of W over the springs; data: Plasticity.  The option's numbers are Y
- * and H.  The term replaces mass_spring_energy.  The value includes the energy
- * of hardening, k l2 H kappa^2/2.  After a step in which ep changes by gamma,
- * the term books the dissipated energy k l2 Y |gamma|. */
+/* The sum of W over the springs; data: Plasticity.  configure reads two
+ * options, Y and H.  The term replaces mass_spring_energy.  The value includes
+ * the energy of hardening, k l2 H kappa^2/2.  After a step in which ep changes
+ * by gamma, the term books the dissipated energy k l2 Y |gamma|. */
 extern const TermKind plastic_energy;
 
 /* Returns the law V of spring s without damping; elastic without the term. */

@@ -4,8 +4,8 @@
  * The potential P(x) is the sum of the terms in the list (term.h).  Gravity is
  * not a term: an implicit step adds it to its target u_tilde, an explicit step
  * to the acceleration, so the velocity in free fall is exact.  Arrays change
- * between steps only: by control_apply, state_restore, exhibit_flip_switch, and
- * a term's begin_step and end_step.
+ * between steps only: by control_apply, state_restore, exhibit_flip_switch, a
+ * term's begin_step and end_step, and envelope_run_cell.
  *
  * Code that changes a system calls system_mark_changed, which raises its
  * version.  Solvers store the version for which their results are valid. */

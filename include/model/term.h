@@ -6,7 +6,7 @@
  * one indirect call a pass.
  *
  * A function pointer that is NULL means: this term adds nothing here.  Terms
- * ignore pins: the caller clears pinned nodes in g and in the Hessian. */
+ * need not regard pins: the caller clears pinned nodes in g and the Hessian. */
 #pragma once
 
 #include "base/sparse.h"
@@ -52,9 +52,10 @@ struct TermKind {
     /* Name in messages, such as "friction".  NULL: no message names it. */
     const char *name;
 
-    /* Adds the term, or changes its numbers if it is in the list.  `number` has
-     * the values of the term's option, of which at least one is not 0.  NULL: a
-     * term that needs further arguments.  Returns OK or OUT_OF_MEMORY. */
+    /* Adds the term, or changes its numbers if it is in the list.  `number` is
+     * the field of the term's option in Options; the fields behind it may be
+     * read, too.  At least one is not 0.  NULL: a term that needs further
+     * arguments.  Returns OK or OUT_OF_MEMORY. */
     Status (*configure)(System *system, const struct SquareMesh *mesh,
                         const double *number);
 

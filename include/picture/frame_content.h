@@ -176,7 +176,7 @@ typedef struct Setting {
     const char *name;       /* name of the option: "h", "stretch" */
     char value[VALUE_SIZE]; /* as shown: "0.02 s", "backward Euler" */
     int min_letters;        /* least width of the value, in letters */
-    bool is_changed;        /* differs from the scene's default */
+    bool is_changed;        /* differs from the start of the run */
     bool is_off;            /* the method of the setting is switched off */
     bool is_selected;       /* selected by a click or by Tab */
 } Setting;
@@ -205,7 +205,7 @@ typedef struct TimeLine {
 /* A key and what it does now. */
 typedef struct Chip {
     char key[VALUE_SIZE], label[VALUE_SIZE]; /* "Space", "play" */
-    bool is_highlighted;                     /* is the key to press next */
+    bool is_highlighted; /* key to press next, or of an open part */
 } Chip;
 
 typedef struct ChipRow {

@@ -47,7 +47,7 @@ enum {
     IN_SCRIPT = 2,     /* is written into the script of a session */
     KEEPS_STEP = 4,    /* does not abandon a step that is being made */
     REPLACES_SAME = 8, /* in a gesture, replaces the last command of its kind */
-    KEEPS_MESSAGE = 16 /* does not clear the message below the picture */
+    KEEPS_NOTE = 16    /* does not clear Player.note */
 };
 
 typedef struct CommandRow {

@@ -185,7 +185,7 @@ typedef struct Player {
     InputState input;
     bool is_quitting;         /* the program is asked to end */
     char message[768];        /* why a command was refused, or "" */
-    char note[SENTENCE_SIZE]; /* message below the picture, or "" */
+    char note[SENTENCE_SIZE]; /* message in the title bar, or "" */
     bool is_warning;          /* the note is a warning */
     bool explains_hover; /* the mouse has moved to another part since the note
                           was written; a sentence about it replaces the note */

@@ -67,9 +67,10 @@ typedef struct Options {
             double ceiling[3]; /* values of --ceiling */
             double barrier[2]; /* d_hat (m) and kappa (J/m^2); 0: automatic */
             double friction, slip_speed, has_cell_energy, has_self_contact;
-            double self_friction;  /* friction between bodies; -1: `friction` */
-            double material;       /* 0: springs, 1: triangles */
-            double young, poisson; /* values of --young, --poisson */
+            double self_friction; /* friction between bodies; -1: `friction` */
+            double material;      /* 0: springs, 1: triangles */
+            double young,
+                poisson; /* configure reads material, young, poisson */
             double yield, hardening, tear; /* yield, tear: strains; 0: never */
             double damping;                /* value of --damping */
             double timestep, tolerance; /* --timestep (s), --tolerance (m/s) */

@@ -19,7 +19,8 @@ typedef enum Solver {
 } Solver;
 
 /* Most segments for which AUTO takes newton, whose iterates are those of the
- * slides.  Multigrid is twice as fast at 8 segments, four times from 12 on. */
+ * slides.  Multigrid is twice as fast at 8 segments, at least four times
+ * from 12. */
 enum { AUTO_NEWTON_MAX_SEGMENTS = 8 };
 
 /* How well the residual of a direction p is known. */

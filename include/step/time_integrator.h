@@ -56,7 +56,7 @@ struct TimeIntegrator {
     double *new_x;   /* [2n] m, x at the end of a step; before that workspace */
     double *new_v;   /* [2n] m/s, v at the end; before that workspace */
     double *history; /* [history_arrays * 2n] data that the method keeps */
-    double history_h; /* s, time step of `memory`; 0: `memory` is not valid */
+    double history_h; /* s, time step of `history`; 0: it is not valid */
     Newton *newton;   /* NULL for explicit methods */
     /* The following members describe an unfinished step. */
     int stage;                 /* 0 ... stages - 1 */

@@ -163,14 +163,14 @@ static void begin_command(Player *player, const Command *command)
         commands->quit_command = COMMAND_NONE;
     player->screen.must_redraw = true;
     player->message[0] = '\0';
-    if (!(flags & KEEPS_MESSAGE ||
+    if (!(flags & KEEPS_NOTE ||
           (flags & REPLACES_SAME && player->input.mouse.drag_command)))
         player->note[0] = '\0';
 }
 
 /* Whether the present work replaces a command: "next" is ignored until a step
  * is loaded or made; a drag during a new step is put into the queue. */
-static bool command_only_waits(Player *player, const Command *command)
+static bool work_replaces_command(Player *player, const Command *command)
 {
     bool drags =
         player->input.mouse.drag_command || command->kind == COMMAND_DRAG;
@@ -223,7 +223,7 @@ Status player_obey(Player *player, const Command *command)
     bool stops = false;
     Status status = STATUS_OK;
     begin_command(player, &meant);
-    if (command_only_waits(player, &meant))
+    if (work_replaces_command(player, &meant))
         return STATUS_OK;
     if (player_hides_answer(player) &&
         (meant.kind == COMMAND_NEXT || meant.kind == COMMAND_PLAY)) {

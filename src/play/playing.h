@@ -68,7 +68,7 @@ void player_deselect(Player *player);
 void player_format_value(const OptionRow *row, const Options *options,
                          const Simulation *simulation, char *text, size_t size);
 
-/* Shows a message below the picture. */
+/* Shows a message in the title bar, above the picture. */
 void player_notify(Player *player, const char *format, ...);
 
 /* Refuses a command, with a formatted reason.  Returns INVALID_INPUT. */

@@ -229,7 +229,8 @@ static Status set_self_contact(const Options *options, const SquareMesh *mesh,
 }
 
 /* Adds, changes and removes terms as the options say.  Obstacles, self-contact
- * and cells depend on several options; each other term belongs to one row. */
+ * and cells depend on several options; other terms have a row each (with the
+ * fields that follow). */
 static Status set_energy_terms(const Options *options, System *system)
 {
     const SquareMesh shape = body_make_mesh(options);

@@ -97,7 +97,7 @@ void exhibit_flip_switch(Simulation *simulation, int number)
             if (exhibit_find_spring_kind(simulation, s) == number)
                 system->k[s] = k;
         system_mark_changed(system, false);
-        simulation->run[0].history_h = 0; /* memory of the method is invalid */
+        simulation->run[0].history_h = 0; /* history of the method is invalid */
         simulation->ledger[0].user_work +=
             simulation_get_energies(simulation, 0).total - before;
         return;

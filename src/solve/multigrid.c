@@ -27,7 +27,7 @@ static const double STALLS = 0.3, PACE = 0.01, CLOSE = 1e3;
 static const double USELESS = 0.005;
 enum { TILE_PAUSE_ITERATIONS = 5 };
 
-/* Number of iterations after which Newton takes over; most steps need ten. */
+/* Number of the iteration, counted from 0, after which Newton takes over. */
 enum { MAX_MG_ITERATIONS = 200 };
 
 /* A change of E that is at most this fraction of the step's largest change is

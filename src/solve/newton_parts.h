@@ -10,7 +10,8 @@ typedef struct NewtonPhases {
     /* Computes g and p at x, and the residual of p.  Sets
      * newton->meets_tolerance if the residual plus a bound of its error is at
      * most the tolerance.  Newton's phase also requires that the next direction
-     * turns no body (next_direction_may_turn), unless turn_free_body does this.
+     * turns no body (next_direction_may_turn), unless turn_free_body does this;
+     * multigrid also accepts a p that its bound announced as the last one.
      * Returns OK, or why there is no p. */
     Status (*find_direction)(Newton *newton);
     /* Computes alpha, trials, slope, energy_change.  For Newton's method also
