@@ -219,7 +219,7 @@ clean:
 help:
 	@echo 'make run             build and open the window (ARGS="--segments 16")'
 	@echo 'make run-lecture     the same with src/lecture.c (ARGS="k=1e6")'
-	@echo 'make test            build and run all tests, about a minute'
+	@echo 'make test            build and run all tests, 1 to 3 minutes'
 	@echo 'make long-test       all tests in all their variations'
 	@echo 'make homework        write homework.c: lecture.c with functions to write'
 	@echo 'make check-homework  check it, or FILE="a.c b.c"'

@@ -320,7 +320,7 @@ static double residual(const Solid *solid, const Vec2 *p, double h)
 
 /* One time step of implicit Euler, from t_n to t_n + h (slide: step_forward).
  * Fails if tol is below the rounding errors of p.  elasto also adds the last p,
- * so its x is 3 to 1e11 times as accurate.  table: file of updates, or NULL. */
+ * so its x is 10 to 1e11 times as accurate.  table: file of updates, or NULL. */
 static void step_forward(Solid *solid, double h, double tol, int step,
                          FILE *table)
 {

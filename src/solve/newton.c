@@ -111,7 +111,7 @@ static const NewtonPhases newton_phases = {find_direction, find_step_length,
  *     while residual > tolerance
  *
  * The last p, too, is added to x, unless rounding hides that E falls along p.
- * The result is then 3 to 1e11 times more accurate.  The course's Python
+ * The result is then 10 to 1e11 times more accurate.  The course's Python
  * tests p before the update of x, and throws the last p away. */
 Status newton_minimise(Newton *newton)
 {
