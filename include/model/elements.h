@@ -117,9 +117,9 @@ struct ElementKind {
                              double t[4], double *speed);
 };
 
-/* A loop over the elements with W > 0 at x and, with p [2n], also those with
- * W > 0 on the way to x + alpha p: begins with elements_begin(at, p, alpha),
- * goes on while elements_next(&walk). */
+/* A loop over the elements that may have W > 0 at x and, with p [2n], on the
+ * way to x + alpha p: begins with elements_begin(at, p, alpha), goes on while
+ * elements_next(&walk). */
 typedef struct ElementIterator {
     const EvalPoint *eval_point;
     const ElementKind *kind;
@@ -145,7 +145,7 @@ double elements_taylor_remainder(const EvalPoint *at, const double *p,
  * positive along p.  INFINITY: no element limits alpha <= 1. */
 double elements_max_alpha(const EvalPoint *at, const double *p);
 
-/* Whether the energy P exists at x: Element.s of each element is positive.
+/* Whether the energy P exists at x: kinds with max_alpha need Element.s > 0.
  * Iterates are tested, too, as rounding can close a gap. */
 bool elements_are_feasible(const EvalPoint *at);
 

@@ -29,7 +29,7 @@ struct System {
     int *e;      /* [2 springs] nodes of each spring */
     double *m;   /* [n] kg, > 0 */
     double *l2;  /* [springs] m^2, rest length squared, > 0 */
-    double *k;   /* [springs] J/m^2, stiffness; 0: broken or without energy */
+    double *k;   /* [springs] J/m^2, stiffness; 0: broken, cut or unused */
     double gravity[2];        /* m/s^2, acceleration of every node */
     int *elimination_index;   /* [n] place of each node in the elimination */
     unsigned char *is_pinned; /* [n] 1: pinned, 0: free */
@@ -47,7 +47,7 @@ struct System {
  * the springs' term if springs > 0.  Returns OK or OUT_OF_MEMORY. */
 Status system_create(int nodes, int springs, System *system);
 
-/* Whether spring s broke or was cut before the start. */
+/* Whether spring s broke, was cut, or is a diagonal that triangles lack. */
 static inline bool spring_is_broken(const System *system, int s)
 {
     return system->k[s] == 0;

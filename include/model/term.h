@@ -59,8 +59,8 @@ struct TermKind {
     Status (*configure)(System *system, const struct SquareMesh *mesh,
                         const double *number);
 
-    /* Columns of the energy ledger: for value(), and for the energy that the
-     * term dissipates (system_add_loss).  NULL: no such column. */
+    /* Columns of the energy ledger: for potential(), and for the energy that
+     * the term dissipates (system_add_loss).  NULL: no such column. */
     const char *energy_name, *loss_name;
 
     /* Order of the list.  Equal ranks keep the order in which they were added.

@@ -83,7 +83,8 @@ enum { MAX_HISTORY_SERIES = 16, HISTORY_MAX_POINTS = 1024 };
 /* Quantities over time, for plots. */
 typedef struct History {
     int series_count;                     /* number of quantities */
-    const char *name[MAX_HISTORY_SERIES]; /* name[0] is the total energy */
+    const char *name[MAX_HISTORY_SERIES]; /* in scenes of a square name[0] is
+                                             the total */
     int point_count;                      /* number of points in time */
     double time[HISTORY_MAX_POINTS];      /* s, ascending */
     double value[MAX_HISTORY_SERIES][HISTORY_MAX_POINTS];

@@ -27,7 +27,7 @@ typedef struct Command {
     long number; /* index of a node, card, obstacle, row of options, ... */
     double x, y; /* position, m; x also the value of an option */
     char text[COMMAND_TEXT_SIZE]; /* name or value that is no number, or "" */
-    bool joins_gesture; /* is undone with the last command; "&" in a script */
+    bool joins_gesture; /* is undone with Commands.gesture_id; "&" in scripts */
 } Command;
 
 /* The part of the window that gets the keys; a row can name several. */
@@ -39,7 +39,7 @@ typedef enum KeyScope {
     SCOPE_SHEET = 16,    /* the sheet of scenes is open */
     SCOPE_QUESTION = 32, /* a page waits for a guess */
     SCOPE_PLAY = SCOPE_RUN | SCOPE_NUMBER | SCOPE_LIST | SCOPE_QUESTION,
-    SCOPE_ANY = SCOPE_PLAY | SCOPE_SHEET
+    SCOPE_ANY = SCOPE_PLAY | SCOPE_SHEET /* any part but a field of text */
 } KeyScope;
 
 enum {

@@ -64,11 +64,12 @@ typedef struct StepOutcome {
 
 /* A step that a pane has made. */
 typedef struct PastEntry {
-    /* Control of the next step; NULL while the entry's step is being made. */
+    /* Control of the next step; NULL while a new step is being made. */
     const UserControl *next_control;
     SavedState *state;    /* state after the step; NULL: not stored */
     EnergySample *sample; /* energies under the entry's control, or NULL */
-    /* Number of steps of the simulation in this step of the panes.  0: the
+    /* Number of steps of the simulation in this step of the panes, 1 at step 0.
+     * 0: the
      * scene is over, or the pane has ended with the failure in `outcome`. */
     int substep_count;
     StepOutcome outcome;
@@ -150,8 +151,9 @@ static inline bool past_makes_step(const Past *past)
 void past_create(bool stores_states, bool panes_fail_alone, Past *past);
 void past_free(Past *past);
 
-/* Begins new runs side by side at step 0.  Returns as simulation_create; after
- * a failure past_continue_work leads back to the step that was shown. */
+/* Begins new runs side by side at step 0.  Returns as simulation_create; if a
+ * simulation could not be created, past_continue_work leads back to the step
+ * that was shown. */
 Status past_begin_runs(Past *past, const Options *options, int panes,
                        int gesture, const Command *edit);
 

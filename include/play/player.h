@@ -40,7 +40,7 @@ enum {
 /* Whether steps are made by themselves, and why not. */
 typedef enum PlayMode {
     MODE_RUN,
-    MODE_PAUSE, /* the user has paused the run */
+    MODE_PAUSE, /* paused by the user or a page, or after a failure */
     MODE_END,   /* the scene is over, or a step did not converge */
     MODE_REST   /* the bodies are at rest, the forces in balance */
 } PlayMode;

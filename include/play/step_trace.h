@@ -39,7 +39,7 @@ typedef struct TraceIterate {
 typedef enum TimeUnit { UNIT_STEP, UNIT_UPDATE, UNIT_LINE, UNITS } TimeUnit;
 
 typedef struct WalkPosition {
-    int iterate;      /* index of the iterate in StepTrace */
+    int iterate;      /* index in StepTrace.iterate; at the end their number */
     AlgoLine at_line; /* line of Algorithm 3 */
     int trials;       /* trials of the line search so far */
 } WalkPosition;

@@ -13,7 +13,7 @@ typedef enum InputKind {
     INPUT_REDRAW,  /* the window was uncovered or resized */
     INPUT_MOVE,    /* the mouse moves: x, y */
     INPUT_PRESS,   /* a button is pressed: button, clicks, x, y */
-    INPUT_RELEASE, /* a button is released: button, x, y */
+    INPUT_RELEASE, /* a button is released, or the focus lost: button, x, y */
     INPUT_WHEEL,   /* the wheel turns: wheel_notches, x, y */
     INPUT_LEAVE    /* the mouse has left the window */
 } InputKind;
@@ -33,8 +33,8 @@ typedef struct Input {
 /* Functions of the program's window. */
 typedef struct Window {
     /* Opens the window.  Returns false after a failure (get_failure_reason).
-     *   size  [2] in, pixels; 0: 1280 x 800, or what fits on the screen
-     *   full  the window fills the screen */
+     *   size  [2] in, points of the screen; 0: 1280 x 800, or what fits on the
+     * screen full  the window fills the screen */
     bool (*open)(const int size[2], bool full);
     void (*close)(void);
 

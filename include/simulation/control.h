@@ -47,10 +47,10 @@ void control_release(const UserControl *control);
  * simulation_free may follow. */
 Status control_apply(Simulation *simulation, const UserControl *control);
 
-/* Puts a node at rest at (x, y), m; the change of the energy is booked as work.
+/* Puts a node of run 0 at rest at (x, y), m, and books the change of energy.
  *   moves  false: only checks whether the node can be there
- * Returns OK, or INVALID_INPUT if there is no such node, an obstacle is in the
- * way, or a cell would be turned over. */
+ * Returns OK, or INVALID_INPUT if there is no such node, an obstacle or a body
+ * is in the way, or a cell would be turned over. */
 Status simulation_move_node(Simulation *simulation, int node, double x,
                             double y, bool moves);
 

@@ -67,19 +67,19 @@ typedef struct Options {
             double ceiling[3]; /* values of --ceiling */
             double barrier[2]; /* d_hat (m) and kappa (J/m^2); 0: automatic */
             double friction, slip_speed, has_cell_energy, has_self_contact;
-            double self_friction; /* friction between bodies; -1: `friction` */
-            double material;      /* 0: springs, 1: triangles */
-            double young,
-                poisson; /* configure reads material, young, poisson */
-            double yield, hardening, tear; /* yield, tear: strains; 0: never */
+            double self_friction;  /* friction between bodies; -1: `friction` */
+            double material;       /* 0: springs, 1: triangles */
+            double young, poisson; /* read as material[1], [2] */
+            double yield, hardening, tear; /* hardening: read as yield[1] */
             double damping;                /* value of --damping */
             double timestep, tolerance; /* --timestep (s), --tolerance (m/s) */
             double integrator;  /* row of integrator_methods; -1: not chosen */
             double solver;      /* enum Solver */
             double projection;  /* enum Projection */
             double line_search; /* enum LineSearch */
-            double flips;   /* bit s: switch s starts in the other position */
-            double steps;   /* -1: no limit in a window, 100 without one */
+            double flips; /* bit s: switch s starts in the other position */
+            double
+                steps; /* -1: no limit in a window or with a script, else 100 */
             double speed;   /* steps a frame; 0: the speed of the scene */
             double size[2]; /* pixels; 0: the usual size */
             double paused, fullscreen, headless, quiet, big;
@@ -243,7 +243,8 @@ const char *option_get_label(const OptionRow *row);
  *   text  [size] out */
 void option_write_unit(const OptionRow *row, char *text, size_t size);
 
-/* Lists the options of the window's row of numbers.  Returns how many. */
+/* Lists the options that the window's row of numbers has by default.  Returns
+ * how many. */
 int options_list_visible_rows(const Options *options,
                               const OptionRow *found[OPTIONS_MAX_ROWS]);
 

@@ -54,7 +54,7 @@ typedef struct SceneSwitch {
 typedef struct SceneBody {
     double aspect;         /* height over width; 0: a square */
     double cell_stiffness; /* stiffness of cells / that of springs; 0: 1/2 */
-    double pin_speed;      /* outward speed of pinned nodes, side lengths/s */
+    double pin_speed;      /* outward speed of pins in x, side lengths/s */
     double notch_ends[2];  /* ends of a slit beside the middle: heights above
                          the  centre, divided by the body's height */
     int runs;              /* number of runs, each with a body; 0 means 1 */
@@ -93,7 +93,8 @@ typedef struct Scene {
     /* Computes the next direction again, after the projection or the line
      * search changed.  NULL: the next step computes its direction. */
     void (*update_direction)(struct Simulation *simulation);
-    /* Begins the search again after a drag.  NULL: the scene moves in time. */
+    /* Computes the scene anew after a drag of a handle.  NULL: no handle needs
+     * it. */
     void (*after_drag)(struct Simulation *simulation);
     /* A letter for each point that can be dragged: x for the mass or the
      * iterate, v for the tip of the velocity, t for x_tilde. */

@@ -70,7 +70,7 @@ enum { MAX_ENERGIES = 2 * SYSTEM_MAX_TERMS + 5 };
 
 typedef struct Energies {
     double kinetic, gravity, total; /* J */
-    double work;                    /* work of walls, pins and hand */
+    double work;                    /* work of walls, pins, hand, user_work */
     double dissipated; /* energy that the integrator took out; < 0: added */
     int count;         /* number of energies */
     Energy energy[MAX_ENERGIES]; /* in the order of the plots' legend */

@@ -55,7 +55,7 @@ int incremental_potential_hessian(const Iterate *at, Projection projection,
                                   Sparse *A);
 
 /* Multiplies the (projected) Hessian of E at u, x by q, without a matrix.
- *   q  [2n] in, 0 for pinned nodes
+ *   q  [2n] in, 0 for pinned nodes unless H is diagonal
  *   y  [2n] out
  * Returns how many blocks of terms the projection changed. */
 int incremental_potential_apply_hessian(const Iterate *at,

@@ -41,7 +41,7 @@ typedef struct NewtonRecord {
     int projected_blocks; /* number of blocks of H that projection changed */
     int negative_pivots;  /* number of negative pivots of the Hessian that gave
                              p; 0 for a projected Hessian */
-    bool has_new_factor;  /* has a new factor of the Hessian */
+    bool has_new_factor;  /* a new factor was computed, or failed */
     double shift;         /* kg, added to the diagonal of the Hessian */
     double seconds;       /* computing time of the iteration */
     Status status; /* RUNNING, or how the iteration ended the minimisation */
@@ -68,7 +68,7 @@ typedef struct NewtonSettings {
 typedef struct NewtonCounters {
     long updates;          /* number of updates of x */
     long factorisations;   /* number of factorisations of the Hessian */
-    long linear_solves;    /* number of linear solves with a factor of H */
+    long linear_solves;    /* p solved or refined with a factor of H */
     long projected_blocks; /* number of projected blocks of factored Hessians */
     long v_cycles;         /* number of V-cycles of multigrid */
     long tile_sweeps;      /* number of sweeps of multigrid's tiles (tiles.h) */

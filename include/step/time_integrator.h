@@ -17,17 +17,17 @@ typedef struct IntegratorMethod {
     int order;               /* order of accuracy */
     bool supports_all_terms; /* works with every term: only backward Euler */
     bool is_damped;          /* numerical damping brings motion to rest */
-    bool only_by_name;       /* is chosen by name only, and skipped by key M */
+    bool only_by_name;       /* the key M skips it */
     int history_arrays;      /* number of arrays [2n] kept between steps */
-    int stages; /* minimisations of a step; 0: the method is explicit */
+    int stages; /* stages of a step, each with a minimisation; 0: explicit */
     /* Fills newton->u_tilde, without gravity, and the weight of the integrator
      * for the present stage.  The caller then adds gravity to u_tilde by
      * completing the square:
      *   |u - u_tilde|_M^2/2 - weight m g.u
      *       = |u - (u_tilde + weight g)|_M^2/2 + constant. */
     void (*set_target)(TimeIntegrator *);
-    /* Reads newton->iterate.u.  The last stage of an implicit method, and an
-     * explicit method, fill new_x and new_v. */
+    /* Implicit methods read u, x of newton->iterate.  The last stage of an
+     * implicit method, and an explicit method, fill new_x and new_v. */
     void (*set_x_v)(TimeIntegrator *);
 } IntegratorMethod;
 
@@ -82,7 +82,7 @@ bool integrator_method_refuses_system(const IntegratorMethod *method,
  *   settings  of Newton, with h; explicit methods use only h
  *   x, v      [2n] in, positions and velocities at time 0
  * Returns OK, OUT_OF_MEMORY, INVALID_INPUT (a term does not allow x, or the
- * method cannot serve a term). */
+ * method cannot serve a term or moving pins). */
 Status time_integrator_create(const IntegratorMethod *method, System *system,
                               const NewtonSettings *settings, const double *x,
                               const double *v, TimeIntegrator *run);

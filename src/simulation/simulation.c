@@ -109,7 +109,8 @@ static void record_energy_gain(Simulation *simulation)
     ledger->gained_energy += gained;
 }
 
-/* Makes the step of each run.  Returns the last status other than OK. */
+/* Continues the step of each run to a pause (RUNNING) or to the end; then
+ * returns the last status other than OK. */
 Status simulation_advance(Simulation *simulation)
 {
     while (simulation->current_run < simulation->runs) {
@@ -168,11 +169,11 @@ bool simulation_is_draggable(const Simulation *simulation)
 EffectTime simulation_find_option_effect(const Simulation *simulation,
                                          const OptionRow *row)
 {
-    unsigned needs = simulation->scene->traits;
-    bool update = (needs & HAS_START) && row->effect == EFFECT_REPEATED_STEP;
+    unsigned traits = simulation->scene->traits;
+    bool update = (traits & HAS_START) && row->effect == EFFECT_REPEATED_STEP;
     bool other_methods =
         simulation->runs > 1 && row->slot == OPTION_SLOT(integrator);
-    if (!(needs & HAS_TIME) ? !update : other_methods)
+    if (!(traits & HAS_TIME) ? !update : other_methods)
         return EFFECT_NEW_RUN;
     return row->effect;
 }

@@ -218,7 +218,7 @@ static Status multigrid_find_direction(Newton *newton)
 
 /* Finds a minimum of the quartic by Newton's method with bisection, from 1 on.
  * Returns its alpha, halved until the quartic is below 0; 0 if there is none.
- *   trials  out, number of evaluations of the quartic */
+ *   trials  out, number of steps of Newton's method or bisection */
 static double minimise_quartic(const Quartic *quartic, int *trials)
 {
     const double *q = quartic->q;

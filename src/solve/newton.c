@@ -108,7 +108,7 @@ static const NewtonPhases newton_phases = {find_direction, find_step_length,
  *         p = -H^-1 grad E, H projected
  *         alpha = backtracking line search
  *         x = x + alpha p
- *     while residual > tolerance
+ *     while residual > tolerance, unless the next p is negligible
  *
  * The last p, too, is added to x, unless rounding hides that E falls along p.
  * The result is then 10 to 1e11 times more accurate.  The course's Python

@@ -70,8 +70,9 @@ Status find_step_length(Newton *newton);
 bool next_direction_may_turn(const Newton *newton);
 
 /* Turns all nodes to the angle at which E is lowest, where P is the same at all
- * angles (system_turns_freely).  The turn is made in stiff scenes, and in
- * others if p passes the test although next_direction_may_turn is true.  Then
+ * angles (system_turns_freely).  The turn is made in stiff scenes; by Newton's
+ * method in others, too, if p passes the test although next_direction_may_turn
+ * is true.  Then
  * angular momentum is exact: the sum of m cross(d, u - u_tilde) is 0, with d
  * from the pivot to a node.  Newton's straight directions stretch a body that
  * turns, so a stiff body would turn by tiny steps, which pass the test. Returns

@@ -91,7 +91,8 @@ static void backward_euler_set_x_v(TimeIntegrator *run)
 /* BDF2 (Gear 1971): (3 x_(n+1) - 4 x_n + x_(n-1)) / (2h) = v_(n+1), the same
  * for v and a.  With du = x_n - x_(n-1): u_tilde = du/3 + (2h/9) (4 v_n -
  * v_(n-1)), w = (4/9) h^2, v_(n+1) = (3u - du) / (2h).  Order 2.  du and v_n
- * are remembered; the first step is backward Euler. */
+ * are remembered; the first step, and each step after the history was lost or h
+ * has changed, is backward Euler. */
 static void bdf2_set_target(TimeIntegrator *run)
 {
     double h = run->h, *v = run->v;

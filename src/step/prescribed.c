@@ -15,19 +15,20 @@
 #include "model/friction.h"
 #include "model/inertia_energy.h"
 
-/* Limits of the halvings of a part of the way, and of the parts of a step.  A
- * wall at 50 m/s in steps of 0.01 s onto cells of 1/8 m needs 19 parts.  Where
- * a body leaves room for less than a thousandth of the way, the step ends,
- * because each further part would take more updates than the one before. */
-enum { MAX_MOTION_HALVINGS = 10, MAX_MOTION_PARTS = 100 };
+/* Limits of the fractions that are tried for a part of the way, each half the
+ * one before, and of the parts of a step.  A wall at 50 m/s in steps of 0.01 s
+ * onto cells of 1/8 m needs 19 parts.  Where a body leaves room for less than
+ * 1/512 of the rest of the way, the motion ends, because each further part
+ * would take more updates than the one before. */
+enum { MAX_MOTION_TRIALS = 10, MAX_MOTION_PARTS = 100 };
 
-/* Nodes that a wall would touch are carried along, with this fraction of the
- * barrier's width as their gap. */
+/* An obstacle that would touch nodes carries them along, with this fraction of
+ * the barrier's width as their gap, or with their gap before if it is less. */
 #define CARRIED_GAP 0.3
 
-/* Limits like MAX_MOTION_HALVINGS and MAX_MOTION_PARTS for an obstacle that a
+/* Limits like MAX_MOTION_TRIALS and MAX_MOTION_PARTS for an obstacle that a
  * hand moves: lower, as the rest of its way can wait for the next step. */
-enum { MAX_HAND_HALVINGS = 6, MAX_HAND_PARTS = 8 };
+enum { MAX_HAND_TRIALS = 6, MAX_HAND_PARTS = 8 };
 
 /* Whether obstacle k moves in the rest of this step. */
 static bool obstacle_moves(const Contact *contact, int k)
@@ -142,13 +143,13 @@ static bool try_prescribed_motion(TimeIntegrator *run, double part)
 /* Moves obstacles and pins by the largest fraction of the step for which there
  * is room.
  *   part      in, the first fraction that is tried
- *   halvings  in, number of fractions that are tried, each half the one before
+ *   trials    in, number of fractions that are tried, each half the one before
  *   parts     in, limit of the parts of a step so far
  * Returns the fraction, or 0 if there was no room. */
-static double make_longest_motion(TimeIntegrator *run, double part,
-                                  int halvings, int parts)
+static double make_longest_motion(TimeIntegrator *run, double part, int trials,
+                                  int parts)
 {
-    for (int i = 0; i < halvings && run->motion_parts_made < parts;
+    for (int i = 0; i < trials && run->motion_parts_made < parts;
          i++, part /= 2)
         if (try_prescribed_motion(run, part))
             return part;
@@ -165,7 +166,7 @@ void prescribed_begin_motion_part(TimeIntegrator *run)
             make_longest_motion(run,
                                 fmin(run->remaining_fraction,
                                      push_max_move_fraction(contact, run->h)),
-                                MAX_HAND_HALVINGS, MAX_HAND_PARTS);
+                                MAX_HAND_TRIALS, MAX_HAND_PARTS);
         contact->push.is_blocked = part == 0;
         contact->push.moving_fraction = run->moved_fraction;
     }
@@ -174,7 +175,7 @@ void prescribed_begin_motion_part(TimeIntegrator *run)
         others = others || obstacle_moves(contact, k);
     if (part == 0 && others)
         part = make_longest_motion(run, run->remaining_fraction,
-                                   MAX_MOTION_HALVINGS, MAX_MOTION_PARTS);
+                                   MAX_MOTION_TRIALS, MAX_MOTION_PARTS);
     run->is_blocked = part == 0 && others;
     if (part == 0) /* no further motion in this step */
         try_prescribed_motion(run, 0);

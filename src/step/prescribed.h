@@ -21,7 +21,7 @@ void prescribed_begin_motion_part(TimeIntegrator *run);
  * another part follows.  After the last part, a status that differs from that
  * of the minimisation is reported to Newton's observer.
  *   status  in: how the minimisation ended; out: how the step ends, BLOCKED if
- *           walls or pins could not move all their way */
+ *           it ended OK but walls or pins had no room for all their way */
 bool prescribed_end_motion_part(TimeIntegrator *run, Status *status);
 
 /* Returns the work of the prescribed motion in a step, J.  The pins' work is
