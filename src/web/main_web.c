@@ -97,12 +97,23 @@ EMSCRIPTEN_KEEPALIVE const char *web_get_command_line(void)
 
 /* ---- the page beside the canvas ------------------------------------------ */
 
+/* Builds the contents of the frame again if they may be out of date: a timer of
+ * the page can ask after a command and before the frame that shows its effect.
+ */
+static void update_frame_content(Player *player)
+{
+    if (player->screen.must_redraw || player->screen.drawn_step < 0)
+        player_build_frame(player);
+}
+
 /* Returns the texts of the last frame, valid until the next call. */
 EMSCRIPTEN_KEEPALIVE const char *web_get_document(void)
 {
     static char text[DOCUMENT_SIZE];
-    if (has_session)
+    if (has_session) {
+        update_frame_content(&session->player);
         document_write(&session->player, text);
+    }
     return text;
 }
 
@@ -129,13 +140,16 @@ EMSCRIPTEN_KEEPALIVE void web_draw_card(int card, int width, int height)
 {
     static Paper paper;
     Player *player = &session->player;
+    if (!has_session)
+        return;
     const Picture *picture =
         picture_of_scene(player_get_simulation(player)->scene);
     if (card >= picture->card_count || !picture->cards[card]->draw)
         return;
     canvas_free(&paper.canvas);
     paper.font = player->screen.paper.font;
-    if (has_session && !canvas_create(width, height, &paper.canvas)) {
+    if (!canvas_create(width, height, &paper.canvas)) {
+        update_frame_content(player);
         frame_draw_card(&paper, &player->screen.frame.content, card);
         web_show_card(&paper.canvas, card);
     }

@@ -27,7 +27,6 @@ static void begin_past(const char *line)
     CHECK_OK(past_begin_runs(&past, &options, 1, 0, &restart));
 }
 
-/* Goes to a step, which may be new, and returns its hash. */
 static uint64_t go_to_step(long step)
 {
     past_set_goal(&past, step, false);

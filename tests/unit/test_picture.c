@@ -29,7 +29,6 @@ static double sum_ink(const Canvas *canvas)
     return sum_ink_in_box(canvas, (Box){0, 0, canvas->width, canvas->height});
 }
 
-/* Returns a white canvas, valid until the next call. */
 static Canvas *make_white_canvas(int width, int height)
 {
     static Canvas canvas;

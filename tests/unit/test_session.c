@@ -892,7 +892,6 @@ static double find_lowest_height(const Simulation *simulation)
     return low;
 }
 
-/* Returns the height of the highest node of the first body, m. */
 static double find_highest_height(const Simulation *simulation)
 {
     double high = -INFINITY;
