@@ -24,7 +24,7 @@ typedef struct LecturePage {
     const char *try;          /* text: what to change, and what will happen */
     const char *question;    /* text: the question before the answer, or NULL */
     const char *answer_name; /* name of the live value to guess; "click": the
-                           end of the next step; NULL: the answer is words */
+                                end of the next step; NULL: words */
     const char *covered_cards; /* cards hidden before the answer, or NULL */
     const char *main_card;     /* name of the enlarged card, or NULL */
     const char *law_name;  /* name of the curve in the card `law`, or NULL */

@@ -50,8 +50,7 @@ typedef struct SavedState {
 typedef struct EnergySample {
     double time; /* s */
     int energy_count;
-    Energy
-        energy[MAX_HISTORY_SERIES]; /* [energy_count] energies of the plots */
+    Energy energy[MAX_HISTORY_SERIES]; /* [energy_count] */
 } EnergySample;
 
 /* The summary of a step, which outlives its iterations. */

@@ -8,7 +8,7 @@
  *
  * From key to Newton: player_obey_input, player_obey, do_work,
  * past_continue_work, pane_iterate, simulation_advance,
- * time_integrator_continue, newton_minimise. In a window do_work returns after
+ * time_integrator_continue, newton_minimise.  In a window do_work returns after
  * SLICE; the next frames go on with the work (player_make_frame,
  * make_due_steps, player_make_step). */
 #pragma once
@@ -164,12 +164,10 @@ typedef struct InputState {
     Mouse mouse;         /* mouse and its drag */
     bool is_holding;     /* a node or an obstacle is held */
     long last_pull_step; /* step at which the hand last moved what it holds */
-    const OptionRow
-        *selected_option; /* option whose number is selected, or NULL */
-    uint64_t
-        added_option_rows; /* bit r: the row of numbers also has option r */
-    bool is_typing;        /* a field is open: keys go into `typed` */
-    char typed_text[28];   /* typed value, answer, or number of a list's line */
+    const OptionRow *selected_option; /* option with the selected number */
+    uint64_t added_option_rows;       /* bit r: the user added option r */
+    bool is_typing;      /* a field is open: keys go into `typed` */
+    char typed_text[28]; /* typed value, answer, or number of a list's line */
 } InputState;
 
 typedef struct Player {
@@ -187,8 +185,8 @@ typedef struct Player {
     char message[768];        /* why a command was refused, or "" */
     char note[SENTENCE_SIZE]; /* message in the title bar, or "" */
     bool is_warning;          /* the note is a warning */
-    bool explains_hover; /* the mouse has moved to another part since the note
-                          was written; a sentence about it replaces the note */
+    bool explains_hover; /* a sentence about the part under the mouse replaces
+                            the note: the mouse has moved since the note */
 } Player;
 
 /* Creates a player, which without a screen writes 100 frames to "frames".

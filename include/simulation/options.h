@@ -78,9 +78,8 @@ typedef struct Options {
             double projection;  /* enum Projection */
             double line_search; /* enum LineSearch */
             double flips; /* bit s: switch s starts in the other position */
-            double
-                steps; /* -1: no limit in a window or with a script, else 100 */
-            double speed;   /* steps a frame; 0: the speed of the scene */
+            double steps; /* -1: 100, or no limit in a window or by a script */
+            double speed; /* steps a frame; 0: the speed of the scene */
             double size[2]; /* pixels; 0: the usual size */
             double paused, fullscreen, headless, quiet, big;
             double help, version, list; /* print a text and exit */
@@ -157,7 +156,7 @@ typedef enum EffectTime {
 /* How the window shows an option and changes it by mouse, wheel and keys. */
 typedef struct OptionDisplay {
     int row_position; /* position in the window's row of numbers, from 1; 0: in
-                     the row only after the user has added the option */
+                         the row only after the user has added the option */
     int max_letters;  /* letters of the longest value */
     double notch_increment; /* step of a wheel notch; 0: a notch multiplies */
 } OptionDisplay;
@@ -183,8 +182,7 @@ typedef struct OptionRow {
     double low, high;         /* range, both ends included */
     const char *unit;         /* unit of the numbers, or "" if they have none */
     NameTable value_names;    /* OPTION_NAME: the values */
-    unsigned needs_any_trait; /* bits of SceneTrait: the scene needs one of
-                                      them */
+    unsigned needs_any_trait; /* SceneTrait bits: a scene must have one */
     /* Returns why the option has no effect with the present options, or NULL.
      * The pointer is NULL for options that always have an effect. */
     const char *(*get_idle_reason)(const Options *options);

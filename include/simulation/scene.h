@@ -56,7 +56,7 @@ typedef struct SceneBody {
     double cell_stiffness; /* stiffness of cells / that of springs; 0: 1/2 */
     double pin_speed;      /* outward speed of pins in x, side lengths/s */
     double notch_ends[2];  /* ends of a slit beside the middle: heights above
-                         the  centre, divided by the body's height */
+                              the centre, divided by the body's height */
     int runs;              /* number of runs, each with a body; 0 means 1 */
     double run_distance;   /* height of run r above r + 1, in side lengths */
     double friction_factor[3]; /* factors on the runs' friction; 0 means 1 */

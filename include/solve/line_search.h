@@ -2,8 +2,8 @@
  * backtracking line search).
  *
  * The slides halve alpha while E(x + alpha p) > E(x).  The program computes the
- * difference itself (make_line_energy), so that rounding of
- * large energies does not hide a small decrease. */
+ * difference itself (make_line_energy), so that rounding of large energies does
+ * not hide a small decrease. */
 #pragma once
 
 #include "base/status.h"

@@ -72,9 +72,9 @@ typedef struct NewtonCounters {
     long projected_blocks; /* number of projected blocks of factored Hessians */
     long v_cycles;         /* number of V-cycles of multigrid */
     long tile_sweeps;      /* number of sweeps of multigrid's tiles (tiles.h) */
-    long indefinite_convergences; /* minimisations that converged with a last p
-                             from a Hessian with negative pivots: perhaps a
-                             maximum */
+    long indefinite_convergences; /* minimisations whose last p came from a
+                                     Hessian with negative pivots: perhaps they
+                                     converged to a maximum */
     long newton_takeovers; /* number of minimisations that Newton took over */
 } NewtonCounters;
 
@@ -147,8 +147,8 @@ typedef struct Newton {
     const char *refusal_reason; /* why multigrid refused to work, or NULL */
     double change_sum;          /* J s^2, sum of the updates' changes of E */
     double change_abs_sum;      /* J s^2, sum of the absolute changes of E */
-    double total_energy_change; /* J s^2, E at the end - E at the start, summed
-                            over minimisations; the caller resets it to 0 */
+    double total_energy_change; /* J s^2, sum over minimisations: E at the end
+                                   minus E at the start; reset by the caller */
 } Newton;
 
 /* Allocates the minimiser of a system, which must outlive the object.  Returns
@@ -169,8 +169,8 @@ void newton_start(Newton *newton, const double *x_n, const double *u,
  * next pause.  At least one update is made, if one lowers E.  u and x are the
  * last iterate; with a line search E is not higher there than at the start.
  * Returns RUNNING after a pause; OK if the last p passed the test, or if a
- * bound shows that the next p is negligible; otherwise
- * how the minimisation failed. */
+ * bound shows that the next p is negligible; otherwise how the minimisation
+ * failed. */
 Status newton_minimise(Newton *newton);
 
 /* Large squares take longer for an update and get fewer of them, at least

@@ -296,7 +296,7 @@ static Status measure_programs(bool quick, int segments,
         ProgramResults *all = &runs[m];
         if (segments > programs[m].max_segments)
             continue;
-        ms[m] = find_median(all->step_ms, count); /* sorts ms */
+        ms[m] = find_median(all->step_ms, count); /* sorts step_ms */
         printf("%d,%s,%d,%.6g,%.6g,%.6g,%.6g,%.6g,%ld\n", segments,
                programs[m].name, count, ms[m], all->step_ms[0],
                all->step_ms[count - 1],

@@ -27,8 +27,7 @@ typedef struct ArgLine {
     Message message;  /* out, the first mistake */
     int words;        /* number of words */
     ArgWord word[MAX_WORDS];
-    char
-        text_copy[512]; /* a command line that was one string, cut into words */
+    char text_copy[512]; /* string that is cut into words */
 } ArgLine;
 
 /* Returns the last word that sets an option; NULL: no word sets it. */

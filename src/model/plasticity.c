@@ -147,7 +147,8 @@ static int plastic_hessian(const EvalPoint *at, Projection projection,
 
 /* Writes B and C: along p the strain e changes by D = alpha B + alpha^2 C.  V
  * then changes by three summands: V'(e) alpha B, the slope; V'(e) alpha^2 C,
- * the line polynomial; R_V(e, D), the line remainder (each times k l2 in W). */
+ * the line polynomial; R_V(e, D), the Taylor remainder (each times k l2 in W).
+ */
 static inline void compute_strain_polynomial(const FlowSpring *spring,
                                              const double *p, double *B,
                                              double *C)

@@ -21,7 +21,7 @@ typedef struct SquarePen {
     const Contact *contact; /* NULL: the scene has no contact */
     bool shows_projected;   /* springs with a projected block are coloured */
     unsigned fixed_body_mask; /* bit b: body b is pinned everywhere and drawn
-                              like a wall; 0 for a single body */
+                                 like a wall; 0 for a single body */
 } SquarePen;
 
 SquarePen square_pen_create(Plot *stage, int run);

@@ -436,6 +436,12 @@ void player_build_frame(Player *player)
     update_hovered_object(player);
 }
 
+void player_update_frame(Player *player)
+{
+    if (player->screen.must_redraw)
+        player_build_frame(player);
+}
+
 /* ---- the paper ----------------------------------------------------------- */
 
 Paper *player_prepare_paper(Player *player)

@@ -30,8 +30,7 @@ static MouseTarget find_mouse_target(Player *player)
     const Paper *paper = player_prepare_paper(player);
     const FrameContent *content = &player->screen.frame.content;
     DragBounds *held = &player->screen.view.drag_bounds;
-    if (player->screen.must_redraw) /* the frame may show a discarded step */
-        player_build_frame(player);
+    player_update_frame(player);
     MouseTarget target = {
         .layout = layout_create(content, paper ? paper->canvas.width : 1,
                                 paper ? paper->canvas.height : 1),

@@ -174,6 +174,10 @@ Status player_enqueue_notches(Player *player, const OptionRow *row,
 /* Fills player->screen.frame, and finds what is now under the mouse. */
 void player_build_frame(Player *player);
 
+/* Builds the frame if it must be drawn again: since the last drawing a command
+ * may have discarded the step or the simulations that the frame shows. */
+void player_update_frame(Player *player);
+
 /* Returns the paper in the present size, and creates it if need be.  NULL: the
  * player does not draw, or memory is missing. */
 Paper *player_prepare_paper(Player *player);

@@ -90,7 +90,8 @@ void *arena_take_piece(ArrayArena *memory, size_t bytes);
  * caller frees base. */
 Status arena_allocate(ArrayArena *memory);
 
-/* Sets sizes and places arrays of segments x segments cells; clears the rest */
+/* Sets sizes and places arrays of segments x segments cells; clears all else.
+ */
 void grid_init(int segments, ArrayArena *memory, Grid *grid);
 
 /* Returns the power of two that scales a to about 1. */

@@ -179,7 +179,8 @@ static void multigrid_choose_hessian(Multigrid *mg, bool is_clamped)
     mg->v_cycle.is_clamped = is_clamped;
 }
 
-/* Computes p = -H^-1 g up to a linear residual, and tests p. */
+/* Computes p = -H^-1 g up to a linear residual, and tests p unless it is known
+ * to be the last one. */
 static void multigrid_compute_direction(Newton *newton)
 {
     Multigrid *mg = newton->multigrid;
@@ -191,12 +192,13 @@ static void multigrid_compute_direction(Newton *newton)
     const double longest = h * newton->tolerance;
     const long cycles = mg->v_cycle.cycles;
     double largest;
-    if (v_cycle_solve(&mg->v_cycle, mg->g, mg->gradient_norm2, longest, mg->p,
-                      &largest)) {
+    const bool passes = v_cycle_solve(&mg->v_cycle, mg->g, mg->gradient_norm2,
+                                      longest, mg->p, &largest);
+    if (passes && !newton->meets_tolerance) {
         double square = grid_linear_residual(&mg->grid, mg->g, mg->p);
         /* `largest` is rounded to single precision; the factor makes it an
          * upper bound. */
-        newton->meets_tolerance |= p_meets_tolerance(
+        newton->meets_tolerance = p_meets_tolerance(
             &mg->grid, largest * (1 + FLT_EPSILON), square, longest);
     }
     newton->record.residual = largest / h;

@@ -1,13 +1,13 @@
 /* multigrid.h - minimises E on a square grid of springs without a matrix.
  *
  * Newton's method for E = |u - u_tilde|_M^2/2 + w P(x_n + u).  A multigrid
- * V-cycle on the Hessian finds the directions (v_cycle.h).  Each
- * direction is made conjugate to the one before.  E along a direction is a
- * quartic, whose minimum is the step length.  After a poor direction tiles of
- * nodes find a second one (tiles.h); the direction that follows is not
- * conjugate.  The Hessian is clamped from the second poor direction of a step
- * on until one V-cycle gives a good one, and where E does not fall along p.  No
- * update raises E.
+ * V-cycle on the Hessian finds the directions (v_cycle.h).  Each direction is
+ * made conjugate to the one before.  E along a direction is a quartic, whose
+ * minimum is the step length.  After a poor direction tiles of nodes find a
+ * second one (tiles.h); the direction that follows is not conjugate.  The
+ * Hessian is clamped from the second poor direction of a step on until one
+ * V-cycle gives a good one, and where E does not fall along p.  No update
+ * raises E.
  *
  * The test of Algorithm 3 needs p = -H^-1 g with the clamped H, which conjugate
  * gradients know up to a linear residual r = -g - H p, computed in double

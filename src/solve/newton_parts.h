@@ -72,11 +72,10 @@ bool next_direction_may_turn(const Newton *newton);
 /* Turns all nodes to the angle at which E is lowest, where P is the same at all
  * angles (system_turns_freely).  The turn is made in stiff scenes; by Newton's
  * method in others, too, if p passes the test although next_direction_may_turn
- * is true.  Then
- * angular momentum is exact: the sum of m cross(d, u - u_tilde) is 0, with d
- * from the pivot to a node.  Newton's straight directions stretch a body that
- * turns, so a stiff body would turn by tiny steps, which pass the test. Returns
- * the change of E, J s^2. */
+ * is true.  Then angular momentum is exact: the sum of m cross(d, u - u_tilde)
+ * is 0, with d from the pivot to a node.  Newton's straight directions stretch
+ * a body that turns, so a stiff body would turn by tiny steps, which pass the
+ * test.  Returns the change of E, J s^2. */
 double turn_free_body(Newton *newton);
 
 /* ---- multigrid.c: the same phases for large squares, without a factor */

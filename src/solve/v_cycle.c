@@ -210,9 +210,9 @@ void v_cycle_copy_system(VCycle *cycle)
 /* What a pass over one colour of a row computes. */
 typedef enum SweepKind {
     SWEEP_FIRST, /* the first pass, from x = 0: x = D (b + sum of K x'), D the
-                   inverse diagonal, x' at neighbours of earlier colours */
+                    inverse diagonal, x' at neighbours of earlier colours */
     SWEEP_RESIDUAL, /* w = b - A x after SWEEP_FIRST.  All terms cancel but the
-                      sum of K x' over springs to later colours */
+                       sum of K x' over springs to later colours */
     SWEEP_SMOOTH,   /* Gauss-Seidel: x += D (b - A x), node by node */
     SWEEP_PRODUCT   /* w = A x; adds x.b to xb and x.w to xw */
 } SweepKind;

@@ -97,21 +97,13 @@ EMSCRIPTEN_KEEPALIVE const char *web_get_command_line(void)
 
 /* ---- the page beside the canvas ------------------------------------------ */
 
-/* Builds the contents of the frame again if they may be out of date: a timer of
- * the page can ask after a command and before the frame that shows its effect.
- */
-static void update_frame_content(Player *player)
-{
-    if (player->screen.must_redraw || player->screen.drawn_step < 0)
-        player_build_frame(player);
-}
-
-/* Returns the texts of the last frame, valid until the next call. */
+/* Returns the texts of the frame, valid until the next call.  A timer of the
+ * page can ask for them after a command and before the next frame. */
 EMSCRIPTEN_KEEPALIVE const char *web_get_document(void)
 {
     static char text[DOCUMENT_SIZE];
     if (has_session) {
-        update_frame_content(&session->player);
+        player_update_frame(&session->player);
         document_write(&session->player, text);
     }
     return text;
@@ -134,7 +126,7 @@ EMSCRIPTEN_KEEPALIVE const char *web_get_colour(const char *name)
     return text;
 }
 
-/* Draws a card of the last frame on the card's canvas in the page.  Ignores an
+/* Draws a card of the frame on the card's canvas in the page.  Ignores an
  * index that the page still has from the scene before. */
 EMSCRIPTEN_KEEPALIVE void web_draw_card(int card, int width, int height)
 {
@@ -149,7 +141,7 @@ EMSCRIPTEN_KEEPALIVE void web_draw_card(int card, int width, int height)
     canvas_free(&paper.canvas);
     paper.font = player->screen.paper.font;
     if (!canvas_create(width, height, &paper.canvas)) {
-        update_frame_content(player);
+        player_update_frame(player);
         frame_draw_card(&paper, &player->screen.frame.content, card);
         web_show_card(&paper.canvas, card);
     }
